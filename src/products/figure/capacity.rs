@@ -13,7 +13,7 @@ use super::context::FigureContext;
 use super::displacement::Course;
 use super::label::{self, Callout};
 use super::legend::{self, Entry};
-use super::panel::composed_with;
+use super::panel::{composed_with, cut_ground};
 use super::pen::{DISPLACED_OPACITY, Pen};
 use super::words::{quantity, round_below_in};
 use crate::analysis::CapacityShape;
@@ -66,7 +66,9 @@ impl PanelContent for CarriedForces {
                 parts.push(picture_of(pen, &plan, small, &mut ink));
             }
         }
-        composed_with(pen, view, pen.blocks(), parts, callouts, ink)
+        let mut picture = composed_with(pen, view, pen.blocks(), parts, callouts, ink);
+        cut_ground(pen, &mut picture);
+        picture
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
@@ -297,7 +299,12 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let length = (0.2 * shown.width.min(shown.height)).max(17.0);
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
-    let at = PagePoint::new(shown.at.x + 2.0, shown.at.y + 0.8 * theme.sizes.amount);
+    // The number stands to the left of the picture, because a flat picture has no free corner.
+    let at = PagePoint::new(
+        shown.at.x - 1.0,
+        shown.at.y + 0.5 * shown.height + 0.36 * theme.sizes.amount,
+    );
+    ink.disc(at.moved(-3.0, -0.36 * theme.sizes.amount), 4.0);
     let number = Text::new(
         at,
         small.number.to_string(),
@@ -305,7 +312,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
         theme.sizes.amount,
         edge_colour(theme),
     );
-    group.with(number.anchored(Anchor::Start))
+    group.with(number.anchored(Anchor::End))
 }
 
 fn edge_colour(theme: &Theme) -> crate::drawing::Colour {

@@ -4,7 +4,7 @@
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
 use super::description;
-use super::words::{FULL_UTILISATION, percent};
+use super::words::{FULL_UTILISATION, listed, percent};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
@@ -68,6 +68,9 @@ const EQUAL_SHARE_TOL: f64 = 1e-6;
 
 /// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
+
+/// Largest number of joints at their limit that are named.
+const MOST_NAMED: usize = 3;
 
 /// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
 /// its limit, provided that the text of the figure names it.
@@ -140,22 +143,39 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
             percent(nearest.edge)
         ),
     };
+    let named = |n: &Nearness| {
+        let pair = description::pair(scene, n.contact.interface.bodies);
+        format!("between {pair}")
+    };
     match at_limit {
         0 => format!("nearest to its limit (open diamond): the joint between {pair}, {how}"),
         1 => format!("at its limit in the forces shown: the joint between {pair}, {how}"),
+        n if n <= MOST_NAMED => {
+            let joints: Vec<String> = all.iter().filter(|n| n.reached()).map(named).collect();
+            let joints = listed(&joints);
+            format!("at their limit in the forces shown: the joints {joints}")
+        }
         n => format!("{n} joints are at their limit in the forces shown"),
     }
 }
 
+/// Least half of a diagonal of a diamond, pixels.
+const LEAST_DIAMOND: f64 = 2.9;
+
 /// Returns the symbol of a joint at its limit: a filled diamond. `radius` is in pixels.
 fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    Path::filled(diamond(at, 1.5 * radius), theme.ink).cased(theme.page, 0.35 * radius)
+    Path::filled(diamond(at, reach(radius)), theme.ink).cased(theme.page, 0.35 * radius)
 }
 
 /// Returns the symbol of the joint nearest to its limit: an open diamond. `radius` is in pixels.
 fn open_sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    let outline = diamond(at, 1.5 * radius);
+    let outline = diamond(at, reach(radius));
     Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
+}
+
+/// Returns half the diagonal of the diamond, pixels. In small pictures it is larger than a dot.
+pub(crate) fn reach(radius: f64) -> f64 {
+    (1.5 * radius).max(LEAST_DIAMOND)
 }
 
 fn diamond(at: PagePoint, r: f64) -> Outline {

@@ -5,9 +5,11 @@ use super::description;
 use super::label::{self, Callout};
 use super::limit;
 use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
+use super::unit::unit;
+use super::view;
 use crate::drawing::placement::Ink;
 use crate::drawing::{Group, Item};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Point};
 
 /// Draws the picture of a frame with the arrows of its forces. `view` is the shown part of the scene in metres; ground
 /// outside it is cut off.
@@ -58,7 +60,7 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let contact = marked.contact;
         let at = pen.camera.place(contact.resultant.at);
         let radius = (0.06 * pen.unit()).clamp(1.6, 3.2);
-        ink.disc(at, 1.5 * radius);
+        ink.disc(at, limit::reach(radius));
         let pair = description::pair(scene, contact.interface.bodies);
         let is = if marked.reached { "at" } else { "nearest to" };
         let title = format!("The joint between {pair} is {is} its limit");
@@ -67,6 +69,25 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         group.items.push(sign.into());
     }
     group
+}
+
+/// Cuts the ground at the right and the lower edge of the part that figures show. Marks beyond these edges do not seem
+/// to stand on the ground.
+pub(crate) fn cut_ground(pen: &Pen<'_>, picture: &mut Group) {
+    let scene = &pen.context.analysis.scene;
+    let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {
+        return;
+    };
+    let corner = pen.camera.place(Point::new(shown.max.x, shown.min.y));
+    for item in &mut picture.items {
+        if let Item::Group(group) = item
+            && group.class == "ground"
+            && let Some(clip) = &mut group.clip
+        {
+            clip.width = clip.width.min(corner.x - clip.at.x).max(0.0);
+            clip.height = clip.height.min(corner.y - clip.at.y).max(0.0);
+        }
+    }
 }
 
 /// Composes the picture of a frame: ground, `blocks`, planned blocks, robots, `marks`, and labels that do not cover

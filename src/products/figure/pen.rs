@@ -4,6 +4,8 @@
 mod listed;
 mod stroke;
 
+pub(crate) use stroke::TURN_RADIUS;
+
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
 use super::context::{FigureContext, MANY_BLOCKS};

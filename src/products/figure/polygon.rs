@@ -4,8 +4,7 @@
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
 //! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If it
 //! falls, the polygon only closes with the missing forces, outside or inside the structure; the text below says so.
-//! Each arrow has the same colour and force as on the structure; only its scale differs, by a round factor in the
-//! legend.
+//! Each arrow has the same colour and force as on the structure. The polygon has its own scale, which the legend shows.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::content::{About, FrameSource, PanelContent};
@@ -14,21 +13,25 @@ use super::description;
 use super::label;
 use super::legend::{self, Entry};
 use super::mark;
-use super::panel::composed;
+use super::panel::{composed, cut_ground};
 use super::pen::Pen;
 use super::unit::unit;
 use super::verdict;
 use super::view;
-use super::words::{letter, listed, round_below};
+use super::words::{letter, listed, quantity, round_below, round_below_in};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::placement::Ink;
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::scene::BodyId;
+use crate::scene::{BodyId, Unit};
 
-/// Size of the polygon, as a share of the structure's size.
+/// Largest width and height of the polygon, as a share of the larger side of the structure.
 const POLYGON_SIZE: f64 = 0.75;
+/// Largest height of the polygon: a share of the width of the structure, unless the structure is higher.
+const POLYGON_HEIGHT: f64 = 0.4;
+/// Longest arrow that shows the scale of a polygon in the legend, pixels.
+const SCALE_ARROW: f64 = 64.0;
 /// Gap between structure and polygon: a share of the structure's diagonal, and the least number of unit edges.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
 /// A polygon is closed if its gap is at most this share of the sum of all forces. Rounding errors are far smaller, and
@@ -55,6 +58,7 @@ impl PanelContent for ForcePolygon {
             help: "The external forces on the structure, and their force polygon next to it",
             title: "The force polygon of a dry-laid structure",
             draws_forces: true,
+            stretches_arrows: true,
             ..About::default()
         }
     }
@@ -81,10 +85,7 @@ impl PanelContent for ForcePolygon {
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, marks: &Marks) -> Option<Bounds> {
-        let FrameSource {
-            analysis, frame, ..
-        } = of;
-        let chain = chain(analysis, frame, marks)?;
+        let chain = chain(of.analysis, marks)?;
         let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
         Some(own.grown(0.3 * unit))
     }
@@ -94,45 +95,36 @@ impl PanelContent for ForcePolygon {
         let mut ink = label::ink(pen);
         let polygon = drawn_polygon(pen, &mut ink);
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // Cut off the ground to the left of the polygon. Otherwise the polygon would seem to stand on the ground.
-        let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {
-            return composed(pen, view, pen.blocks(), parts, ink);
-        };
-        let mut beyond = pen.camera.rect(shown);
-        let right = beyond.at.x + beyond.width;
-        let page = pen.camera.rect(view);
-        beyond.at.x = right;
-        beyond.width = (page.at.x + page.width - right).max(0.0);
-        ink.rect(beyond);
-        let mut picture = composed(pen, view, pen.blocks(), parts, ink);
-        for item in &mut picture.items {
-            if let Item::Group(group) = item
-                && group.class == "ground"
-                && let Some(clip) = &mut group.clip
-            {
-                let right = pen.camera.place(Point::new(shown.max.x, shown.max.y)).x;
-                clip.width = clip.width.min(right - clip.at.x).max(0.0);
-            }
+        // Cut the ground before the polygon, so that the polygon does not seem to stand on it.
+        if let Some(shown) = view::ground_shown(scene, unit(scene, None)) {
+            let mut beyond = pen.camera.rect(shown);
+            let right = beyond.at.x + beyond.width;
+            let page = pen.camera.rect(view);
+            beyond.at.x = right;
+            beyond.width = (page.at.x + page.width - right).max(0.0);
+            ink.rect(beyond);
         }
+        let mut picture = composed(pen, view, pen.blocks(), parts, ink);
+        cut_ground(pen, &mut picture);
         picture
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let mut entries = legend::entries(context, unit);
-        // In this figure, the colours of blocks show no quantity, so the legend does not explain them.
-        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+        // In this figure, the colours of blocks show no quantity, and joints at their limit have no mark.
+        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)) && !legend::is_limit(entry));
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
             let what = "missing force as a side of the polygon".to_owned();
             entries.push(Entry::Sign(missing_sign, 26.0, what));
         }
         let frames = context.marks.iter().enumerate();
-        let times: Vec<(usize, f64)> = frames
-            .filter_map(|(frame, marks)| {
-                Some((frame, chain(context.analysis, frame, marks)?.times))
-            })
-            .collect();
-        entries.extend(scales(&times).map(Entry::Note));
+        let scales = frames.filter_map(|(frame, marks)| {
+            let chain = chain(context.analysis, marks)?;
+            Some((frame, chain.scale * unit / context.unit))
+        });
+        let scales: Vec<(usize, f64)> = scales.collect();
+        entries.extend(scale_entries(&scales, context.analysis.scene.units.force()));
         entries
     }
 
@@ -169,7 +161,7 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let theme = &context.options.theme;
     let marks = &context.marks[pen.number];
     let mut polygon = Group::with_class("polygon").titled("Force polygon");
-    let Some(chain) = chain(context.analysis, pen.number, marks) else {
+    let Some(chain) = chain(context.analysis, marks) else {
         return polygon;
     };
     for (arrow, ends) in outer(marks).zip(&chain.sides) {
@@ -215,13 +207,13 @@ const OVERLAP_SHARE: f64 = 0.03;
 /// Distance of reactions that are drawn next to the actions, as a share of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
 
-/// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale relative to the arrows on the
-/// structure.
+/// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale.
 struct Chain {
     sides: Vec<[Point; 2]>,
     /// Pairs of positions that are the same point, if actions and reactions are drawn apart.
     joins: Vec<[Point; 2]>,
-    times: f64,
+    /// Metres per newton.
+    scale: f64,
 }
 
 /// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` and `answering`
@@ -260,16 +252,17 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 /// Computes the force polygon of a frame from the external forces among the arrows in `marks`. The polygon is placed to
 /// the right of the structure. Returns `None` if the frame has no block, if there are fewer than two external forces, or
 /// if all of them are 0.
-fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
+fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
-    let blocks = scene.frames[frame].placed.iter();
+    let blocks = scene.frames.iter().flat_map(|frame| &frame.placed);
     let structure = blocks
         .map(|id| scene.blocks[id.0].body.polygon.bounds())
         .reduce(Bounds::union)?;
+    // The corners of the polygon, N.
     let mut at = Point::origin();
     let mut corners = vec![at];
     for arrow in outer(marks) {
-        at += arrow.vector;
+        at += arrow.force;
         corners.push(at);
     }
     let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
@@ -277,8 +270,8 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
     if size.is_nan() || size <= 0.0 {
         return None;
     }
-    let times = round_below(POLYGON_SIZE * structure.width().max(structure.height()) / size);
-    if times <= 0.0 {
+    let scale = scale(structure, own, analysis.frames.len() > 1);
+    if scale <= 0.0 || !scale.is_finite() {
         return None;
     }
     let answers = |arrow: &ForceArrow| !matches!(arrow.kind, ArrowKind::Weight | ArrowKind::Load);
@@ -296,11 +289,11 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
         .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
     let shift = Vector::new(
-        right + apart - times * own.min.x,
-        middle - 0.5 * times * (own.min.y + own.max.y),
+        right + apart - scale * own.min.x,
+        middle - 0.5 * scale * (own.min.y + own.max.y),
     );
     let place =
-        |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * times + shift);
+        |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * scale + shift);
     let side = |(number, ends): (usize, &[Point])| {
         let aside = if number < acting { 0.0 } else { aside };
         [place(ends[0], aside), place(ends[1], aside)]
@@ -315,16 +308,20 @@ fn chain(analysis: &Analysis, frame: usize, marks: &Marks) -> Option<Chain> {
         } else {
             Vec::new()
         },
-        times,
+        scale,
     })
 }
 
-/// Formats a scale factor as a whole number or as a fraction: `3` or `1/3`.
-fn larger(times: f64) -> String {
-    if times >= 1.0 {
-        format!("{times:.0}")
-    } else {
-        format!("1/{:.0}", 1.0 / times)
+/// Returns the scale of a polygon, metres per newton. `structure` is in metres, `own` is the box around the polygon in
+/// newtons. In figures of several frames the scale is rounded, so that polygons of similar size have one scale.
+fn scale(structure: Bounds, own: Bounds, is_one_of_several: bool) -> f64 {
+    let size = POLYGON_SIZE * structure.width().max(structure.height());
+    let high = structure.height().max(POLYGON_HEIGHT * structure.width());
+    let high = high.min(size);
+    let scale = (size / own.width()).min(high / own.height());
+    match is_one_of_several {
+        true => round_below(scale),
+        false => scale,
     }
 }
 
@@ -346,45 +343,58 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// Describes how much larger arrows are in the force polygons than on the structure. `times` lists each frame with its
-/// scale factor. Returns `None` if the list is empty.
-fn scales(times: &[(usize, f64)]) -> Option<String> {
+/// Returns an arrow of a round force for each scale of the polygons. `scales` lists frames with their scales, pixels per
+/// newton.
+fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
-    for (frame, times) in times {
+    for (frame, scale) in scales {
         let named = format!("({})", letter(*frame));
-        match groups.iter_mut().find(|group| group.0 == *times) {
+        match groups.iter_mut().find(|group| group.0 == *scale) {
             Some(group) => group.1.push(named),
-            None => groups.push((*times, vec![named])),
+            None => groups.push((*scale, vec![named])),
         }
     }
-    let how = |times: f64| match times {
-        1.0 => "at the same scale".to_owned(),
-        times => format!("{} times as large", larger(times)),
+    let is_only = groups.len() == 1;
+    let entry = |(scale, frames): (f64, Vec<String>)| {
+        let amount = round_below_in(SCALE_ARROW / scale, unit);
+        let amount_words = quantity(amount, unit);
+        let words = match (is_only, frames.len()) {
+            (true, 1) => format!("{amount_words} in the force polygon, tip to tail"),
+            (true, _) => format!("{amount_words} in the force polygons, tip to tail"),
+            (false, 1) => format!("{amount_words} in the polygon of {}", listed(&frames)),
+            (false, _) => format!("{amount_words} in the polygons of {}", listed(&frames)),
+        };
+        (amount > 0.0).then(|| Entry::Scale(amount * scale, SCALE_WIDTH, words))
     };
-    let what = "the same forces, tip to tail";
-    match &groups[..] {
-        [] => None,
-        [(times, _)] => Some(format!("force polygon: {what}, {}", how(*times))),
-        groups => {
-            let each = groups.iter();
-            let each = each.map(|(times, frames)| format!("{} in {}", how(*times), listed(frames)));
-            let each: Vec<String> = each.collect();
-            Some(format!("force polygons: {what}; {}", each.join("; ")))
-        }
-    }
+    groups.into_iter().filter_map(entry).collect()
 }
+
+/// Width of the arrow that shows the scale of a polygon, pixels.
+const SCALE_WIDTH: f64 = 2.4;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::format::UnitsEntry;
 
     #[test]
-    fn the_key_tells_the_scale_of_every_polygon_by_its_panel() {
-        assert_eq!(scales(&[]), None);
-        let one = "force polygon: the same forces, tip to tail, 5 times as large";
-        assert_eq!(scales(&[(0, 5.0), (2, 5.0)]).as_deref(), Some(one));
-        let several = "force polygons: the same forces, tip to tail; 2 times as large in (a), (c) and (d); at the same scale in (b)";
-        let times = [(0, 2.0), (1, 1.0), (2, 2.0), (3, 2.0)];
-        assert_eq!(scales(&times).as_deref(), Some(several));
+    fn the_key_shows_the_scale_of_every_polygon_by_its_panel() {
+        let said = |scales: &[(usize, f64)]| -> Vec<(f64, String)> {
+            let entries = scale_entries(scales, UnitsEntry::default().force()).into_iter();
+            let said = entries.map(|entry| match entry {
+                Entry::Scale(length, _, words) => (length, words),
+                _ => panic!("an entry without an arrow"),
+            });
+            said.collect()
+        };
+        assert_eq!(said(&[]), []);
+        // 64 pixels show 12.8 N, and the largest round force below is 10 N.
+        let one = "10 N in the force polygon, tip to tail".to_owned();
+        assert_eq!(said(&[(0, 5.0)]), [(50.0, one)]);
+        let both = [
+            (50.0, "10 N in the polygons of (a) and (c)".to_owned()),
+            (40.0, "20 N in the polygon of (b)".to_owned()),
+        ];
+        assert_eq!(said(&[(0, 5.0), (1, 2.0), (2, 5.0)]), both);
     }
 }

@@ -73,7 +73,12 @@ impl PanelContent for Utilisation {
                 (true, true) => "of the friction available; in discs, of a robot's limits",
             };
             let ends = ["0".to_owned(), "100 %".to_owned()];
-            entries.push(Entry::Amplitudes(ends, what.into(), Theme::amplitude));
+            entries.push(Entry::Amplitudes(
+                ends,
+                what.into(),
+                Theme::amplitude,
+                legend::BAR_LENGTH,
+            ));
         }
         let spent = frames
             .iter()

@@ -52,6 +52,11 @@ pub(super) struct DrawnEdge {
     pub number: Option<usize>,
 }
 
+/// Gap between two small pictures in a row, as a share of the size of the structure.
+const COLUMN_GAP: f64 = 0.1;
+/// Space for the number of a small picture, as a share of the diagonal of the picture.
+const NUMBER_SHARE: f64 = 0.12;
+
 /// A small picture of a mechanism.
 pub(super) struct SmallPicture {
     pub number: usize,
@@ -75,6 +80,18 @@ impl SmallPicture {
         Bounds {
             min: self.corner,
             max: self.place(self.view.max),
+        }
+    }
+}
+
+impl SmallPicture {
+    /// Returns the box of the small picture and of its number to the left, in metres.
+    fn bounds_with_number(&self) -> Bounds {
+        let own = self.bounds();
+        let number = NUMBER_SHARE * own.diagonal();
+        Bounds {
+            min: own.min - Vector::new(number, 0.0),
+            ..own
         }
     }
 }
@@ -129,7 +146,7 @@ impl<'a> Plan<'a> {
     /// Returns a box around the polygon, the loaded point and the small pictures, in metres.
     pub fn bounds(&self) -> Option<Bounds> {
         let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
-        let pictures = self.pictures.iter().map(SmallPicture::bounds);
+        let pictures = self.pictures.iter().map(SmallPicture::bounds_with_number);
         pictures.chain([polygon]).reduce(Bounds::union)
     }
 
@@ -164,10 +181,10 @@ impl<'a> Plan<'a> {
             (false, n) => (SMALL_PICTURE_SCALES.0, n.div_ceil(2)),
         };
         let step = Vector::new(source.width(), source.height()) * share
-            + Vector::new(0.08 * size, 0.12 * size);
+            + Vector::new(COLUMN_GAP * size, 0.12 * size);
         let rows = numbers.len().div_ceil(columns.max(1));
         let begin = if is_wide {
-            let used = columns as f64 * step.x - 0.08 * size;
+            let used = columns as f64 * step.x - COLUMN_GAP * size;
             let left = 0.5 * (whole.min.x + whole.max.x - used);
             Point::new(left, whole.min.y - 0.05 * size - step.y)
         } else {

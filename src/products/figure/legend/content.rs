@@ -9,7 +9,7 @@ use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
 use super::super::words::{counted, quantity, round_below_in};
 use super::entry::Entry;
-use super::sign::{SAMPLE_LENGTH, load_dot, load_sign, missing_dot, weight_sign};
+use super::sign::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_sign, missing_dot, weight_sign};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
 use crate::scene::format::UnitsEntry;
@@ -58,7 +58,12 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let mut blocks = context.analysis.scene.blocks.iter();
     if blocks.any(|b| b.body.fill.is_none()) && context.fills.vary() {
         let (ends, what) = context.fills.key();
-        entries.push(Entry::Amplitudes(ends, what, context.fills.ramp()));
+        entries.push(Entry::Amplitudes(
+            ends,
+            what,
+            context.fills.ramp(),
+            BAR_LENGTH,
+        ));
     }
     entries
 }
@@ -184,6 +189,11 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let mut frames = context.analysis.frames.iter();
     let any = frames.any(|frame_analysis| !limit::reached(scene, frame_analysis).is_empty());
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::LEGEND_TEXT.to_owned()))
+}
+
+/// True for the entry of joints at their limit.
+pub(crate) fn is_limit(entry: &Entry) -> bool {
+    matches!(entry, Entry::Sign(_, _, words) if words == limit::LEGEND_TEXT)
 }
 
 /// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.

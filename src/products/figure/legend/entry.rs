@@ -1,11 +1,13 @@
 //! [`Entry`]: an entry of the legend, which consists of a symbol and a text.
 
-use super::sign::{self, BAR_LENGTH, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
+use super::sign::{self, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
 const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
+/// Least length of a bar of colours, pixels.
+const SHORTEST_BAR: f64 = 56.0;
 
 /// An entry of the legend.
 pub(crate) enum Entry {
@@ -19,8 +21,9 @@ pub(crate) enum Entry {
     Planned(Colour),
     /// Missing forces.
     Missing,
-    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, and the colour of a share.
-    Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour),
+    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, the colour of a share, and the
+    /// length of the bar in pixels.
+    Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour, f64),
     /// The scale of arrows: the length of an arrow from tail to tip and the width of its shaft in pixels, and its
     /// force.
     Scale(f64, f64, String),
@@ -40,10 +43,14 @@ pub(crate) enum Entry {
 
 impl Entry {
     /// Returns the entry in a form that fits into `room` pixels. If the names of blocks do not fit, the result shows
-    /// only the colours of their arrows.
+    /// only the colours of their arrows. A bar of colours is shortened so that its text needs one line.
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
+        let over = self.width(theme) - room;
         match self {
-            Entry::Blocks(_) if self.width(theme) > room => Entry::Colours(theme.arrows.clone()),
+            Entry::Blocks(_) if over > 0.0 => Entry::Colours(theme.arrows.clone()),
+            Entry::Amplitudes(ends, what, ramp, bar) if over > 0.0 && bar - over > SHORTEST_BAR => {
+                Entry::Amplitudes(ends, what, ramp, bar - over - 1.0)
+            }
             entry => entry,
         }
     }
@@ -56,7 +63,7 @@ impl Entry {
             | (Entry::Planned(_), Entry::Planned(_))
             | (Entry::Missing, Entry::Missing) => true,
             (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
-            (Entry::Amplitudes(a, what, _), Entry::Amplitudes(b, other, _)) => {
+            (Entry::Amplitudes(a, what, ..), Entry::Amplitudes(b, other, ..)) => {
                 (a, what) == (b, other)
             }
             (Entry::Line(_, a, what), Entry::Line(_, b, other)) => (a, what) == (b, other),
@@ -83,8 +90,8 @@ impl Entry {
             Entry::Colours(colours) => 30.0 * colours.len() as f64,
             Entry::Robot(..) | Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0,
             Entry::Missing => 34.0 + 7.0,
-            Entry::Amplitudes([low, high], ..) => {
-                wide(low) + 7.0 + BAR_LENGTH + 7.0 + wide(high) + 8.0
+            Entry::Amplitudes([low, high], _, _, bar) => {
+                wide(low) + 7.0 + bar + 7.0 + wide(high) + 8.0
             }
             Entry::Scale(length, ..) | Entry::Metres(length, _) => length + 7.0,
             Entry::Line(..) => LINE_LENGTH + 7.0,
@@ -111,7 +118,7 @@ impl Entry {
             Entry::Robot(_, id) => robot(id),
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
             Entry::Missing => MISSING_TEXT.to_owned(),
-            Entry::Amplitudes(_, words, _)
+            Entry::Amplitudes(_, words, ..)
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)
             | Entry::Metres(_, words)
@@ -149,7 +156,9 @@ impl Entry {
             Entry::Robot(colour, _) => vec![sign::robot(*colour, at, theme)],
             Entry::Planned(colour) => vec![sign::planned(*colour, at)],
             Entry::Missing => vec![sign::arrow(at, (34.0, 4.0), theme.failure)],
-            Entry::Amplitudes(ends, _, ramp) => sign::amplitudes(ends, *ramp, at, theme),
+            Entry::Amplitudes(ends, _, ramp, bar) => {
+                sign::amplitudes(ends, (*ramp, *bar), at, theme)
+            }
             Entry::Line(colour, width, _) => vec![sign::line(*colour, *width, at)],
             Entry::Metres(length, _) => vec![sign::metres(*length, at, theme)],
             Entry::Note(_) => Vec::new(),

@@ -5,9 +5,10 @@ mod entry;
 mod lines;
 mod sign;
 
-pub(crate) use content::{entries, limits, loads, metres, robots, scale, shared_scale};
+pub(crate) use content::{entries, is_limit, limits, loads, metres, robots, scale, shared_scale};
 pub(crate) use entry::Entry;
 pub(crate) use lines::draw;
+pub(crate) use sign::BAR_LENGTH;
 
 use crate::drawing::{Item, PagePoint, Theme};
 

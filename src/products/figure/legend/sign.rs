@@ -12,8 +12,8 @@ pub(super) const SAMPLE_LENGTH: f64 = 26.0;
 pub(super) const SIGN_GAP: f64 = 9.0;
 /// Length of a line in the legend, pixels.
 pub(super) const LINE_LENGTH: f64 = 26.0;
-/// Length of a bar of colours, pixels.
-pub(super) const BAR_LENGTH: f64 = 120.0;
+/// Usual length of a bar of colours, pixels.
+pub(crate) const BAR_LENGTH: f64 = 120.0;
 /// The text before the arrows of blocks.
 pub(super) const ON_BLOCK: &str = "force on block";
 /// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
@@ -80,7 +80,7 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
 /// `ramp` converts a share to a colour.
 pub(super) fn amplitudes(
     [low, high]: &[String; 2],
-    ramp: fn(&Theme, f64) -> Colour,
+    (ramp, bar): (fn(&Theme, f64) -> Colour, f64),
     at: PagePoint,
     theme: &Theme,
 ) -> Vec<Item> {
@@ -90,16 +90,16 @@ pub(super) fn amplitudes(
     for part in 0..parts {
         // Each part is drawn up to the end of the bar, and the next part covers most of it, so there are no gaps
         // between the parts.
-        let x = BAR_LENGTH * f64::from(part) / f64::from(parts);
+        let x = bar * f64::from(part) / f64::from(parts);
         let rect = PageRect {
             at: at.moved(start + x, -5.0),
-            width: BAR_LENGTH - x,
+            width: bar - x,
             height: 10.0,
         };
         let fill = ramp(theme, (f64::from(part) + 0.5) / f64::from(parts));
         items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
     }
-    let end = at.moved(start + BAR_LENGTH + 7.0, 0.0);
+    let end = at.moved(start + bar + 7.0, 0.0);
     items.push(written(high, end, theme));
     items
 }

@@ -10,11 +10,11 @@ use crate::figure::arrow::{
 };
 use crate::figure::by_colour::ByColour;
 use crate::figure::description;
-use crate::geometry::Vector;
+use crate::geometry::{Point, Vector};
 use crate::scene::BodyId;
 
 /// Radius of the arrow of a torque in unit edges, larger than a robot's disc.
-const TURN_RADIUS: f64 = 0.46;
+pub(crate) const TURN_RADIUS: f64 = 0.46;
 /// Least angle of the arrow of a load's torque, radians.
 const MIN_SWEEP: f64 = 1.2;
 
@@ -127,7 +127,7 @@ impl Pen<'_> {
         let outline = turning(
             self.camera.place(turn.at),
             self.camera.length(radius),
-            self.clearest(turn, radius, sweep) - sweep / 2.0,
+            self.turn_middle(turn) - sweep / 2.0,
             sweep,
             self.camera.length(turn.width),
         );
@@ -145,24 +145,38 @@ impl Pen<'_> {
         sweep.abs().max(MIN_SWEEP).copysign(turn.torque)
     }
 
-    /// Returns the direction from the centre of a torque arrow to the middle of its arc, radians. The direction is
-    /// chosen so that the arc is as far as possible from straight arrows. It is upwards unless another direction is
-    /// clearly better.
-    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64) -> f64 {
+    /// Returns the direction from the centre of a torque's arrow to its middle, radians. The arrow avoids straight
+    /// arrows and earlier torques at the same point.
+    pub(crate) fn turn_middle(&self, turn: &TurnArrow) -> f64 {
+        let radius = TURN_RADIUS * self.context.unit;
+        let turns = self.context.marks[self.number].turns.iter();
+        let here = turns.filter(|other| (other.at - turn.at).norm() < 1e-6 * radius);
+        let mut taken: Vec<Point> = Vec::new();
+        let mut middle = FRAC_PI_2;
+        for other in here {
+            let sweep = self.sweep(other, radius);
+            middle = self.clearest(other, radius, sweep, &taken);
+            if core::ptr::eq(other, turn) {
+                break;
+            }
+            taken.extend(along_arc(other.at, radius, middle, sweep));
+        }
+        middle
+    }
+
+    /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
+    /// is farthest from straight arrows and from the points `taken`. If several directions are equally good, the result
+    /// is upwards.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[Point]) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
-        let ends = [-0.5 * sweep, 0.5 * sweep];
+        let from_others = |p: Point| {
+            let straight = arrows.iter().map(|a| distance_to_arrow(a, p));
+            let round = taken.iter().map(|other| (p - other).norm());
+            straight.chain(round).fold(f64::INFINITY, f64::min)
+        };
         let clear = |middle: f64| {
-            let from_arrows = |share: f64| {
-                let angle = middle + ends[0] + (ends[1] - ends[0]) * share;
-                let p = turn.at + Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
-                arrows
-                    .iter()
-                    .map(|a| distance_to_arrow(a, p))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            (0..9)
-                .map(|i| from_arrows(f64::from(i) / 8.0))
-                .fold(f64::INFINITY, f64::min)
+            let points = along_arc(turn.at, radius, middle, sweep);
+            points.map(from_others).fold(f64::INFINITY, f64::min)
         };
         let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
         for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
@@ -239,4 +253,13 @@ impl Pen<'_> {
         group.items.extend(colours.paths(None));
         group
     }
+}
+
+/// Returns nine points along the arc of a torque's arrow, metres. `middle` and `sweep` are in radians.
+fn along_arc(centre: Point, radius: f64, middle: f64, sweep: f64) -> impl Iterator<Item = Point> {
+    let at = move |i: i32| {
+        let angle = middle + sweep * (f64::from(i) / 8.0 - 0.5);
+        centre + Vector::new(libm::cos(angle), libm::sin(angle)) * radius
+    };
+    (0..9).map(at)
 }
