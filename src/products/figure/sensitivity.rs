@@ -56,12 +56,12 @@ impl PanelContent for CornerEffects {
 
     fn largest_force(&self, of: FrameSource<'_>) -> f64 {
         let scene = &of.analysis.scene;
-        thrust::largest_load(scene, &scene.frames[of.frame])
+        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let plan = Plan::new(of.analysis, of.frame)?;
-        let arrows = plan.bounds(scale(of.analysis, unit))?;
+        let plan = Plan::new(of.analysis, of.frame, of.options)?;
+        let arrows = plan.bounds(scale(of.analysis, unit, of.options))?;
         Some(arrows.grown(0.2 * unit))
     }
 
@@ -69,7 +69,7 @@ impl PanelContent for CornerEffects {
         let mut ink = label::ink(pen);
         let mut callouts = Vec::new();
         let mut parts = vec![pen.arrows(false)];
-        if let Some(plan) = Plan::new(pen.context.analysis, pen.number) {
+        if let Some(plan) = Plan::new(pen.context.analysis, pen.number, pen.context.options) {
             parts.push(arrows(pen, &plan, &mut ink, &mut callouts));
             parts.push(discs(pen, &plan, &mut ink));
         }
@@ -79,7 +79,8 @@ impl PanelContent for CornerEffects {
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let analysis = context.analysis;
         let frames = 0..analysis.frames.len();
-        let plans: Vec<Plan> = frames.filter_map(|f| Plan::new(analysis, f)).collect();
+        let plans = frames.filter_map(|f| Plan::new(analysis, f, context.options));
+        let plans: Vec<Plan> = plans.collect();
         let mut entries = Vec::new();
         if plans.iter().any(|plan| !plan.arrows.is_empty()) {
             let words = "direction in which to move a corner; the length shows the effect";
@@ -87,18 +88,18 @@ impl PanelContent for CornerEffects {
         }
         let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
         if let Some(plan) = plans.iter().max_by(strongest) {
-            let pixels = scale(analysis, context.unit) * unit / context.unit;
+            let pixels = scale(analysis, context.unit, context.options) * unit / context.unit;
             entries.extend(scale_entry(&analysis.scene, plan, pixels));
         }
         if plans
             .iter()
             .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
         {
-            let words = "one of the most effective moves, listed below";
+            let words = "one of the most effective moves: new value below";
             entries.push(Entry::Sign(numbered_sign, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words = "change of a weight, load or joint, listed below";
+            let words = "change of a weight, load or joint: new value below";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Sign(disc_sign, wide, words.into()));
         }
@@ -127,7 +128,7 @@ impl PanelContent for CornerEffects {
         if let Some(reason) = sensitivity.reason() {
             return without(sensitivity.kind, reason);
         }
-        let Some(plan) = Plan::new(context.analysis, frame) else {
+        let Some(plan) = Plan::new(context.analysis, frame, context.options) else {
             return String::new();
         };
         let end = if plan.is_high { "upper" } else { "lower" };
@@ -146,7 +147,7 @@ impl PanelContent for CornerEffects {
             return stated;
         }
         let changes = plan.changes.iter();
-        let changes = changes.map(|c| format!("{}: {}", c.number, c.short));
+        let changes = changes.map(|c| format!("{}: {}", c.number, c.words));
         [stated]
             .into_iter()
             .chain(changes)
@@ -158,7 +159,7 @@ impl PanelContent for CornerEffects {
 /// Draws the arrows at the corners. The most effective arrows are drawn last, so that no other arrow covers them.
 fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let (context, theme) = (pen.context, &pen.context.options.theme);
-    let scale = scale(context.analysis, context.unit);
+    let scale = scale(context.analysis, context.unit, context.options);
     let mut group = Group::with_class("effects").titled("Where to move corners");
     let mut order: Vec<&CornerArrow> = plan.arrows.iter().collect();
     order.sort_by_key(|arrow| std::cmp::Reverse(arrow.number.unwrap_or(usize::MAX)));
@@ -166,7 +167,7 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         let from = pen.camera.place(arrow.at);
         let along = pen.camera.turn(arrow.effect * scale);
         let long = libm::hypot(along.0, along.1);
-        if long < MIN_VISIBLE_ARROW {
+        if long < MIN_VISIBLE_ARROW && arrow.number.is_none() {
             continue;
         }
         let width = width(pen.unit(), arrow.number.is_some());
@@ -183,7 +184,7 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         let fill = Path::filled(outline, colour(theme, arrow.number.is_some()));
         group.items.push(one.with(casing).with(fill).into());
         if let Some(number) = arrow.number {
-            let ahead = 2.0 / long;
+            let ahead = 2.0 / long.max(MIN_VISIBLE_ARROW);
             callouts.push(Callout {
                 at: from.moved((1.0 + ahead) * along.0, (1.0 + ahead) * along.1),
                 clear: 2.5,
@@ -202,6 +203,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     let radius = disc_radius(theme);
     let mut group = Group::with_class("changes");
     let loads = &pen.context.marks[pen.number].arrows;
+    let scale = scale(pen.context.analysis, pen.context.unit, pen.context.options);
     // `marks` are the shapes that a number must not cover even if there is no empty position for it.
     let mut marks = Ink::default();
     for load in loads {
@@ -209,7 +211,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
         marks.arrow(from, along, pen.width(load));
     }
     for arrow in plan.arrows.iter().filter(|arrow| arrow.number.is_some()) {
-        let along = arrow.effect * scale(pen.context.analysis, pen.context.unit);
+        let along = arrow.effect * scale;
         marks.arrow(pen.camera.place(arrow.at), pen.camera.turn(along), 2.0);
     }
     for change in &plan.changes {

@@ -1,5 +1,7 @@
 //! [`Plan`]: computes the arrows at the corners of a frame, and its most effective changes with their numbers.
 
+use super::super::layout::PRINT_COLUMN;
+use super::super::option::Options;
 use crate::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::Scene;
@@ -11,8 +13,14 @@ use crate::wording::sensitivity::{
 
 /// The longest arrow, as a share of the size of the structure and of the unit edge; the larger one counts.
 const MAX_ARROW_SHARES: (f64, f64) = (0.09, 0.8);
-/// The largest number of numbered changes: in a figure of one frame, and in each panel of a strip.
-const MAX_NUMBERED: (usize, usize) = (10, 3);
+/// The largest number of numbered changes: in a figure of one frame, in such a figure that is as wide as a column of
+/// print, and in each panel of a strip.
+const MAX_NUMBERED: (usize, usize, usize) = (10, 5, 3);
+/// Changes with a smaller effect, relative to the most effective one, have no number.
+const LEAST_EFFECT: f64 = 0.1;
+/// A corner has no arrow if a step along it changes the margin by less than this share of its value. The derivative
+/// may then be a rounding error.
+const NO_EFFECT: f64 = 1e-6;
 
 /// The arrows and numbers of a frame.
 pub(super) struct Plan {
@@ -47,25 +55,28 @@ pub(super) struct Numbered {
     pub is_load: bool,
     /// Whether it is the friction of one joint.
     pub is_joint: bool,
-    /// What is done, and the value before and after.
-    pub words: String,
     /// What is done, and the value afterwards.
-    pub short: String,
+    pub words: String,
 }
 
 impl Plan {
     /// Computes the arrows and the numbered changes of a frame; `None` if the derivatives of its margin are not known.
-    pub fn new(analysis: &Analysis, frame: usize) -> Option<Plan> {
+    pub fn new(analysis: &Analysis, frame: usize, options: &Options) -> Option<Plan> {
         let (scene, frame_analysis) = (&analysis.scene, analysis.frames.get(frame)?);
         let sensitivity = frame_analysis.sensitivity.as_ref()?;
         let (is_high, end) = sensitivity.nearest()?;
         let kind = sensitivity.kind;
-        let most = if analysis.frames.len() > 1 {
-            MAX_NUMBERED.1
-        } else {
-            MAX_NUMBERED.0
+        let is_narrow = options.width.is_some_and(|width| width < PRINT_COLUMN);
+        let most = match (analysis.frames.len(), is_narrow) {
+            (0 | 1, false) => MAX_NUMBERED.0,
+            (0 | 1, true) => MAX_NUMBERED.1,
+            _ => MAX_NUMBERED.2,
         };
-        let changes = visible(scene, frame_analysis, (kind, end, is_high), most);
+        let mut changes = visible(scene, frame_analysis, (kind, end, is_high), most);
+        let effect = |change: &EffectiveChange| (change.after - end.value).abs();
+        let least = changes.iter().map(effect).fold(0.0, f64::max) * LEAST_EFFECT;
+        changes.retain(|change| effect(change) >= least);
+        let step = step_length(scene, frame_analysis);
         let outward = if is_high { 1.0 } else { -1.0 };
         let number_of = |corner: usize| {
             let is_this = |change: &EffectiveChange| matches!(change.target, Target::Corner(number, _) if number == corner);
@@ -76,7 +87,9 @@ impl Plan {
             let corner = &end.corners[number];
             if is_kink(corner.moves) {
                 kinks += 1;
-            } else if let Some((direction, rate)) = best {
+            } else if let Some((direction, rate)) = best
+                && rate * step > NO_EFFECT * end.value.abs()
+            {
                 arrows.push(CornerArrow {
                     at: corner.at,
                     effect: direction * rate,
@@ -89,7 +102,6 @@ impl Plan {
             frame_analysis,
             end,
             kind,
-            is_high,
         };
         let changes = changes.iter().enumerate();
         let changes = changes.map(|(place, change)| sketch.numbered(place + 1, change));
@@ -100,7 +112,7 @@ impl Plan {
             changes: changes.collect(),
             arrows,
             kinks,
-            step: step_length(scene, frame_analysis),
+            step,
         })
     }
 
@@ -143,10 +155,10 @@ impl Plan {
 
 /// Returns the length, in metres, of an arrow that shows a growth of the margin of 1 per metre. The scale is the same
 /// in all frames; it is 0 if there are no arrows.
-pub(super) fn scale(analysis: &Analysis, unit: f64) -> f64 {
+pub(super) fn scale(analysis: &Analysis, unit: f64, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let frames = 0..analysis.frames.len();
-    let plans = frames.filter_map(|frame| Plan::new(analysis, frame));
+    let plans = frames.filter_map(|frame| Plan::new(analysis, frame, options));
     let strongest = plans.map(|plan| plan.strongest()).fold(0.0, f64::max);
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
     let structure = placed
@@ -175,7 +187,6 @@ struct Sketch<'a> {
     frame_analysis: &'a FrameAnalysis,
     end: &'a EndSensitivity,
     kind: MarginKind,
-    is_high: bool,
 }
 
 impl Sketch<'_> {
@@ -218,16 +229,13 @@ impl Sketch<'_> {
                 format!("friction of all joints {}", friction_change_text(change)),
             ),
         };
-        let [before, after] =
-            [self.end.value, change.after].map(|value| words::value(self.kind, value));
-        let name = words::name(self.kind, self.is_high);
+        let after = words::value(self.kind, change.after);
         Numbered {
             number,
             at,
             is_load: matches!(change.target, Target::Load(..)),
             is_joint: matches!(change.target, Target::Friction(_)),
-            words: format!("{done}: {name} {before} → {after}"),
-            short: format!("{done} → {after}"),
+            words: format!("{done} → {after}"),
         }
     }
 }
