@@ -22,7 +22,7 @@ use crate::analysis::{Analysis, Contact, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Vector};
-use crate::scene::{BlockId, BodyId};
+use crate::scene::{BlockId, BodyId, Scene};
 
 /// Radius of the ring around a change, unit edges; its least and its largest radius, pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
@@ -40,6 +40,13 @@ fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let without =
         |a: &[BlockId], b: &[BlockId]| a.iter().copied().filter(|id| !b.contains(id)).collect();
     [without(now, before), without(before, now)]
+}
+
+/// Returns the blocks of `gone` whose outline no block of `new` has.
+fn left_behind(scene: &Scene, new: &[BlockId], gone: &[BlockId]) -> Vec<BlockId> {
+    let outline = |id: &BlockId| scene.blocks[id.0].body.polygon.outline();
+    let is_left = |id: &BlockId| !new.iter().any(|other| outline(other) == outline(id));
+    gone.iter().copied().filter(is_left).collect()
 }
 
 /// Returns the two bodies of a contact, in the same order in all frames.
@@ -131,6 +138,7 @@ impl PanelContent for Comparison {
             outline
         };
         let [came, went] = blocks(context.analysis, frame);
+        let went = left_behind(scene, &came, &went);
         let mut parts = Vec::new();
         if !went.is_empty() {
             let gone = Group::with_class("gone").titled("Blocks that are gone");
@@ -178,20 +186,32 @@ impl PanelContent for Comparison {
     }
 
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
+        let scene = &context.analysis.scene;
+        let name = |id: &BlockId| &scene.blocks[id.0].id;
         let mut entries = legend::entries(context, unit);
-        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)));
+        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)) && !legend::is_limit(entry));
         let (mut came, mut went, mut changed) = (false, false, false);
+        let mut altered = false;
         for frame in 0..context.analysis.frames.len() {
             let [new, gone] = blocks(context.analysis, frame);
             came |= !new.is_empty();
-            went |= !gone.is_empty();
+            altered |= new
+                .iter()
+                .any(|id| gone.iter().any(|g| name(g) == name(id)));
+            went |= !left_behind(scene, &new, &gone).is_empty();
             changed |= !changes(context.analysis, frame).0.is_empty();
         }
         if came {
-            entries.push(Entry::Sign(new_sign, 20.0, "new".to_owned()));
+            let words = if altered { "new or changed" } else { "new" };
+            entries.push(Entry::Sign(new_sign, 20.0, words.to_owned()));
         }
         if went {
-            entries.push(Entry::Sign(gone_sign, 20.0, "gone".to_owned()));
+            let words = if altered {
+                "gone, or the outline before"
+            } else {
+                "gone"
+            };
+            entries.push(Entry::Sign(gone_sign, 20.0, words.to_owned()));
         }
         if changed {
             let what = "force changed by over 5 %; the previous force is faint".to_owned();

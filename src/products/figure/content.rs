@@ -205,17 +205,25 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
         for arrow in &mut marks.arrows {
             arrow.width *= stretch.sqrt();
         }
-        lengthen_loads(&mut marks, least_load);
+        marks
+    };
+    let mut all: Vec<Marks> = own.iter().copied().enumerate().map(scaled).collect();
+    match options.scale {
+        ArrowScale::Panel => all
+            .iter_mut()
+            .for_each(|marks| lengthen_loads(core::slice::from_mut(marks), least_load)),
+        ArrowScale::Strip => lengthen_loads(&mut all, least_load),
+    }
+    for marks in &mut all {
         if let Some(near) = zoomed {
             marks.arrows.retain(|arrow| view::contains(near, arrow.at));
             marks.turns.retain(|turn| view::contains(near, turn.at));
         }
         if about.draws_forces && !options.printed() {
-            separate_parallel_arrows(&mut marks);
+            separate_parallel_arrows(marks);
         }
-        marks
-    };
-    own.iter().copied().enumerate().map(scaled).collect()
+    }
+    all
 }
 
 /// Least length of the longest arrow, pixels (9 mm).
@@ -252,14 +260,15 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     }
 }
 
-/// Lengthens the arrows of loads if the longest of them is shorter than `least` metres, so that their directions are
-/// visible. All of them are lengthened by the same factor.
-fn lengthen_loads(marks: &mut Marks, least: f64) {
-    let is_load = |arrow: &&mut ForceArrow| arrow.kind == ArrowKind::Load;
-    let lengths = marks.arrows.iter_mut().filter(is_load);
-    let longest = lengths.map(|a| a.vector.norm()).fold(0.0, f64::max);
+/// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
+/// visible. The factor is the same for all frames in `marks`.
+fn lengthen_loads(marks: &mut [Marks], least: f64) {
+    let arrows = marks.iter_mut().flat_map(|marks| &mut marks.arrows);
+    let loads = arrows.filter(|arrow| arrow.kind == ArrowKind::Load);
+    let loads: Vec<&mut ForceArrow> = loads.collect();
+    let longest = loads.iter().map(|a| a.vector.norm()).fold(0.0, f64::max);
     if longest > 0.0 && longest < least {
-        for arrow in marks.arrows.iter_mut().filter(is_load) {
+        for arrow in loads {
             arrow.vector *= least / longest;
         }
     }

@@ -3,8 +3,8 @@
 //!
 //! The options choose the [parameter](Toward). The figure shows the end of the interval that is nearer to the present
 //! state. If gravity is turned, a dashed line shows its present direction, and an arrow shows its direction at the
-//! margin. If a horizontal load is added, the arrow shows this load. If loads grow, they are drawn with their present
-//! magnitudes. The blocks themselves are drawn in their present positions.
+//! margin. If a horizontal load is added, the arrow shows this load. A pale arrow shows the end on the other side. If
+//! loads grow, they are drawn with their present magnitudes. The blocks themselves are drawn in their present positions.
 
 mod reason;
 
@@ -22,7 +22,7 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::thrust;
 use super::words::degrees;
-use crate::analysis::{Analysis, Motion, Toward, Verdict};
+use crate::analysis::{Analysis, End, Motion, Toward, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
@@ -67,7 +67,7 @@ impl PanelContent for CollapseMargin {
         let frame = &scene.frames[frame];
 
         match options.toward {
-            Toward::LoadFactor => thrust::largest_load(scene, frame),
+            Toward::LoadFactor => thrust::load_scale(scene, frame, options),
             _ => 0.0,
         }
     }
@@ -81,7 +81,7 @@ impl PanelContent for CollapseMargin {
         let (displaced, edge) = displacements_beyond_margin(analysis, frame, unit, options.toward)?;
         let ghosts = mechanism::reach(analysis, &displaced);
         let gravity = gravity(analysis, frame, edge, options.toward)
-            .and_then(|g| Some(Bounds::from_points([g.from, g.now, g.there])?.grown(0.1 * unit)));
+            .and_then(|g| Some(Bounds::from_points(g.points())?.grown(0.1 * unit)));
         ghosts.into_iter().chain(gravity).reduce(Bounds::union)
     }
 
@@ -125,11 +125,14 @@ impl PanelContent for CollapseMargin {
                 let arrow = Path::filled(straight(from, along, width), theme.ink);
                 ink.line(from, now, 1.2);
                 ink.arrow(from, along, width);
-                parts.push(
-                    group
-                        .with(Path::stroked(Outline::line([from, now]), dashed))
-                        .with(arrow),
-                );
+                let mut group = group.with(Path::stroked(Outline::line([from, now]), dashed));
+                if let Some(other) = gravity.other.map(|p| camera.place(p)) {
+                    let along = (other.x - from.x, other.y - from.y);
+                    ink.arrow(from, along, 0.7 * width);
+                    let pale = straight(from, along, 0.7 * width);
+                    group = group.with(Path::filled(pale, theme.faint.mixed(theme.page, 0.4)));
+                }
+                parts.push(group.with(arrow));
             }
         }
         parts.push(pen.arrows(false));
@@ -148,11 +151,14 @@ impl PanelContent for CollapseMargin {
             entries.extend(mechanism::joint_entries(&joints.concat()));
             match toward {
                 Toward::Tilt => {
-                    let gravity = "direction of gravity at the margin".to_owned();
+                    let gravity =
+                        "direction of gravity at the margin; pale: at its other end".to_owned();
                     entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
                 }
                 Toward::HorizontalLoad => {
-                    let push = "largest additional load perpendicular to gravity".to_owned();
+                    let push =
+                        "largest additional load perpendicular to gravity; pale: the other way"
+                            .to_owned();
                     entries.push(Entry::Sign(push_sign, 26.0, push));
                 }
                 Toward::LoadFactor => {}
@@ -209,6 +215,30 @@ struct Gravity {
     from: Point,
     now: Point,
     there: Point,
+    /// Its tip at the other end of the interval, if the frame also falls there.
+    other: Option<Point>,
+}
+
+impl Gravity {
+    fn points(&self) -> impl Iterator<Item = Point> {
+        [self.from, self.now, self.there]
+            .into_iter()
+            .chain(self.other)
+    }
+}
+
+/// Returns the end of the interval on the other side of 0 than `edge`, in the unit of the parameter. Returns `None` if
+/// it has no value.
+fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<f64> {
+    let intervals = &analysis.frames[frame].margins.as_ref()?.intervals;
+    let interval = match toward {
+        Toward::Tilt => intervals.tilt.as_ref()?,
+        Toward::HorizontalLoad => intervals.horizontal_load.as_ref()?,
+        Toward::LoadFactor => return None,
+    };
+    let ends = [interval.low(), interval.high()].into_iter().flatten();
+    let mut ends = ends.filter_map(End::value);
+    ends.find(|other| other * edge < 0.0)
 }
 
 fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
@@ -219,17 +249,21 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
         .reduce(Bounds::union)?;
     let diagonal = structure.diagonal();
     let down = scene.down() * (GRAVITY_LENGTH * diagonal);
-    let there = match toward {
+    let arrow = |edge: f64| match toward {
         Toward::Tilt => {
             let (sin, cos) = sin_cos_degrees(edge);
-            Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
+            let turned = Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y);
+            Some(turned)
         }
         // The arrow of the horizontal load is to the arrow of gravity as the load is to the weight.
-        Toward::HorizontalLoad => quarter_turn(down) * edge,
-        Toward::LoadFactor => return None,
+        Toward::HorizontalLoad => Some(quarter_turn(down) * edge),
+        Toward::LoadFactor => None,
     };
-    // If the arrow extends to the right, move its tail to the left, so that the arrow does not touch the structure.
-    let beyond = (down.x.max(there.x)).max(0.0);
+    let there = arrow(edge)?;
+    let other = other_end(analysis, frame, edge, toward).and_then(arrow);
+    // If an arrow extends to the right, move its tail to the left, so that it does not touch the structure.
+    let beyond = other.map_or(there.x, |other| other.x.max(there.x));
+    let beyond = down.x.max(beyond).max(0.0);
     let left = structure.min.x
         - GRAVITY_DISTANCE * diagonal
         - if beyond > 0.5 * GRAVITY_LENGTH * diagonal {
@@ -242,6 +276,7 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
         from,
         now: from + down,
         there: from + there,
+        other: other.map(|other| from + other),
     })
 }
 
