@@ -2,10 +2,12 @@
 
 use super::displacement::rigid_bodies;
 use super::joint::{Joint, joints};
+use super::largest;
 use super::words::{counted, listed};
 use crate::analysis::{Analysis, Motion, Verdict};
 use crate::drawing::text::NO_BREAK;
 use crate::scene::BodyId;
+use crate::wording::failure::{by_amount, missing_phrase};
 
 /// Largest number of rigid bodies that are described one by one.
 const MAX_DESCRIBED_BODIES: usize = 3;
@@ -23,6 +25,24 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
         Verdict::Stable => "there is no mechanism".into(),
         Verdict::Undecided => format!("no mechanism is proved: {}", frame_analysis.doubt()),
         Verdict::Unstable => collapse(analysis, frame),
+    }
+}
+
+/// Describes the largest missing force and the largest contact force of a frame that falls; empty for other frames.
+pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    if found.verdict != Verdict::Unstable {
+        return String::new();
+    }
+    let missing = by_amount(found);
+    let missing = missing.first();
+    let missing = missing.map(|f| format!("missing most: {}", missing_phrase(scene, f)));
+    let contact = Some(largest::sentence(scene, found)).filter(|words| !words.is_empty());
+    match (missing, contact) {
+        (Some(missing), Some(contact)) => {
+            format!("{missing}; {contact}, the missing forces included")
+        }
+        (missing, contact) => missing.or(contact).unwrap_or_default(),
     }
 }
 

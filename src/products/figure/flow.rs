@@ -16,18 +16,19 @@ use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::bearing::bearings;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
-use super::label::{self, Callout, EQUAL_FORCE_TOL};
+use super::label::{self, Callout};
+use super::largest::largest_contact;
 use super::legend::Entry;
 use super::limit;
 use super::mark;
 use super::option::Options;
 use super::panel::composed_with;
 use super::pen::Pen;
-use super::unit::unit;
+use super::unit::{LOAD_SHAFT, longest_load, unit};
 use super::words::quantity;
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::drawing::placement::Ink;
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Theme};
+use crate::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
@@ -37,10 +38,11 @@ const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
 const MIN_BAND_WIDTH: f64 = 0.4;
 /// In frames with more blocks than this, bands of one colour are one path, and joints have no dots.
 const MAX_SINGLE_STRANDS: usize = 150;
-/// Length of the longest arrow of a load or a missing force, as a share of the longer side of the structure.
-const LONGEST_ARROW_SHARE: f64 = 0.1;
-/// Width of the shaft of such an arrow, as a share of the length of the longest arrow.
-const SHAFT_SHARE: f64 = 0.055;
+
+/// Width of the dashed edge of a band of missing forces, pixels.
+const MISSING_EDGE: f64 = 0.9;
+/// Width of the sign of such a band in the legend, pixels.
+const MISSING_SIGN: f64 = 26.0;
 
 /// The figure of force flow.
 pub(crate) struct ForceFlow;
@@ -64,7 +66,7 @@ impl PanelContent for ForceFlow {
             options,
         } = of;
         let edge = unit(&analysis.scene, options.zoom);
-        largest_arrow(analysis, frame) * edge / longest_arrow(analysis, options)
+        largest_arrow(analysis, frame) * edge / longest_load(&analysis.scene, options.zoom)
     }
 
     fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
@@ -97,22 +99,10 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the largest length of an arrow, metres: a share of the longer side of the structure, but at least one unit
-/// edge.
-fn longest_arrow(analysis: &Analysis, options: &Options) -> f64 {
-    let edge = unit(&analysis.scene, options.zoom);
-    let blocks = analysis.scene.blocks.iter();
-    let all = blocks
-        .map(|b| b.body.polygon.bounds())
-        .reduce(Bounds::union);
-    let longer = all.map_or(edge, |b| b.width().max(b.height()));
-    edge.max(LONGEST_ARROW_SHARE * longer)
-}
-
 /// Returns the arrows of loads and of missing forces. The tip of a load's arrow is at the point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let width = SHAFT_SHARE * longest_arrow(analysis, options);
+    let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
     let shown = |arrow: ForceArrow| match arrow.kind {
         ArrowKind::Load => Some(ForceArrow {
             at: arrow.at - arrow.vector,
@@ -136,20 +126,6 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     } else {
         shown
     }
-}
-
-/// Returns the contact with the largest force in a frame; the first of them if several forces are equal except for
-/// rounding. Returns `None` if no contact has a force.
-pub(super) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact> {
-    let force = |c: &&Contact| c.resultant.force.norm();
-    let contacts = frame_analysis.contacts.iter();
-    contacts.filter(|c| force(c) > 0.0).reduce(|most, c| {
-        if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) {
-            c
-        } else {
-            most
-        }
-    })
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
@@ -252,11 +228,12 @@ impl<'a> Picture<'a> {
                 }
                 let title = words::strand(self.scene, self.frame_analysis, strand);
                 let band = Group::with_class("strand").titled(title);
-                let band = band.with(Path::filled(outline, colour));
+                let band = band.with(filled(outline, colour, kind, self.theme));
                 group.items.push(band.into());
             }
             if !joined.segments.is_empty() {
-                group.items.push(Path::filled(joined, colour).into());
+                let bands = filled(joined, colour, kind, self.theme);
+                group.items.push(bands.into());
             }
         }
         group
@@ -309,10 +286,11 @@ impl<'a> Picture<'a> {
                 continue;
             }
             let at = self.pen.camera.place(contact.resultant.at);
-            ink.disc(at, radius + 1.0);
             let title = words::joint(self.scene, contact);
             let dot = Group::with_class("resultant").titled(title);
             let mark = marked.iter().find(|m| core::ptr::eq(m.contact, contact));
+            let reach = mark.map_or(radius, |_| limit::reach(radius));
+            ink.disc(at, reach + 1.0);
             let path = match mark {
                 Some(mark) => mark.sign(at, radius, self.theme),
                 None => dot_at(at, radius, self.theme),
@@ -337,6 +315,29 @@ impl<'a> Picture<'a> {
         };
         largest.map(callout).collect()
     }
+}
+
+/// Fills a band. A band of missing forces has a dashed edge, because its colour is not visible in a grey print.
+fn filled(outline: Outline, colour: Colour, kind: StrandKind, theme: &Theme) -> Path {
+    let band = Path::filled(outline, colour);
+    match kind {
+        StrandKind::Missing => {
+            band.with_stroke(Stroke::new(theme.failure, MISSING_EDGE).dashed([3.0, 2.0]))
+        }
+        StrandKind::Carried | StrandKind::Weight => band,
+    }
+}
+
+/// Draws a band of missing forces for the legend.
+fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let rect = PageRect {
+        at: at.moved(0.0, -2.5),
+        width: MISSING_SIGN,
+        height: 5.0,
+    };
+    let colour = colour(theme, Verdict::Unstable, StrandKind::Missing);
+    let outline = Outline::rounded(rect, 0.0);
+    vec![filled(outline, colour, StrandKind::Missing, theme).into()]
 }
 
 /// Returns the radius of the dot at a joint, in pixels. `unit` is the unit edge in pixels.

@@ -76,7 +76,7 @@ impl PanelContent for Mechanism {
         let FrameSource {
             analysis, frame, ..
         } = of;
-        thrust::largest_load(&analysis.scene, &analysis.scene.frames[frame])
+        thrust::load_scale(&analysis.scene, &analysis.scene.frames[frame], of.options)
     }
 
     fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
@@ -90,7 +90,14 @@ impl PanelContent for Mechanism {
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        collapse::reason(context.analysis, frame)
+        let how = collapse::reason(context.analysis, frame);
+        // Panels next to each other have no room for a longer text.
+        let forces = match context.analysis.frames.len() {
+            1 => collapse::forces(context.analysis, frame),
+            _ => String::new(),
+        };
+        let parts = [how, forces].into_iter().filter(|part| !part.is_empty());
+        parts.collect::<Vec<_>>().join("; ")
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {

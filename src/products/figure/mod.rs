@@ -31,6 +31,7 @@ mod joint;
 mod kernel;
 mod kind;
 mod label;
+mod largest;
 mod layout;
 mod legend;
 mod limit;

@@ -24,6 +24,7 @@ use super::mark;
 use super::option::{ArrowScale, Options};
 use super::panel::composed;
 use super::pen::Pen;
+use super::unit::{LOAD_SHAFT, longest_load, unit};
 use super::verdict;
 use super::words::quantity;
 use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
@@ -56,7 +57,7 @@ impl PanelContent for ThrustLine {
         let FrameSource {
             analysis, frame, ..
         } = of;
-        largest_load(&analysis.scene, &analysis.scene.frames[frame])
+        load_scale(&analysis.scene, &analysis.scene.frames[frame], of.options)
     }
 
     fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
@@ -137,7 +138,12 @@ impl PanelContent for ThrustLine {
             entries.push(Entry::Line(colour(theme), widest(unit), line));
         }
         if falls {
-            let line = format!("forces carried in a frame that falls, this thick for {largest}");
+            let mut frames = context.analysis.frames.iter();
+            let place = match frames.any(|frame| frame.verdict == Verdict::Unstable) {
+                true => " in a frame that falls",
+                false => "",
+            };
+            let line = format!("forces carried{place}, this thick for {largest}");
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if stands || falls {
@@ -184,8 +190,10 @@ pub(crate) fn marks(
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let loads = marks.arrows.into_iter();
     let loads = loads.filter(|arrow| arrow.kind == ArrowKind::Load);
+    let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
     let ended = loads.map(|arrow| ForceArrow {
         at: arrow.at - arrow.vector,
+        width: arrow.width.max(width),
         ..arrow
     });
     let turns = marks.turns.into_iter();
@@ -203,13 +211,15 @@ pub(crate) fn marks(
     }
 }
 
-/// Returns the magnitude of the largest load on the blocks of a frame, N. Weights are not included.
-pub(crate) fn largest_load(scene: &Scene, frame: &Frame) -> f64 {
+/// Returns the load whose arrow is one unit edge long, N, so that the arrow of the largest load of a frame has a
+/// readable length. Weights are not loads.
+pub(crate) fn load_scale(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
     let loads = scene
         .loads
         .iter()
         .filter(|l| frame.placed.contains(&l.block));
-    loads.map(|l| l.force.norm()).fold(0.0, f64::max)
+    let largest = loads.map(|l| l.force.norm()).fold(0.0, f64::max);
+    largest * unit(scene, options.zoom) / longest_load(scene, options.zoom)
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any panel, N.

@@ -1,6 +1,7 @@
 //! [`unit`]: computes the unit edge, a typical size of the blocks. Arrows and labels are scaled with this length.
 
 use super::view;
+use crate::geometry::Bounds;
 use crate::scene::{Block, BlockId, Scene};
 
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
@@ -31,4 +32,21 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
         Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
         _ => typical,
     }
+}
+
+/// Length of the longest arrow of a load, as a share of the longer side of the structure.
+const LONGEST_LOAD: f64 = 0.1;
+/// Width of the shaft of the arrow of a load, as a share of the length of the longest arrow.
+pub(crate) const LOAD_SHAFT: f64 = 0.055;
+
+/// Returns the length of the longest arrow of a load in figures that show no other forces to the same scale, metres. It
+/// is at least the unit edge.
+pub(crate) fn longest_load(scene: &Scene, zoom: Option<BlockId>) -> f64 {
+    let edge = unit(scene, zoom);
+    let blocks = scene.blocks.iter();
+    let all = blocks.map(|b| b.body.polygon.bounds());
+    let longer = all
+        .reduce(Bounds::union)
+        .map_or(edge, |b| b.width().max(b.height()));
+    edge.max(LONGEST_LOAD * longer)
 }

@@ -5,7 +5,10 @@ use super::super::legend::{self, Entry};
 use super::super::option::ArrowScale;
 use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
-use super::{MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, carried, colour, dot_sign, largest, widest};
+use super::{
+    MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_sign, largest,
+    missing_sign, widest,
+};
 use crate::analysis::Verdict;
 
 /// Returns the legend entries of a figure of force flow. `unit` is the unit edge in pixels.
@@ -70,9 +73,8 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         entries.push(Entry::Line(light, 2.5, "weight".into()));
     }
     if any(StrandKind::Missing).is_some() {
-        let red = colour(theme, Verdict::Unstable, StrandKind::Missing);
         let words = "force that cannot be carried".to_owned();
-        entries.push(Entry::Line(red, 4.0, words));
+        entries.push(Entry::Sign(missing_sign, MISSING_SIGN, words));
         entries.push(Entry::Missing);
     }
     entries

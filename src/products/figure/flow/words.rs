@@ -1,17 +1,14 @@
 //! Writes the texts of figures of force flow: the tooltips of bands and joints, and the text below the verdict.
 
-use super::largest_contact;
 use super::strand::{Origin, Strand};
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::figure::context::FigureContext;
 use crate::figure::description;
+use crate::figure::largest;
 use crate::figure::limit;
 use crate::figure::verdict;
 use crate::figure::words::quantity;
 use crate::scene::{BodyId, Scene};
-
-/// Forces that differ by less than this share are equally large.
-const EQUAL_FORCE_TOL: f64 = 1e-3;
 
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, frame_analysis: &FrameAnalysis, strand: &Strand) -> String {
@@ -53,29 +50,9 @@ pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let why = verdict::reason(scene, frame_analysis);
     let parts = [
         why,
-        largest(scene, frame_analysis),
+        largest::sentence(scene, frame_analysis),
         limit::sentence(context, frame),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
     parts.join("; ")
-}
-
-/// Returns the part of the text that names the largest contact force and its joint; empty if no joint has a force.
-fn largest(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    let Some(contact) = largest_contact(frame_analysis) else {
-        return String::new();
-    };
-    let most = contact.resultant.force.norm();
-    let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - EQUAL_FORCE_TOL) * most;
-    let joints = frame_analysis.contacts.iter().filter(alike).count();
-    let pair = description::pair(scene, contact.interface.bodies);
-    let others = match joints - 1 {
-        0 => String::new(),
-        1 => " and at one other joint".to_owned(),
-        n => format!(" and at {n} other joints"),
-    };
-    format!(
-        "largest contact force {} between {pair}{others}",
-        quantity(most, scene.units.force())
-    )
 }

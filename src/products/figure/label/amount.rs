@@ -1,7 +1,7 @@
 //! Creates the labels that show the magnitudes of loads, forces and torques.
 
 use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::super::pen::{DOT_RADIUS, Pen};
+use super::super::pen::{DOT_RADIUS, Pen, TURN_RADIUS};
 use super::super::words::quantity;
 use super::lettering::{LINE_HEIGHT, Label, MIN_SIZE, label};
 use crate::drawing::placement::LabelRequest;
@@ -131,18 +131,36 @@ fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
 
 /// Creates the label with the magnitude of a torque next to its arrow.
 fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
+    let words = quantity(turn.torque.abs(), pen.context.analysis.scene.units.torque());
+    let size = amount_size(pen);
+    let (wide, high) = (text::width(&words, Face::Sans, size), LINE_HEIGHT * size);
+    let (centre, radius) = (
+        pen.camera.place(turn.at),
+        pen.camera.length(TURN_RADIUS * pen.context.unit),
+    );
+    let middle = pen.turn_middle(turn);
+    let along =
+        |angle: f64, far: f64| centre.moved(far * libm::cos(angle), -far * libm::sin(angle));
+    // Beyond the arc, and then within it.
+    let beside = |(off, side): (f64, f64)| {
+        let angle = middle + off;
+        let reach = 0.5 * (wide * libm::cos(angle).abs() + high * libm::sin(angle).abs());
+        let gap = pen.camera.length(2.0 * turn.width) + 3.0 + reach;
+        along(angle, radius + side * gap)
+    };
+    let offs = [0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9];
+    let places = offs.map(|off| (off, 1.0)).into_iter().chain([(0.0, -1.0)]);
     let request = LabelRequest {
-        anchor: pen.camera.place(turn.at),
-        first_ring: pen.camera.length(0.7 * pen.context.unit),
+        anchor: along(middle, radius),
+        first_ring: pen.camera.length(2.0 * turn.width) + 3.0,
         size: (0.0, 0.0),
-        preferred: Vec::new(),
+        preferred: places.map(beside).collect(),
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
     };
-    let words = quantity(turn.torque.abs(), pen.context.analysis.scene.units.torque());
     Label {
         colour: Some(turn.colour),
-        ..label(words, Face::Sans, amount_size(pen), "amount", request)
+        ..label(words, Face::Sans, size, "amount", request)
     }
 }
 

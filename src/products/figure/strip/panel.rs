@@ -197,8 +197,15 @@ impl Strip<'_> {
         let unseen =
             context.marks[frame].unseen(context.unit, layout.scale, context.analysis.scene.units);
         let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));
-        let notes = unseen.into_iter().chain(cramped);
-        let notes = notes.flat_map(|note| broken(&note, 2));
+        let notes: Vec<String> = unseen.into_iter().chain(cramped).collect();
+        let joined = notes.join("; ");
+        // Two notes share a line if it has room for both.
+        let notes = match text::width(&joined, Face::Sans, size) <= layout.panel {
+            true => vec![joined],
+            false => notes,
+        };
+        let notes = notes.iter().filter(|note| !note.is_empty());
+        let notes = notes.flat_map(|note| broken(note, 2));
         let mut items = Vec::new();
         let mut y = top.y;
         for line in broken(&reason, MAX_REASON_LINES).into_iter().chain(notes) {
