@@ -90,7 +90,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
 
 /// Returns the items whose magnitudes are written, in their order: all of them, or if there are more than
 /// [`CROWDED_AMOUNTS`], the largest [`MAX_AMOUNTS`]. Of items of one size, the first come first.
-fn largest<'a, T>(items: Vec<&'a T>, size: impl Fn(&T) -> f64) -> Vec<&'a T> {
+fn largest<T>(items: Vec<&T>, size: impl Fn(&T) -> f64) -> Vec<&T> {
     if items.len() <= CROWDED_AMOUNTS {
         return items;
     }
