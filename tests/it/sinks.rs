@@ -408,6 +408,8 @@ const WRITERS: &[(&str, &[&str])] = &[
             "output/svg.rs",
             // Puts the name space into a chart that is written already.
             "report/entry/part.rs",
+            // Refuses a script that would end its own element; writes nothing.
+            "cli/report/interactive.rs",
             // Draws the bar of a margin into a cell of a table.
             "report/print/table.rs",
             "output/svg/",

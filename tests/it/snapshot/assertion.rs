@@ -104,7 +104,7 @@ fn a_figures_name_stays_in_its_folder() {
 }
 
 #[test]
-#[should_panic(expected = "there is no scene at src/text")]
+#[should_panic(expected = "there is no scene file at src/text")]
 fn a_folder_without_scenes_is_no_success() {
     assertion::scenes(Path::new(env!("CARGO_MANIFEST_DIR")), "src/text".as_ref());
 }

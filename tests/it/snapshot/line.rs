@@ -15,7 +15,7 @@ fn what_is_new_lies_beside_until_it_is_accepted() {
     assert_eq!(ran.code, 1);
     assert!(
         ran.out
-            .contains("facts new, a/arch.txt: there is no reference"),
+            .contains("facts new, a/arch.txt: this reference file does not exist yet"),
         "{}",
         ran.out
     );
@@ -88,7 +88,7 @@ fn orphans_and_lost_references_fail() {
         ran.code == 1
             && ran
                 .out
-                .contains("svg new, a/arch.svg: there is no reference"),
+                .contains("svg new, a/arch.svg: this reference file does not exist yet"),
         "{}",
         ran.out
     );
