@@ -138,7 +138,7 @@ fn small_pictures_belong_to_the_longest_edges() {
     assert!(!longest.is_empty());
     assert_eq!(pictures.len(), longest.len());
     for (k, ((_, group), edge)) in pictures.iter().zip(&longest).enumerate() {
-        let title = format!("How it begins to fall beyond edge {}", k + 1);
+        let title = format!("How the structure begins to fall beyond edge {}", k + 1);
         assert_eq!(group.title, title);
         let arrow = paths(group).pop().expect("an arrow");
         let p: Vec<PagePoint> = arrow.outline.points().collect();

@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+use drystone::Analysis;
 use drystone::analysis::Contact;
 use serde_json::{Value, json};
 
 use super::measure::{frame, friction, horizontal, limit, tilt};
-use crate::structure::rectangle;
+use crate::structure::{rectangle, scene};
 
 /// An arch of `n` voussoirs with radial joints over `embrace` degrees, mean radius 1.
 pub struct Arch {
@@ -115,6 +116,25 @@ pub fn thrust_of_the_thinnest() -> f64 {
         .find(|c| c.interface.ends.iter().all(|p| p.x.abs() < 1e-9));
     let crown = crown.expect("an even number of voussoirs has a joint at the crown");
     crown.normal_forces.iter().sum::<f64>() / THIN
+}
+
+/// The least and the greatest horizontal thrust that balance the thinnest arch, over weight per length times radius. At
+/// the least thickness both are the only thrust that is possible.
+fn thrusts_of_the_thinnest() -> [f64; 2] {
+    static FOUND: OnceLock<[f64; 2]> = OnceLock::new();
+    *FOUND.get_or_init(|| {
+        let states = Analysis::new(scene(&on_the_line(THIN, 2.0))).thrust_states(0);
+        let both = [states.least, states.greatest];
+        both.map(|state| state.expect("an arch has a thrust").thrust / THIN)
+    })
+}
+
+pub fn least_thrust_of_the_thinnest() -> f64 {
+    thrusts_of_the_thinnest()[0]
+}
+
+pub fn greatest_thrust_of_the_thinnest() -> f64 {
+    thrusts_of_the_thinnest()[1]
 }
 
 /// The angle from the crown, degrees, and the radius of the resultant of a joint.

@@ -69,6 +69,8 @@ pub const CASES: &[Case] = &[
     row((ARCH, "the same, vertical joints"), ("0.1095", Ratio), ("MakrisAlexakis13", true), 0.2, arches::least_thickness_cut_vertically),
     row((ARCH, "thinnest semicircle, angle of the hinge from the crown"), ("54.4963", Degrees), ("Cocchetti20", true), 0.1, arches::hinge_of_the_thinnest),
     row((ARCH, "the same, thrust over weight per length and radius"), ("0.621772", Ratio), ("Cocchetti20", true), 0.02, arches::thrust_of_the_thinnest),
+    row((ARCH, "the same, least thrust that balances it"), ("0.621772", Ratio), ("Cocchetti20", true), 0.02, arches::least_thrust_of_the_thinnest),
+    row((ARCH, "the same, greatest thrust that balances it"), ("0.621772", Ratio), ("Cocchetti20", true), 0.02, arches::greatest_thrust_of_the_thinnest),
     row((ARCH, "the same, least friction"), ("0.395832", Ratio), ("Cocchetti20", true), 0.02, arches::friction_of_the_thinnest),
     row((ARCH, "the same, least friction"), ("0.395", Ratio), ("Sinopoli97", false), 0.4, arches::friction_of_the_thinnest),
     row((ARCH, "semicircle of any thickness, least friction"), ("0.309215", Ratio), ("Cocchetti20", true), 0.1, arches::friction_of_a_thick_arch),
