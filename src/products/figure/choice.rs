@@ -10,7 +10,7 @@ const MAX_LISTED_BLOCKS: usize = 12;
 pub(crate) const FREEBODY: &str = "freebody";
 /// One line that describes the free-body diagram.
 pub(crate) const FREEBODY_HELP: &str =
-    "One block as a free body, with names for all forces that may act on it";
+    "One block as a free body: all forces on it, with their names and a table of them";
 
 /// Finds the block for a free-body diagram by its name. Returns the last frame in which the block is placed, and the
 /// block. The name may be left out if the scene has only one block.

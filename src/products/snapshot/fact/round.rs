@@ -13,8 +13,8 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Chooses the decimal place at which the number `largest` has `digits` significant digits. If `largest` is not
-    /// positive and finite, 1 replaces it.
+    /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is zero, negative,
+    /// infinite or NaN, the place is chosen for 1 instead.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
         let sound = largest > 0.0 && largest.is_finite();
         let size = if sound { largest } else { 1.0 };
