@@ -112,7 +112,8 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING_TOL / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            // Friction below its limit can compensate for a rounding error along the contact.
+            // Along each contact, friction may change by the rounding error if the cone allows it. The friction force
+            // itself is a generator already; add only what it lacks.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));

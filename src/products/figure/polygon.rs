@@ -115,7 +115,7 @@ impl PanelContent for ForcePolygon {
         entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)) && !legend::is_limit(entry));
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
-            let what = "missing force as a side of the polygon".to_owned();
+            let what = "side of the polygon that shows a missing force".to_owned();
             entries.push(Entry::Sign(missing_sign, 26.0, what));
         }
         let frames = context.marks.iter().enumerate();
@@ -364,7 +364,7 @@ fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
             (false, 1) => format!("{amount_words} in the polygon of {}", listed(&frames)),
             (false, _) => format!("{amount_words} in the polygons of {}", listed(&frames)),
         };
-        (amount > 0.0).then(|| Entry::Scale(amount * scale, SCALE_WIDTH, words))
+        (amount > 0.0).then_some(Entry::Scale(amount * scale, SCALE_WIDTH, words))
     };
     groups.into_iter().filter_map(entry).collect()
 }

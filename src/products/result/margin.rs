@@ -1,5 +1,6 @@
-//! Writes margins as JSON. A margin is the limit value of a parameter, `null` if the frame falls at every value, or
-//! `"unbounded"` if it stands at every value.
+//! Writes margins as JSON. A margin is the limit value of a parameter, or `"unbounded"` if the frame stands at every
+//! value. It is `null` if there is no value to state: the frame falls at every value, the margin does not apply to the
+//! scene, or no verdict confirms it.
 //!
 //! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict confirms
 //! is also `null`; a notice of the frame then states the two values between which the margin lies. Margins that were

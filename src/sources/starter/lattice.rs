@@ -58,7 +58,7 @@ impl LatticePile {
                 });
             }
         }
-        // The ground is a strip of cells below y = 0, one cell wider than the pile at its right end.
+        // The ground is a strip of cells below y = 0. On the right it extends one side length beyond the pile.
         let strip = (0..=self.rows).flat_map(|x| [up(x, -1.0), down(x, 0.0)]);
         SceneFile {
             title: Some(format!("A pile of triangles in {} rows", self.rows)),

@@ -355,8 +355,8 @@ pub(crate) fn capacity_of(
     })
 }
 
-/// Computes the capacity of a block in one assembly. The set is empty if blocks that do not interact with this block
-/// fall.
+/// Computes the set of forces that a block can carry in one assembly. The set is empty if another component, which does
+/// not contain the block, falls.
 fn capacity_of_assembly(
     assembly: &Assembly,
     block: BlockId,

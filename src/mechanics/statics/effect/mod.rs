@@ -171,7 +171,7 @@ enum Applicability {
 }
 
 impl Applicability {
-    /// Returns the result for an effect that is skipped and would add no unknowns.
+    /// Returns the result for a skipped effect that saves no unknowns.
     fn skipped(reason: &str) -> Applicability {
         Applicability::skipped_saving(reason, 0)
     }

@@ -155,7 +155,7 @@ impl Row {
     }
 }
 
-/// Returns the name of a file without folders and without `.json`.
+/// Returns the name of a file without folders and without `.json`; `standard input` for `-`.
 pub(super) fn file_name(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = last.strip_suffix(".json").unwrap_or(last);

@@ -241,7 +241,7 @@ fn not_png_error(bytes: &[u8]) -> Option<PictureError> {
         b if b.starts_with(b"GIF8") => "it is a GIF",
         b if b.starts_with(b"RIFF") => "it is a WebP or another RIFF file",
         b if b.len() >= 7 && b[..7].iter().all(|b| *b == b'<') => "it contains a merge conflict",
-        [b'<', ..] => "it is SVG or another XML file",
+        [b'<', ..] => "it is an SVG or another XML file",
         b if b.iter().all(|b| *b == 0) => "all its bytes are zero",
         _ => "it begins with unknown bytes",
     }))

@@ -1,4 +1,5 @@
-//! [`Palette`]: chooses at most 256 colours for a picture, and records the rounding of each colour.
+//! [`Palette`]: chooses at most 256 colours for a picture, and records for each of them the largest rounding error of the
+//! colours that it replaces.
 //!
 //! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The algorithm
 //! is a variant of median cut (Heckbert 1982) that minimises the largest error:
