@@ -60,7 +60,7 @@ pub fn zonotope_gauge(generators: &[Vec3], point: Vec3) -> f64 {
     if longest == 0.0 || !longest.is_finite() || !norm(point).is_finite() {
         return f64::INFINITY;
     }
-    // Scale the generators to lengths of at most 1, so that products neither overflow nor underflow.
+    // Scale so that the longest generator has length 1; products of very long generators could overflow.
     let scaled = |v: &Vec3| v.map(|x| x / longest);
     let reduced = reduce(generators.iter().map(scaled));
     gauge_over_normals(&reduced, scaled(&point))

@@ -189,7 +189,7 @@ fn robots_that_do_not_matter_are_settled_in_groups() {
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
     let judged = |file: &Value| {
-        let frame = Analysis::with(&scene(file), &asked).frames.remove(0);
+        let frame = Analysis::with(scene(file), &asked).frames.remove(0);
         let mut effects = frame.effects.iter();
         let report = effects.find(|e| e.effect == EffectName::Margins);
         let reason = report.expect("always reported").why.clone();

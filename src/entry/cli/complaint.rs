@@ -120,8 +120,8 @@ impl CliError {
         }
     }
 
-    /// Writes the message for people. `width` is the number of columns of the terminal; `None` if the output is not a
-    /// terminal.
+    /// Returns the message for people. A quoted line of a scene file is shortened if it does not fit into `width`, the
+    /// number of columns of the terminal. `width` is `None` if the output is not a terminal.
     pub(crate) fn page(&self, width: Option<usize>) -> Page {
         let mut page = Page::default();
         match self {

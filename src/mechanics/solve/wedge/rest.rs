@@ -190,7 +190,7 @@ impl Springs<'_> {
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {
-                // Faces: T is the force of the spring, limited to the friction cone.
+                // Faces: the friction force is −ρ · slip, limited to ±μ(N₁ + N₂), up to the tolerance.
                 let limit = c.friction * normal[k].max(0.0);
                 let law = (-self.tangential_stiffness * slip[k]).clamp(-limit, limit);
                 (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)

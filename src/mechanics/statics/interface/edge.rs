@@ -239,7 +239,8 @@ impl Collection {
         self.interfaces.push(interface);
     }
 
-    /// Adds a contact that is too short for an interface. If it is longer than rounding, it becomes a sliver.
+    /// Records a contact that is too short for an interface, for the notice on short contacts. If its length exceeds the
+    /// rounding error of the coordinates, it is also kept as a sliver.
     fn add_short(&mut self, interface: Interface, tolerance: Tolerance) {
         self.notices.add_short(interface.length(), tolerance);
         if interface.length() > tolerance.rounding {

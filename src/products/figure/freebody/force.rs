@@ -197,7 +197,8 @@ impl ForceSource<'_> {
         forces
     }
 
-    /// Returns one force for each end of an interface: the sum of the normal and the friction force there.
+    /// Returns one force for each application point of an interface: the sum of the normal and the friction force
+    /// there. If the two points coincide, returns only one force.
     fn corner_forces(&self, number: usize, contact: &Contact) -> Vec<Force> {
         let (letter, accent) = match self.options.corners {
             Corners::All => ("x", Accent::None),
@@ -221,8 +222,8 @@ impl ForceSource<'_> {
         self.of_contact(contact, "Force", symbol, (contact.resultant.at, sum))
     }
 
-    /// Returns the ends of an interface with their forces on the block, numbered from 1. If the two ends coincide,
-    /// returns only one end.
+    /// Returns the application points of an interface with their forces on the block, numbered from 1. If the two
+    /// points coincide, returns only one.
     fn ends(&self, contact: &Contact) -> impl Iterator<Item = (usize, Corner)> {
         let count = distinct(contact).len();
         (1..).zip(corners(contact, self.block)).take(count)

@@ -1,4 +1,4 @@
-//! [`governing`]: finds the governing step of a scene; [`headline_words`] writes its margin.
+//! [`governing`] finds the governing step of a scene. [`headline_words`] states the most important margin of any frame.
 
 use super::bullet;
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};

@@ -8,7 +8,7 @@
 //! 2. The other colours start in one box. The box with the widest channel is cut in half until the palette is full.
 //! 3. Each box is represented by the colour next to its centre.
 //!
-//! The file stores the rounding of each colour as two hexadecimal digits. Without it, the comparison would have to allow
+//! The file stores the rounding error of each colour of the palette as two hexadecimal digits. Without it, the comparison would have to allow
 //! the largest rounding for every pixel.
 
 use std::collections::BTreeMap;

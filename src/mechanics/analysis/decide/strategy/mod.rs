@@ -1,4 +1,5 @@
-//! The strategies of route 3 and their order. Each strategy solves one program for forces, a motion, or both.
+//! The strategies of route 3 and their order. The first one is a closed form; each of the others solves one program for
+//! forces, a motion, or both.
 
 mod determinate;
 mod least_force;
@@ -59,7 +60,7 @@ pub(in crate::mechanics::analysis) enum LimitDistance {
     AtLimit,
 }
 
-/// One program that may decide a component.
+/// One way to decide a component: a closed form or a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Strategy {
     /// Closed form: forces that balance alone determines, and the mechanism if they are not admissible.

@@ -1,4 +1,4 @@
-//! Tables that compare the sums of forces and the margins of two frames.
+//! Tables that compare two frames in numbers: weight, sums of forces, largest force at an interface, and margins.
 
 use super::Side;
 use crate::analysis::FrameAnalysis;
