@@ -33,7 +33,7 @@ def test_sensitivities_are_those_of_the_program(steps):
     assert all(end.weights for end in found.ends)
     many = ds.check_many([steps], sensitivity="friction")
     assert many[0].frames[0].sensitivity.parameter == "friction"
-    with pytest.raises(ds.DrystoneError, match='friction or kernel, not "robots"'):
+    with pytest.raises(ds.DrystoneError, match='friction and kernel, not for "robots"'):
         ds.check(path, sensitivity="robots")
 
 
