@@ -152,7 +152,7 @@ fn what_is_no_whole_png_has_words_of_its_own() {
             "it is not a PNG: its line endings were converted",
         ),
         (b"\xff\xd8\xff\xe0", "it is not a PNG: it is a JPEG"),
-        (b"<svg/>", "it is not a PNG: it is SVG"),
+        (b"<svg/>", "it is not a PNG: it is an SVG"),
         (
             b"<<<<<<< HEAD\n",
             "it is not a PNG: it contains a merge conflict",
