@@ -385,6 +385,21 @@ fn every_block_of_the_doorway_has_a_capacity() {
     }
 }
 
+/// A force on a stone high in a gabled wall. Farther down, other mechanisms limit the downward forces: the last vertices
+/// before the unbounded edges are many times farther away than the first ones. Without them the set was withheld.
+#[test]
+fn far_vertices_before_an_unbounded_edge_are_found() {
+    let text = include_str!("../../assets/gallery/gabled-wall.json");
+    let scene = Scene::from_json(text).expect("valid");
+    let stone = scene.block_named("16-1").expect("the block exists");
+    let found = of(&scene, CapacityRequest::of_block(stone)).expect("a capacity");
+    let far = found.vertices.iter().map(|v| v.force[0].hypot(v.force[1]));
+    let near = far.clone().fold(f64::INFINITY, f64::min);
+    let far = far.fold(0.0, f64::max);
+    assert!(far > 10.0 * near, "{near} N to {far} N");
+    assert_eq!(found.rays.len(), 2);
+}
+
 /// Random sets against exact programs in 90 directions each: no vertex outside, and no direction short.
 /// `DRYSTONE_CAPACITY_SCENES=1000` looks at more scenes than an everyday run.
 #[test]

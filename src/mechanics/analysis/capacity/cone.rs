@@ -22,6 +22,10 @@ const MAX_STEP: f64 = 1.1;
 /// Two angles that differ by less than this, in radians, count as equal.
 const SAME_ANGLE: f64 = 1e-7;
 
+/// Where directions near the two outer directions are sampled, as shares of the interval of directions. The last vertices
+/// before an unbounded edge may be many times farther away than the others; only directions near the outer one find them.
+const NEAR_OUTER: [f64; 3] = [1e-4, 1e-3, 1e-2];
+
 /// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
 const MAX_FORCE_PER_SIZE: f64 = 10.0;
 
@@ -64,12 +68,19 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First compute samples in the inner directions of the interval. Their forces give the size of the set: if the
-        // interval is narrow, they may be far larger than the loads.
-        let least = if to - from > SAME_ANGLE { 2.0 } else { 1.0 };
-        let count = ((to - from) / MAX_STEP).ceil().max(least);
-        let inner = (1..count as usize).map(|k| from + (to - from) * k as f64 / count);
-        let mut inside: Vec<Sample> = inner.filter_map(|a| sample(probe, unit(a), None)).collect();
+        // First compute samples in the inner directions of the interval. Their forces give the size of the set: they may
+        // be far larger than the loads, most of all near the outer directions.
+        let count = ((to - from) / MAX_STEP).ceil().max(2.0);
+        let inner = (1..count as usize).map(|k| k as f64 / count);
+        let shares = NEAR_OUTER.into_iter().chain(inner);
+        let shares = shares.chain(NEAR_OUTER.into_iter().rev().map(|share| 1.0 - share));
+        let angles = shares.map(|share| from + (to - from) * share);
+        let mut inside: Vec<Sample> = match to - from > SAME_ANGLE {
+            true => angles
+                .filter_map(|a| sample(probe, unit(a), None))
+                .collect(),
+            false => Vec::new(),
+        };
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
         // Then compute samples in the two outer directions, at right angles to the unbounded edges.
