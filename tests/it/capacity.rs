@@ -393,7 +393,10 @@ fn far_vertices_before_an_unbounded_edge_are_found() {
     let scene = Scene::from_json(text).expect("valid");
     let stone = scene.block_named("16-1").expect("the block exists");
     let found = of(&scene, CapacityRequest::of_block(stone)).expect("a capacity");
-    let far = found.vertices.iter().map(|v| v.force[0].hypot(v.force[1]));
+    let far = found
+        .vertices
+        .iter()
+        .map(|v| libm::hypot(v.force[0], v.force[1]));
     let near = far.clone().fold(f64::INFINITY, f64::min);
     let far = far.fold(0.0, f64::max);
     assert!(far > 10.0 * near, "{near} N to {far} N");
