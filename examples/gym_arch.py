@@ -73,7 +73,27 @@ class DrystoneSolver:
         return self.session.release(robot) == "stable"
 
 
-class HighsSolver:
+class StepSolver:
+    """Keeps the placed voussoirs and those that robots hold, for solvers that decide each step anew with `stands`."""
+
+    def reset(self) -> None:
+        self.placed: set[int] = set()
+        self.held: dict[str, int] = {}
+
+    def place(self, robot: str, number: int) -> bool:
+        self.placed.add(number)
+        self.held[robot] = number
+        return self.stands()
+
+    def release(self, robot: str) -> bool:
+        del self.held[robot]
+        return self.stands()
+
+    def stands(self) -> bool:
+        raise NotImplementedError
+
+
+class HighsSolver(StepSolver):
     """Decides each step with a linear program for HiGHS. The joints are given here, while drystone finds them itself."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
@@ -91,19 +111,6 @@ class HighsSolver:
             self.centres.append(centre)
             self.weights.append(abs(area) * 100 * 9.81)
         self.reset()
-
-    def reset(self) -> None:
-        self.placed: set[int] = set()
-        self.held: dict[str, int] = {}
-
-    def place(self, robot: str, number: int) -> bool:
-        self.placed.add(number)
-        self.held[robot] = number
-        return self.stands()
-
-    def release(self, robot: str) -> bool:
-        del self.held[robot]
-        return self.stands()
 
     def stands(self) -> bool:
         numpy = self.numpy
@@ -158,7 +165,7 @@ class HighsSolver:
         return solved.status == 0
 
 
-class CraSolver:
+class CraSolver(StepSolver):
     """Decides the same steps with `rbe_solve` of compas_cra, which gets the joints of the whole arch. compas_cra has no
     robots; a held block is a support there, without a limit on its force."""
 
@@ -185,19 +192,6 @@ class CraSolver:
         self.joints = {edge: whole.graph.edge_attribute(edge, "interfaces") for edge in whole.graph.edges()}
         assert len(self.joints) == len(outlines) + 1
         self.reset()
-
-    def reset(self) -> None:
-        self.placed: set[int] = set()
-        self.held: dict[str, int] = {}
-
-    def place(self, robot: str, number: int) -> bool:
-        self.placed.add(number)
-        self.held[robot] = number
-        return self.stands()
-
-    def release(self, robot: str) -> bool:
-        del self.held[robot]
-        return self.stands()
 
     def stands(self) -> bool:
         there, fixed = self.placed | {self.ground}, {*self.held.values(), self.ground}

@@ -150,10 +150,11 @@ fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
     }
 }
 
-/// How near, relatively, an end of friction, kernel or limit is.
-const BESIDE: f64 = 1e-6;
-/// And absolutely: friction and kernel act in parts of the loads, of which verdicts tell no more than this apart.
-const SOLVED: f64 = 1e-7;
+/// The tolerance of an end of friction, kernel or limit, relative to the end.
+const RELATIVE_TOL: f64 = 1e-6;
+/// The absolute tolerance of such an end: friction and kernel change the forces by shares of the loads, and verdicts are
+/// true to this share of the loads.
+const ABSOLUTE_TOL: f64 = 1e-7;
 
 pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {
     let at = |mu: f64| with(file, "friction", mu);
@@ -162,12 +163,12 @@ pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Pro
         Err(withheld) => problems.push(format!("friction withheld: {withheld}")),
         Ok(None) => expect("friction none", &at(1000.0), false, problems),
         Ok(Some([low, _])) => {
-            let more = (low * (1.0 + BESIDE) + SOLVED).max(2e-6);
+            let more = (low * (1.0 + RELATIVE_TOL) + ABSOLUTE_TOL).max(2e-6);
             expect(&format!("friction {low}"), &at(more), true, problems);
             if low > 2e-6 {
                 expect(
                     &format!("friction {low}"),
-                    &at(low * (1.0 - BESIDE) - SOLVED),
+                    &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
                     false,
                     problems,
                 );
@@ -187,9 +188,14 @@ pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Probl
         Ok(Some([_, high])) => {
             let name = format!("kernel {high}");
             if high > 2e-6 {
-                expect(&name, &at(high * (1.0 - BESIDE) - SOLVED), true, problems);
+                expect(
+                    &name,
+                    &at(high * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
+                    true,
+                    problems,
+                );
             }
-            let more = (high * (1.0 + BESIDE) + SOLVED).max(2e-6);
+            let more = (high * (1.0 + RELATIVE_TOL) + ABSOLUTE_TOL).max(2e-6);
             if more < 1.0 {
                 expect(&name, &at(more), false, problems);
             }
@@ -295,9 +301,19 @@ pub(super) fn check_robots(file: &Value, found: &Intervals, problems: &mut Probl
                 Ok(None) => expect(&format!("{key} none"), &at(1e6), false, problems),
                 Ok(Some([low, _])) => {
                     let name = format!("{key} {low}");
-                    expect(&name, &at((low * (1.0 + BESIDE)).max(1e-5)), true, problems);
+                    expect(
+                        &name,
+                        &at((low * (1.0 + RELATIVE_TOL)).max(1e-5)),
+                        true,
+                        problems,
+                    );
                     if low > 1e-5 {
-                        expect(&name, &at(low * (1.0 - BESIDE) - SOLVED), false, problems);
+                        expect(
+                            &name,
+                            &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
+                            false,
+                            problems,
+                        );
                     }
                 }
             }

@@ -16,7 +16,7 @@ use super::super::words::{force, quantity, round_below_in};
 use crate::scene::Unit;
 
 /// Width of the fans, as a share of the structure's width.
-const WIDTH_SHARE: f64 = 0.42;
+const FAN_WIDTH_SHARE: f64 = 0.42;
 /// Height of the fans, as a share of the structure's height; and the gap between two fans.
 const HEIGHT_AND_GAP_SHARES: (f64, f64) = (0.8, 0.2);
 /// For the size of a fan, the width and the height of the structure count as at least this share of the larger of both.
@@ -85,7 +85,7 @@ impl Fans {
         let side = MIN_SIDE_SHARE * structure.width().max(structure.height());
         let (width, height) = (structure.width().max(side), structure.height().max(side));
         let gaps = HEIGHT_AND_GAP_SHARES.1 * height * (boxes.len() - 1) as f64;
-        let metres = (WIDTH_SHARE * width / widest)
+        let metres = (FAN_WIDTH_SHARE * width / widest)
             .min((HEIGHT_AND_GAP_SHARES.0 * height - gaps).max(0.2 * height) / high);
         let right = view::ground_shown(scene, unit)
             .map_or(structure.max.x, |ground| structure.max.x.max(ground.max.x));
