@@ -127,9 +127,9 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. An end
-    // that lies on this line (turn 0) needs no special treatment. It is not on the other segment itself, so both ends
-    // of the other segment lie on the same side of the first one.
+    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. If an
+    // end lies on that line but outside the other segment (those on the segment were found above), both ends of the
+    // other segment lie on the same side, so the segments do not cross.
     if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);

@@ -132,7 +132,8 @@ pub(crate) fn snapped<'b>(
             // No corner moved by more than rounding. Return the input bit for bit; it needs no check.
             outcome.bodies = Cow::Borrowed(bodies);
         }
-        // Check the result. Damaged bodies are marked to stay as drawn, and the next attempt snaps the others.
+        // Find the bodies that snapping has damaged. They keep their drawn corners in the next attempt, which snaps the
+        // other bodies again.
         let fresh: Vec<usize> = match &outcome.bodies {
             Cow::Borrowed(_) => Vec::new(),
             Cow::Owned(new) => {

@@ -73,7 +73,7 @@ impl ForceUnit {
 }
 
 impl UnitsEntry {
-    /// Returns the unit of length; metres if the file gives none.
+    /// Returns the unit of lengths in the scene file. The default is metres.
     pub fn length(&self) -> Unit {
         let (symbol, _, size) = self.length.unwrap_or_default().parts();
         Unit {

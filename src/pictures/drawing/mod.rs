@@ -149,7 +149,7 @@ impl Path {
         }
     }
 
-    /// Returns the same shape with a line along its outline. The line is drawn above the fill.
+    /// Returns the same path with a line along its outline. The line is drawn over the fill.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
         Path {
             stroke: Some(stroke),

@@ -118,7 +118,7 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// Returns the scene files in a folder, sorted by name. Any other path is returned unchanged.
+/// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),

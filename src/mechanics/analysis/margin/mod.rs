@@ -8,10 +8,9 @@
 //!
 //! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
 //! [`edge`] and [`newton`] search the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] those for the
-//! rotation of gravity, and [`grip_limit`] those for the limits of robots. An end is accepted only if the changed frame
-//! stands just inside it and falls just beyond it,
-//! with the same proofs as every verdict. The mechanism of an end is that of the fall just beyond it. [`Margins`]
-//! follow from the intervals.
+//! rotation of gravity, and [`grip_limit`] those for the limits of robots. An end is accepted only if it is
+//! proved that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
+//! mechanism just beyond it. [`Margins`] are derived from the intervals.
 
 mod edge;
 mod exclusion;

@@ -16,10 +16,11 @@ use crate::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{ExtremeValue, Tangent};
 
-/// The number of changed components that this process has decided.
+/// The number of verdicts on changed components, such as tilted or more heavily loaded ones, in this process.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
-/// Returns how many changed components this process has decided for margins. A progress bar uses this number.
+/// Returns the number of verdicts on changed components that this process has computed for margins. The progress bar
+/// shows this number.
 pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }

@@ -179,8 +179,8 @@ impl CornerShift {
         }
     }
 
-    /// Converts a derivative with respect to the centroid, `rate`, to the derivative with respect to this corner (x and
-    /// y).
+    /// Applies the chain rule: `rate` is the derivative with respect to the centroid of the block, and the result is the
+    /// derivative with respect to this corner. Both have the components x and y.
     fn of_centroid(&self, rate: Vector) -> Vector {
         Vector::new(rate.dot(&self.of_axes[0]), rate.dot(&self.of_axes[1]))
     }

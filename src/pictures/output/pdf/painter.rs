@@ -1,4 +1,4 @@
-//! [`PdfPainter`]: paints an SVG on a page of a PDF. The SVG is a tree that resvg has read.
+//! [`PdfPainter`]: draws an SVG image on a page of a PDF. Its input is the tree of shapes that resvg has parsed.
 
 use krilla::geom::Point;
 use krilla::paint::FillRule;

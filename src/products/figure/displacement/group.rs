@@ -11,7 +11,7 @@ use crate::scene::{BlockId, BodyId};
 const REST_TOL: f64 = 1e-3;
 
 /// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to the same rigid body if
-/// the contact between them is not in `joints`. The bodies are sorted by their first blocks.
+/// the contact between them is not in `joints`. The rigid bodies are in the order of their first blocks in the scene.
 pub(crate) fn rigid_bodies(
     analysis: &Analysis,
     frame: usize,
@@ -25,7 +25,7 @@ pub(crate) fn rigid_bodies(
 }
 
 /// Groups the motions of the moving blocks into connected components. Two blocks are connected if `joins` returns true
-/// for the index of a contact between them. The groups are sorted by their first blocks.
+/// for the index of a contact between them. The groups are in the order of their first blocks in the scene.
 pub(crate) fn connected_groups(
     analysis: &Analysis,
     frame: usize,

@@ -37,8 +37,8 @@ impl Chain {
     }
 }
 
-/// Returns the chains of a frame that have a thrust, at most [`MAX_CHAINS`]. The chain with the greatest thrust comes
-/// first.
+/// Returns the chains of blocks that have a horizontal thrust, sorted by decreasing thrust. At most [`MAX_CHAINS`] chains
+/// are returned.
 pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Chain> {
     let bearings = bearings(scene, frame_analysis);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];

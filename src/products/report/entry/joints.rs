@@ -197,8 +197,8 @@ impl<'a> Ranking<'a> {
         )
     }
 
-    /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. Empty if the
-    /// frame has more than [`MAX_JOINTS_WITH_TARGETS`] joints.
+    /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. The list is
+    /// empty if the frame has more than [`MAX_JOINTS_WITH_TARGETS`] joints.
     pub fn touches(&self) -> Vec<HoverTarget> {
         if self.frame_analysis.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
