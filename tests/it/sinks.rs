@@ -433,7 +433,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         &["result/", "scene/format.rs", "scene/format/"],
     ),
     (".literal(", &["cli/"]),
-    ("page.block(", &["cli/complaint.rs"]),
+    ("page.block(", &["cli/error.rs"]),
 ];
 
 #[test]

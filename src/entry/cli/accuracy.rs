@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::progress::{BarVisibility, Progress};
 use crate::cli::source;
 use crate::cli::terminal::Terminal;

@@ -4,6 +4,7 @@ mod csv;
 mod input;
 mod output;
 mod pace;
+mod picture;
 mod resume;
 
 use std::path::{Path, PathBuf};
@@ -14,23 +15,22 @@ use clap::Args;
 
 use crate::analysis::{Analysis, Options, Verdict, verdicts};
 use crate::batch::{Capacity, Record, Records, in_order};
-use crate::cli::complaint::CliError;
+use crate::cli::analysis_args::AnalysisArgs;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
-use crate::cli::level::AnalysisArgs;
-use crate::cli::look::StyleArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::margins::MarginArgs;
 use crate::cli::picture::{Format, Picture};
-use crate::cli::script;
+use crate::cli::style_args::StyleArgs;
 use crate::cli::terminal::Terminal;
 use crate::figure;
-use crate::output::file::Existing;
 use crate::output::fonts::Fonts;
 use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
 use crate::scene::{Code, Problem, Scene, isolate};
 use crate::text;
 use output::{Output, Target};
 use pace::BatchProgress;
+use picture::PictureOutput;
 use resume::Settings;
 
 /// The default width of a picture in pixels.
@@ -267,15 +267,6 @@ enum Form {
     Csv,
 }
 
-/// The options for pictures, and their folder.
-struct PictureOutput {
-    folder: PathBuf,
-    format: Format,
-    picture: Picture,
-    fonts: Fonts,
-    options: figure::Options,
-}
-
 /// A line of the output, with the exit status and the hash of its scene.
 struct OutputLine {
     line: String,
@@ -355,35 +346,6 @@ impl SceneWork {
             options.wedging = true;
         }
         options
-    }
-}
-
-impl PictureOutput {
-    /// Draws a scene and writes the picture file, before the output line of the scene is written. Returns the name of
-    /// the file, or the reason why the picture cannot be drawn.
-    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
-        let name = format!("{name}.{}", self.format.ending());
-        let legible = match self.picture.draws_words(self.format) {
-            true => Arc::new(script::legible(&analysis.scene, &self.fonts)),
-            false => Arc::clone(&analysis.scene),
-        };
-        let shown = Analysis {
-            scene: legible,
-            frames: analysis.frames.clone(),
-            notes: Vec::new(),
-        };
-        let drawing = figure::forces(&shown, &self.options);
-        match self.picture.bytes(drawing, self.format, &self.fonts) {
-            Ok(bytes) => {
-                let file = (self.folder.join(&name), bytes);
-                destination::write(&[file], Existing::Replace)?;
-                Ok(PictureOutcome::Drawn(name))
-            }
-            Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => {
-                Ok(PictureOutcome::Refused(why))
-            }
-            Err(other) => Err(other),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::analysis::{Options, typed_capacity};
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::scene::Scene;
 
 /// The block of which the carried forces are computed, and the cases in which they must be carried.

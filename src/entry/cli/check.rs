@@ -6,10 +6,10 @@ use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::analysis::{Analysis, Options, Verdict};
+use crate::cli::analysis_args::AnalysisArgs;
 use crate::cli::capacity::CapacityArgs;
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
-use crate::cli::level::AnalysisArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::margins::{MarginArgs, SensitivityMargin};
 use crate::cli::page::Page;
 use crate::cli::progress::{BarVisibility, Progress};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::cli::picture::Format;
 use crate::output::file::{Existing, same, write_whole};
 

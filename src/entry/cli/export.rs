@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::analysis::Analysis;
-use crate::cli::complaint::CliError;
+use crate::cli::analysis_args::AnalysisArgs;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
-use crate::cli::level::AnalysisArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::source::{self, FrameChoice};
 use crate::cli::terminal::Terminal;
 use crate::figure;

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
-use crate::cli::look::StyleArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::picture::Format;
+use crate::cli::style_args::StyleArgs;
 use crate::cli::terminal::Terminal;
 use crate::figure::{self, Plate};
 use crate::output::file::Existing;

@@ -6,9 +6,9 @@ use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
 use crate::cli::CommandLine;
-use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 

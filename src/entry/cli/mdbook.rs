@@ -4,8 +4,8 @@ use std::io::{self, Read};
 
 use clap::{Args, Subcommand};
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::report::book;
 

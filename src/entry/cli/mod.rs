@@ -19,15 +19,15 @@ mod accuracy;
 mod batch;
 pub(super) mod capacity;
 mod check;
-mod complaint;
+mod error;
 mod completions;
 mod destination;
-mod ending;
+mod exit_status;
 mod export;
 mod figures;
 mod import;
-mod level;
-mod look;
+mod analysis_args;
+mod style_args;
 mod man;
 pub(super) mod margins;
 mod mdbook;
@@ -38,7 +38,7 @@ mod progress;
 pub(super) mod render;
 mod report;
 mod schema;
-pub(super) mod script;
+pub(super) mod missing_glyphs;
 mod shapes;
 mod signal;
 mod snapshot;
@@ -54,8 +54,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::{OutputArgs, Terminal};
 
 const BEFORE_YOU_TRUST_IT: &str = "\

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 
-use crate::cli::complaint::CliError;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::output::file::Existing;
 use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::drawing::{Colour, Drawing};
 use crate::output::animation::Step;
 use crate::output::fonts::Fonts;

@@ -19,12 +19,12 @@ use output::{Rendered, all, summary, without_faults};
 use target::paths;
 
 use crate::analysis::{self, Analysis, Toward};
-use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
+use crate::cli::missing_glyphs;
 use crate::cli::picture::{Format, or_split};
 use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::script;
 use crate::cli::source::{self, Source};
 use crate::cli::terminal::Terminal;
 use crate::cli::watch;
@@ -99,7 +99,7 @@ impl Render {
         let rendered = all(rendered)?;
         let ending = rendered.iter().map(|r| r.ending).max();
         if self.picture.draws_words(format) {
-            script::warn(&sources, &fonts, terminal);
+            missing_glyphs::warn(&sources, &fonts, terminal);
         }
         self.write(rendered, &destination, &paths, terminal)
             .map_err(one)?;
@@ -239,7 +239,7 @@ impl Render {
         progress.doing(&source.name());
         let options = &self.zoomed(source, options)?;
         let scene = if self.picture.draws_words(format) {
-            script::legible(&source.scene, fonts)
+            missing_glyphs::legible(&source.scene, fonts)
         } else {
             source.scene.clone()
         };

@@ -13,14 +13,14 @@ use content::{entry, make_figures_legible};
 use task::Task;
 
 use crate::analysis::{self, Analysis, MarginKind, MarginKinds};
-use crate::cli::complaint::CliError;
+use crate::cli::analysis_args::AnalysisArgs;
 use crate::cli::destination;
-use crate::cli::ending::ExitStatus;
-use crate::cli::level::AnalysisArgs;
-use crate::cli::look::StyleArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
+use crate::cli::missing_glyphs;
 use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::script;
 use crate::cli::source::{self, Source};
+use crate::cli::style_args::StyleArgs;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 use crate::output::file::Existing;
@@ -306,7 +306,7 @@ impl Report {
         if form == Form::Pdf {
             // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
             for (source, _) in &mut read {
-                source.scene = script::legible(&source.scene, &Fonts::default());
+                source.scene = missing_glyphs::legible(&source.scene, &Fonts::default());
             }
         }
         let analyses: Vec<Analysis> = read

@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::result;
 

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::ExitStatus;
-use crate::cli::look::StyleArgs;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::picture::Picture;
+use crate::cli::style_args::StyleArgs;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 use crate::figure;

@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::scene::{Scene, isolate};
 
 /// A scene and where it came from.

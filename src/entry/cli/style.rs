@@ -3,8 +3,8 @@
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 

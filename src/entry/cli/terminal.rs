@@ -10,7 +10,7 @@ use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 use terminal_size::{Height, Width};
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::cli::page::Page;
 
 /// The options for messages and colours.

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 
 /// The time between two comparisons.

@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 
 use super::{Ring, fault};
 use crate::analysis::Analysis;
+use crate::cli::missing_glyphs;
 use crate::cli::render::embedded;
-use crate::cli::script;
 use crate::drawing::Theme;
 use crate::geometry::Polygon;
 use crate::output::file::{Existing, write_whole};
@@ -104,7 +104,7 @@ pub(super) fn report(
     let mut analysis = analysis.clone();
     if form == Form::Pdf {
         // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
-        analysis.scene = Arc::new(script::legible(&analysis.scene, &Fonts::default()));
+        analysis.scene = Arc::new(missing_glyphs::legible(&analysis.scene, &Fonts::default()));
     }
     let report_options = ReportOptions {
         theme: chosen,

@@ -1,7 +1,7 @@
 //! Draws figures as SVG for the WebAssembly module.
 
 use super::Refusal;
-use super::look::FigureOptions;
+use super::figure_options::FigureOptions;
 use super::option::{self, deadline, scene};
 use crate::analysis::{self, Analysis};
 use crate::figure::{self, Kind};

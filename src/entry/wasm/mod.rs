@@ -10,7 +10,7 @@ mod draw;
 mod drawing;
 mod error;
 mod examine;
-mod look;
+mod figure_options;
 mod option;
 mod session;
 

@@ -187,19 +187,25 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
         group = group.with(Path::filled(Outline::circle(at, DOT_RADIUS), colour));
     }
     if !plan.is_apart {
-        let at = pen.camera.place(plan.zero);
-        if !plan.capacity.contains([0.0, 0.0]) {
-            // The block cannot carry the force 0. An arrow from the dot to the middle of the polygon shows that all
-            // forces begin at the dot.
-            let to = pen.camera.place(plan.middle());
-            let along = (to.x - at.x, to.y - at.y);
-            ink.arrow(at, along, 2.0);
-            group = group.with(Path::filled(straight(at, along, 2.0), colour));
-        }
-        ink.disc(at, DOT_RADIUS + 1.0);
-        group = group.with(dot(at, theme));
+        group = with_zero(group, pen, plan, ink);
     }
     group
+}
+
+/// Adds a dot for the force 0.
+fn with_zero(mut group: Group, pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
+    let theme = &pen.context.options.theme;
+    let at = pen.camera.place(plan.zero);
+    if !plan.capacity.contains([0.0, 0.0]) {
+        // The block cannot carry the force 0. An arrow from the dot to the middle of the polygon shows that all forces
+        // begin at the dot.
+        let to = pen.camera.place(plan.middle());
+        let along = (to.x - at.x, to.y - at.y);
+        ink.arrow(at, along, 2.0);
+        group = group.with(Path::filled(straight(at, along, 2.0), edge_colour(theme)));
+    }
+    ink.disc(at, DOT_RADIUS + 1.0);
+    group.with(dot(at, theme))
 }
 
 /// Draws a dotted line from the loaded point to a polygon that is drawn apart from it. Marks the loaded point, or the
@@ -258,18 +264,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
         "How the structure begins to fall beyond edge {}",
         small.number
     ));
-    let mut ground = Group {
-        clip: Some(shown),
-        ..Group::with_class("ground")
-    };
-    for body in &scene.ground {
-        let mut outline = Outline::default();
-        for ring in body.body.polygon.rings() {
-            outline.extend(Outline::ring(ring.iter().map(|p| place(*p))));
-        }
-        ground = ground.with(Path::filled(outline, theme.ground));
-    }
-    group = group.with(ground);
+    group = group.with(small_ground(pen, shown, &place));
     let (mut rest, mut was, mut goes) =
         (Outline::default(), Outline::default(), Outline::default());
     for id in &scene.frames[pen.number].placed {
@@ -313,6 +308,22 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
         edge_colour(theme),
     );
     group.with(number.anchored(Anchor::End))
+}
+
+/// Draws the ground in a small picture. `place` converts a point of the scene to a point of the page.
+fn small_ground(pen: &Pen<'_>, shown: PageRect, place: &impl Fn(Point) -> PagePoint) -> Group {
+    let mut ground = Group {
+        clip: Some(shown),
+        ..Group::with_class("ground")
+    };
+    for body in &pen.context.analysis.scene.ground {
+        let mut outline = Outline::default();
+        for ring in body.body.polygon.rings() {
+            outline.extend(Outline::ring(ring.iter().map(|p| place(*p))));
+        }
+        ground = ground.with(Path::filled(outline, pen.context.options.theme.ground));
+    }
+    ground
 }
 
 fn edge_colour(theme: &Theme) -> crate::drawing::Colour {

@@ -6,7 +6,6 @@
 
 use core::cell::{Cell, OnceCell};
 
-use super::apart::separate_parallel_arrows;
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::context::FigureContext;
 use super::displacement::Course;
@@ -14,6 +13,7 @@ use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
 use super::option::{ArrowScale, Options};
+use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
 use super::unit::unit;
 use super::verdict;
@@ -168,7 +168,7 @@ impl<'a> FigureContext<'a> {
             thrust: OnceCell::new(),
             cramped: Cell::new(0),
         };
-        context.move_blocks(options.way);
+        context.move_blocks(options.motion_progress);
         context.statements = frames
             .map(|frame| content.reason(&context, frame))
             .collect();

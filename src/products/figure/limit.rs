@@ -70,7 +70,7 @@ const EQUAL_SHARE_TOL: f64 = 1e-6;
 const MIN_NAMED_SHARE: f64 = 0.01;
 
 /// Largest number of joints at their limit that are named.
-const MOST_NAMED: usize = 3;
+const MAX_NAMED: usize = 3;
 
 /// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
 /// its limit, provided that the text of the figure names it.
@@ -150,7 +150,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     match at_limit {
         0 => format!("nearest to its limit (open diamond): the joint between {pair}, {how}"),
         1 => format!("at its limit in the forces shown: the joint between {pair}, {how}"),
-        n if n <= MOST_NAMED => {
+        n if n <= MAX_NAMED => {
             let joints: Vec<String> = all.iter().filter(|n| n.reached()).map(named).collect();
             let joints = listed(&joints);
             format!("at their limit in the forces shown: the joints {joints}")

@@ -4,7 +4,7 @@
 //! [`Drawing`](crate::drawing::Drawing). No verdict depends on computations in this folder. The [`Kind`] of a figure
 //! determines its content; each kind is in a separate file.
 
-mod apart;
+mod parallel_arrows;
 mod arrow;
 mod bearing;
 mod broken;

@@ -89,7 +89,7 @@ pub struct Options {
     /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
     pub toward: Toward,
     /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
-    pub way: f64,
+    pub motion_progress: f64,
     /// The number of panels in a row; `None` to choose it by the shape of the panels.
     pub columns: Option<usize>,
     /// Colours, widths and font sizes.
@@ -131,7 +131,7 @@ impl Default for Options {
             fill: Fill::default(),
             corners: Corners::default(),
             toward: Toward::default(),
-            way: 1.0,
+            motion_progress: 1.0,
             columns: None,
             theme: Theme::default(),
             titles: true,
@@ -158,7 +158,7 @@ impl Options {
         fill: Fill, "The quantity that the colours of blocks show, such as stresses.";
         corners: Corners, "Which forces of interfaces a free-body diagram shows.";
         toward: Toward, "The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.";
-        way: f64, "How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.";
+        motion_progress: f64, "How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.";
         theme: Theme, "Colours, widths and font sizes.";
         titles: bool, "Whether the title of the figure is drawn.";
         captions: bool, "Whether the captions of frames are drawn.";

@@ -4,6 +4,8 @@
 //! The forces shown are one of many equilibrium states. In another state, some joints may use less friction, and other
 //! joints more.
 
+mod sign;
+
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
 use super::content::{About, PanelContent};
@@ -16,9 +18,10 @@ use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::scene::Scene;
+use sign::{SIGN_WIDTH, full_sign, idle_sign, smooth_sign};
 
 /// Width of the line of an interface, unit edges; its least and its largest width, pixels.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
@@ -378,30 +381,4 @@ fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
         group.items.push(drawn.into());
     }
     group
-}
-
-const SIGN_WIDTH: f64 = 26.0;
-
-fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
-    let middle = at.moved(SIGN_WIDTH / 2.0, 0.0);
-    let bar = Outline::line([middle.moved(0.0, -7.0), middle.moved(0.0, 7.0)]);
-    vec![
-        rimmed(line.clone(), 4.5, 0.7, theme).into(),
-        Path::stroked(line, Stroke::new(theme.amplitude(1.0), 4.5)).into(),
-        Path::stroked(bar, Stroke::new(theme.ink, 1.4)).into(),
-    ]
-}
-
-fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
-    vec![
-        rimmed(line.clone(), 4.5, 0.7, theme).into(),
-        Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
-    ]
-}
-
-fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
-    vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]
 }

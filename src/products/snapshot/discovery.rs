@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::file_kind::{has_reference_mark, looks_like_scene};
 use super::filter::Filter;
 use super::reference::{Part, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::scene::{Code, Scene, SceneError, isolate};
+use crate::scene::{Scene, SceneError, isolate};
 
 /// An error in the input of a check.
 #[derive(Debug, thiserror::Error)]
@@ -364,38 +365,4 @@ impl SnapshotSearch {
         }
         orphans
     }
-}
-
-/// True if a file is a scene or a damaged scene. A scene has the key `"drystone"`. A damaged scene is not valid JSON,
-/// but looks like a scene.
-fn looks_like_scene(bytes: &[u8]) -> bool {
-    let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
-    if has(b"\"drystone\"") {
-        return true;
-    }
-    let is_meant = has(b"drystone") || has(b"blocks") || has(b"polygon");
-    let is_empty = bytes.iter().all(u8::is_ascii_whitespace);
-    if !is_meant && !is_empty && std::str::from_utf8(bytes).is_ok() {
-        return false;
-    }
-    let is_damage = |code| {
-        matches!(
-            code,
-            Code::NotUtf8 | Code::EmptyFile | Code::EndsEarly | Code::NotJson | Code::OtherFormat
-        )
-    };
-    match isolate("a file", || Scene::from_slice(bytes)) {
-        Ok(Err(problems)) => problems.list.iter().any(|problem| is_damage(problem.code)),
-        _ => false,
-    }
-}
-
-/// True if the first 4 KiB of a file contain a mark that identifies it as a reference of a scene.
-fn has_reference_mark(path: &Path) -> bool {
-    use std::io::Read;
-    let mut head = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
-    let marks: [&[u8]; 2] = [b"drystone facts ", b"drystone-snapshot\0scene"];
-    read.is_ok()
-        && (head.starts_with(marks[0]) || head.windows(marks[1].len()).any(|w| w == marks[1]))
 }

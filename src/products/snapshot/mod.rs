@@ -20,6 +20,7 @@ pub mod assertion;
 pub mod check;
 pub mod ci;
 pub mod discovery;
+mod file_kind;
 mod filter;
 pub mod element;
 pub mod fact;

@@ -24,7 +24,7 @@ const OFF: f64 = 1e-3;
 const CLEAR: f64 = 0.02;
 
 /// The exact programs of more blocks take long.
-const MOST_BLOCKS: usize = 5;
+const MAX_BLOCKS: usize = 5;
 
 /// What one scene gave with one tolerance.
 struct Found {
@@ -49,7 +49,7 @@ fn found(number: u64) -> Vec<Found> {
     let Some(written) = sound(&file).filter(|_| random::KINDS[kind].1 && kind >= 2) else {
         return Vec::new();
     };
-    if written.blocks().len() > MOST_BLOCKS {
+    if written.blocks().len() > MAX_BLOCKS {
         return Vec::new();
     }
     let touches = touch::touches(&written);

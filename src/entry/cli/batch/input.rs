@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::batch::{Input, Record};
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::result::Origin;
 
 /// The inputs of a batch.

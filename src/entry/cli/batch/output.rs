@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use super::resume::{self, ResumeFile, Settings};
 use super::{Form, csv};
 use crate::batch::Records;
-use crate::cli::complaint::CliError;
 use crate::cli::destination;
+use crate::cli::error::CliError;
 
 /// Lines are collected, and written as soon as they have this many bytes.
 const BUFFER_BYTES: usize = 1 << 16;

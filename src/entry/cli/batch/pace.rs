@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use crate::analysis::Verdict;
-use crate::cli::ending::ExitStatus;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::clock::Instant;
 use crate::wording::verdict::counted;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use super::input;
 use crate::batch::{Record, Records};
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::result::Origin;
 use crate::text;
 

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Normalise};
+use crate::cli::analysis_args::AnalysisArgs;
 use crate::cli::capacity::CapacityArgs;
-use crate::cli::level::AnalysisArgs;
-use crate::cli::look::StyleArgs;
 use crate::cli::margins::SensitivityMargin;
 use crate::cli::picture::Picture;
 use crate::cli::source::FrameChoice;
+use crate::cli::style_args::StyleArgs;
 
 /// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
 #[derive(Debug, Args)]

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::Render;
 use super::target::paths;
-use crate::cli::complaint::CliError;
 use crate::cli::destination::{self, Destination};
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::picture::Format;
 use crate::cli::source::{isolated, name};
 use crate::cli::terminal::Terminal;

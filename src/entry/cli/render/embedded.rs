@@ -5,9 +5,9 @@ use clap::Parser;
 
 use super::{ANIMATION_WIDTH, Render};
 use crate::analysis::{Analysis, Options};
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
+use crate::cli::missing_glyphs;
 use crate::cli::picture::Format;
-use crate::cli::script;
 use crate::cli::source::Source;
 use crate::drawing::Drawing;
 use crate::figure;
@@ -74,8 +74,8 @@ pub(crate) fn figure(
             scene: (*analysis.scene).clone(),
         };
         let options = render.zoomed(&source, &options)?;
-        if render.picture.draws_words(format) && script::lacks(&analysis.scene, &fonts) {
-            analysis.scene = script::legible(&analysis.scene, &fonts).into();
+        if render.picture.draws_words(format) && missing_glyphs::lacks(&analysis.scene, &fonts) {
+            analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
         }
         match render.animate {
             None => {

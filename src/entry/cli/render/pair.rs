@@ -3,11 +3,11 @@
 use super::choice::KindChoice;
 use super::{Render, Rendered, summary};
 use crate::analysis::{self, Analysis};
-use crate::cli::complaint::CliError;
 use crate::cli::destination::Destination;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
+use crate::cli::missing_glyphs;
 use crate::cli::picture::Format;
-use crate::cli::script;
 use crate::cli::source::Source;
 use crate::figure;
 use crate::output::fonts::Fonts;
@@ -36,7 +36,7 @@ impl Render {
         }
         let scenes = sources.map(|source| {
             if self.picture.draws_words(format) {
-                script::legible(&source.scene, fonts)
+                missing_glyphs::legible(&source.scene, fonts)
             } else {
                 source.scene.clone()
             }

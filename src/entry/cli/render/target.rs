@@ -3,8 +3,8 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::cli::complaint::CliError;
 use crate::cli::destination::Destination;
+use crate::cli::error::CliError;
 use crate::cli::picture::Format;
 use crate::cli::source::{name, stem};
 

@@ -1,7 +1,7 @@
 //! [`entry`]: the content of a report on one scene, or on two scenes that are compared.
 
 use crate::analysis::Analysis;
-use crate::cli::script;
+use crate::cli::missing_glyphs;
 use crate::cli::source::Source;
 use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
@@ -39,12 +39,12 @@ pub(super) fn make_figures_legible(
     report_options: &ReportOptions,
 ) {
     let fonts = Fonts::default();
-    let lacks = |analysis: &Analysis| script::lacks(&analysis.scene, &fonts);
+    let lacks = |analysis: &Analysis| missing_glyphs::lacks(&analysis.scene, &fonts);
     if !analyses.iter().any(lacks) {
         return;
     }
     for analysis in &mut analyses {
-        analysis.scene = script::legible(&analysis.scene, &fonts).into();
+        analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
     }
     if let Some(drawn) = self::entry(read, &analyses, report_options) {
         entry.take_figures(drawn);

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 
 /// The name of the file in the folder that `examples/playground/build.sh` makes.
 const NAME: &str = "interactive.js";

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Report;
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 
 /// A scene in a report, or two that it compares.
 pub(super) enum Task {

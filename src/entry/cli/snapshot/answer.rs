@@ -6,8 +6,8 @@ use std::io::{self, BufRead};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::cli::complaint::CliError;
-use crate::cli::ending::ExitStatus;
+use crate::cli::error::CliError;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::page::Page;
 use crate::cli::terminal::Terminal;
 use crate::snapshot::outcome::{Acceptance, CheckOutcome, Snapshot};

@@ -79,7 +79,7 @@ pub struct Margins {
     /// The values of each parameter at which it stands. All other fields follow from them.
     pub intervals: Intervals,
     /// The smallest friction coefficient, the same at every interface, with which it stands; 0 if it needs none.
-    /// [`Margin::None`] if it falls at [`Margins::MOST_FRICTION`].
+    /// [`Margin::None`] if it falls at [`Margins::MAX_FRICTION`].
     pub friction: Margin,
     /// The largest rotation of gravity to each side, in degrees; loads do not rotate. To the right means that the tip
     /// of the gravity vector moves to the right. [`Margin::None`] if the frame falls without rotation, even if it
@@ -98,7 +98,7 @@ pub struct Margins {
 
 impl Margins {
     /// The largest friction coefficient that is tried.
-    pub const MOST_FRICTION: f64 = 1e3;
+    pub const MAX_FRICTION: f64 = 1e3;
 
     /// Returns the smallest load factor with which the frame stands, and the mechanism by which it falls below this
     /// factor. `None` if the frame also has a largest load factor, or if there is no such mechanism.

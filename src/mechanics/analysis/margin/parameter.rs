@@ -51,7 +51,7 @@ fn friction(trial: &mut Trial) -> Interval {
         friction: Some(mu),
         ..Setting::default()
     };
-    Threshold::smallest_stable(Margins::MOST_FRICTION).search(trial, &setting)
+    Threshold::smallest_stable(Margins::MAX_FRICTION).search(trial, &setting)
 }
 
 fn kernel(trial: &mut Trial) -> Interval {

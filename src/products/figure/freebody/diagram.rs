@@ -3,10 +3,10 @@
 
 use super::super::option::{Corners, Options};
 use super::super::unit::unit;
-use super::apart::separate_arrows;
 use super::around::{aside, corners, distinct, inward};
 use super::arrow::{Arrow, MAX_LENGTH, SHAFT_WIDTH};
 use super::force::{Detail, Force, detail, largest};
+use super::parallel_arrows::separate_arrows;
 use crate::analysis::{Analysis, Contact};
 use crate::drawing::Camera;
 use crate::drawing::symbol::{Accent, Symbol};

@@ -10,7 +10,7 @@
 //!
 //! Bodies that touch the block are outlined, and ground is hatched.
 
-mod apart;
+mod parallel_arrows;
 mod around;
 mod arrow;
 mod diagram;

@@ -11,16 +11,16 @@ mod lettering;
 mod name;
 mod obstacle;
 mod solid;
-mod spoken;
+mod mention;
 
 pub(crate) use amount::{CROWDED_AMOUNTS, Callout, EQUAL_FORCE_TOL, MAX_AMOUNTS};
 pub(crate) use obstacle::ink;
 
 use amount::{amounts, called_out};
 use lettering::{Label, drawn, drawn_over, middle};
+use mention::names;
 use name::{name, robots};
 use solid::DrawnBoxes;
-use spoken::names;
 
 use super::context::FigureContext;
 use super::pen::Pen;

@@ -129,11 +129,11 @@ impl ArrowMaker<'_> {
             ArrowKind::MissingPull(_) => {
                 // The arrows on the two blocks end a little before the joint, so that their heads do not touch.
                 let length = vector.norm();
-                at - vector * ((length + 0.6 * apart::ARROW_GAP * width) / length)
+                at - vector * ((length + 0.6 * parallel_arrows::ARROW_GAP * width) / length)
             }
             ArrowKind::MissingFriction(_) => {
                 let left = quarter_turn(vector) / vector.norm();
-                let across = left * (0.5 * (1.0 + apart::ARROW_GAP) * width);
+                let across = left * (0.5 * (1.0 + parallel_arrows::ARROW_GAP) * width);
                 let polygon = &self.scene.blocks[block.0].body.polygon;
                 match polygon.contains(at + across * 0.1) {
                     true => at + across,

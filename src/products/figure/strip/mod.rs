@@ -62,7 +62,7 @@ pub(crate) fn pages(
     options: &Options,
     frames: impl Iterator<Item = usize>,
 ) -> Vec<Drawing> {
-    let steps = frames.map(|frame| (frame, options.way));
+    let steps = frames.map(|frame| (frame, options.motion_progress));
     steps_of(analysis, content, options, steps)
 }
 

@@ -107,6 +107,7 @@ impl Page<'_> {
         Text::new(at, words, face, FONT_SIZES.1, self.theme.faint).into()
     }
 
+    /// Draws the title and the heads of the columns, with the ticks below them.
     fn head(&self, frames: usize) -> Vec<Item> {
         let theme = self.theme;
         let title = "What accuracy costs";
@@ -147,6 +148,14 @@ impl Page<'_> {
                 Face::SansBold,
             ));
         }
+        items.extend(self.ticks());
+        items
+    }
+
+    /// Draws the ticks of the two axes and the numbers above the columns of tolerances.
+    fn ticks(&self) -> Vec<Item> {
+        let theme = self.theme;
+        let mut items: Vec<Item> = Vec::new();
         let mut tick = |x: f64, words: String, line: bool| {
             let at = PagePoint::new(x, FIRST_ROW_TOP - 10.0);
             let text = Text::new(at, words, Face::Sans, FONT_SIZES.1, theme.faint)

@@ -2,7 +2,7 @@
 //! of robots.
 
 use super::unit::Units;
-use super::{Grid, HoverTarget, TableCell, touch};
+use super::{Grid, HoverTarget, TableCell, hover};
 use crate::analysis::{Contact, Failure, FrameAnalysis, Verdict};
 use crate::interface::ContactKind;
 use crate::scene::Unit;
@@ -231,7 +231,7 @@ impl<'a> Ranking<'a> {
             .enumerate()
             .map(|(number, robot)| {
                 let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
-                touch::target(format!("r{number}"), &words, robot.at)
+                hover::target(format!("r{number}"), &words, robot.at)
             });
         let failures = self
             .frame_analysis
@@ -240,7 +240,7 @@ impl<'a> Ranking<'a> {
             .enumerate()
             .map(|(number, failed)| {
                 let words = format!("Failure: {}", missing(self.scene, failed, self.units));
-                touch::target(format!("f{number}"), &words, failed.at())
+                hover::target(format!("f{number}"), &words, failed.at())
             });
         joints.chain(robots).chain(failures).collect()
     }

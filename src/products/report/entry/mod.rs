@@ -17,16 +17,16 @@ mod part;
 mod row;
 mod sheet;
 mod steps;
-mod story;
-mod touch;
+mod verdict_text;
+mod hover;
 mod unit;
 
 pub use bullet::{BarEnd, MarginBar};
 pub use comparison::{Side, compared};
 pub use grid::{Grid, Line, TableCell};
+pub use hover::{HoverTarget, touched};
 pub use part::{Badge, Chart, Figure, Section, SheetPart};
 pub use row::{Row, Thumbnail};
-pub use touch::{HoverTarget, touched};
 
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::Theme;

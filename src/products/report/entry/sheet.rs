@@ -6,7 +6,7 @@ use super::joints::{Ranking, robots};
 use super::unit::Units;
 use super::{
     Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs,
-    story,
+    verdict_text,
 };
 use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
 use crate::drawing::Drawing;
@@ -183,8 +183,14 @@ fn figures(
         Some((one(&options)?, dark.as_ref().and_then(one)))
     };
     let mut figures = Vec::new();
-    let mut add = |caption: &str, kind: Kind, change: &dyn Fn(&mut Options)| {
-        if let Some((drawing, dark)) = drawn(kind, change) {
+    for (kind, caption) in kinds_of_figures(frame_analysis) {
+        let toward = verdict_text::toward(frame_analysis).filter(|_| kind == Kind::Margin);
+        let change = |options: &mut Options| {
+            if let Some(toward) = toward {
+                options.toward = toward;
+            }
+        };
+        if let Some((drawing, dark)) = drawn(kind, &change) {
             let touches = match figures.is_empty() {
                 true => ranking.touches(),
                 false => Vec::new(),
@@ -197,36 +203,39 @@ fn figures(
                 subject: Some((kind, number)),
             });
         }
-    };
-    let same: &dyn Fn(&mut Options) = &|_| {};
+    }
+    figures
+}
+
+/// Returns the kinds of the figures of a frame, with their captions.
+fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)> {
+    let mut kinds = Vec::new();
     match frame_analysis.verdict {
         Verdict::Unstable => {
             if !frame_analysis.mechanism.is_empty() {
-                let words =
+                let caption =
                     "How the structure begins to fall. Dashed: the blocks before they move.";
-                add(words, Kind::Mechanism, same);
+                kinds.push((Kind::Mechanism, caption));
             }
-            let words = match frame_analysis.failures.is_empty() {
+            let caption = match frame_analysis.failures.is_empty() {
                 true => "The forces on every block.",
                 false => "The forces on every block; missing forces have the colour of failures.",
             };
-            add(words, Kind::Forces, same);
+            kinds.push((Kind::Forces, caption));
         }
-        _ => {
-            let (kind, words) = match frame_analysis.contacts.is_empty()
-                || frame_analysis.verdict == Verdict::Undecided
-            {
-                true => (Kind::Forces, "The forces on every block."),
-                false => (Kind::Flow, "How the forces run from joint to joint."),
-            };
-            add(words, kind, same);
-            if let Some(toward) = story::toward(frame_analysis) {
-                let words = "How the structure would fall just beyond its margin.";
-                add(words, Kind::Margin, &|options| options.toward = toward);
+        verdict => {
+            let has_flow = !frame_analysis.contacts.is_empty() && verdict != Verdict::Undecided;
+            kinds.push(match has_flow {
+                true => (Kind::Flow, "How the forces run from joint to joint."),
+                false => (Kind::Forces, "The forces on every block."),
+            });
+            if verdict_text::toward(frame_analysis).is_some() {
+                let caption = "How the structure would fall just beyond its margin.";
+                kinds.push((Kind::Margin, caption));
             }
         }
     }
-    figures
+    kinds
 }
 
 /// Describes where the frame fails first, and what would change its verdict.
@@ -239,8 +248,10 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
             .chain(words)
             .collect::<Vec<_>>()
     };
-    let first: Vec<String> = story::fails_first(analysis, number).into_iter().collect();
-    let take = story::changes_of_verdict(scene, frame_analysis);
+    let first: Vec<String> = verdict_text::fails_first(analysis, number)
+        .into_iter()
+        .collect();
+    let take = verdict_text::changes_of_verdict(scene, frame_analysis);
     let take = match take.is_empty() {
         true => take,
         false => vec![take.join(" ")],

@@ -2,7 +2,7 @@
 
 use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::Point;
-use crate::report::entry::touch::onto_scene;
+use crate::report::entry::hover::onto_scene;
 use crate::scene::Scene;
 
 /// The smallest and largest radius of the ring around a changed force, in pixels.

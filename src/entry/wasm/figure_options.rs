@@ -121,7 +121,7 @@ impl FigureOptions {
             columns: self.columns.filter(|n| *n > 0).map(usize::from),
             amounts: self.amounts,
             width: self.width_px.or(self.width_mm.map(page_width)),
-            way: self.way.unwrap_or(1.0).clamp(0.0, 1.0),
+            motion_progress: self.way.unwrap_or(1.0).clamp(0.0, 1.0),
             theme: self.theme()?,
             zoom,
             ..figure::Options::default()

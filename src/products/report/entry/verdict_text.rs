@@ -148,6 +148,7 @@ pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) 
         .collect()
 }
 
+/// Describes the change of one parameter that would change the verdict. `None` if there is none to describe.
 fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     if matches!(margin.interval, Interval::Undecided) {
         return None;
@@ -162,39 +163,10 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     let [low, high] = ends.map(|end| end.and_then(End::value));
     let now = three(margin.present.map_or(0.0, |present| present.0));
     let inside = margin.position == Position::Inside;
-    Some(match (margin.parameter, verdict, inside) {
-        (Parameter::LoadFactor, Verdict::Stable, true) => match (low, high) {
-            (Some(low), Some(high)) if low > 0.0 => format!(
-                "The structure would fall at {} times its loads, and below {} times its loads.",
-                three_up(high),
-                three_down(low)
-            ),
-            (_, Some(high)) => format!(
-                "The structure would fall at {} times its loads.",
-                three_up(high)
-            ),
-            (Some(low), None) if low > 0.0 => {
-                format!(
-                    "The structure would fall below {} times its loads.",
-                    three_down(low)
-                )
-            }
-            _ => "The structure stands at every factor on its loads.".to_owned(),
-        },
-        (Parameter::LoadFactor, Verdict::Unstable, _) => match (low, high) {
-            (Some(low), _) if low > 1.0 => {
-                format!(
-                    "The structure would stand at {} times its loads.",
-                    three_up(low)
-                )
-            }
-            (_, Some(high)) => format!(
-                "The structure would stand at {} times its loads.",
-                three_down(high)
-            ),
-            _ => "The structure falls at every factor on its loads.".to_owned(),
-        },
-        (Parameter::Friction, Verdict::Stable, true) => match low {
+    match (margin.parameter, verdict) {
+        (Parameter::LoadFactor, Verdict::Stable) if inside => Some(limit_of_loads(low, high)),
+        (Parameter::LoadFactor, Verdict::Unstable) => Some(loads_that_stand(low, high)),
+        (Parameter::Friction, Verdict::Stable) if inside => Some(match low {
             Some(low) if low > 0.0 => {
                 let low = three_down(low);
                 format!(
@@ -202,8 +174,8 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
                 )
             }
             _ => "The structure needs no friction.".to_owned(),
-        },
-        (Parameter::Friction, Verdict::Unstable, false) => match low {
+        }),
+        (Parameter::Friction, Verdict::Unstable) if !inside => Some(match low {
             Some(low) if low > 0.0 => {
                 let low = three_up(low);
                 format!(
@@ -211,22 +183,60 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
                 )
             }
             _ => "More friction does not help.".to_owned(),
-        },
-        (Parameter::Tilt, Verdict::Stable, _) => {
-            let sides = [
-                low.map(|v| format!("{}° to the left", three_up(v.abs()))),
-                high.map(|v| format!("{}° to the right", three_up(v))),
-            ];
-            let sides: Vec<String> = sides.into_iter().flatten().collect();
-            match sides.is_empty() {
-                true => return None,
-                false => format!(
-                    "The structure would fall if gravity turned by {}.",
-                    sides.join(" or ")
-                ),
-            }
+        }),
+        (Parameter::Tilt, Verdict::Stable) => limit_of_tilt(low, high),
+        _ => None,
+    }
+}
+
+/// Describes the factors on the loads at which a standing structure would fall. `low` and `high` are the ends of the
+/// interval of factors at which it stands.
+fn limit_of_loads(low: Option<f64>, high: Option<f64>) -> String {
+    match (low.filter(|low| *low > 0.0), high) {
+        (Some(low), Some(high)) => format!(
+            "The structure would fall at {} times its loads, and below {} times its loads.",
+            three_up(high),
+            three_down(low)
+        ),
+        (None, Some(high)) => {
+            format!(
+                "The structure would fall at {} times its loads.",
+                three_up(high)
+            )
         }
-        _ => return None,
+        (Some(low), None) => {
+            format!(
+                "The structure would fall below {} times its loads.",
+                three_down(low)
+            )
+        }
+        (None, None) => "The structure stands at every factor on its loads.".to_owned(),
+    }
+}
+
+/// Describes the nearest factor on the loads at which a falling structure would stand. `low` and `high` are the ends of
+/// the interval of factors at which it stands.
+fn loads_that_stand(low: Option<f64>, high: Option<f64>) -> String {
+    let factor = match (low, high) {
+        (Some(low), _) if low > 1.0 => three_up(low),
+        (_, Some(high)) => three_down(high),
+        _ => return "The structure falls at every factor on its loads.".to_owned(),
+    };
+    format!("The structure would stand at {factor} times its loads.")
+}
+
+/// Describes the tilts of gravity, in degrees, at which a standing structure would fall. `None` if it falls at no tilt.
+fn limit_of_tilt(low: Option<f64>, high: Option<f64>) -> Option<String> {
+    let sides = [
+        low.map(|v| format!("{}° to the left", three_up(v.abs()))),
+        high.map(|v| format!("{}° to the right", three_up(v))),
+    ];
+    let sides: Vec<String> = sides.into_iter().flatten().collect();
+    (!sides.is_empty()).then(|| {
+        format!(
+            "The structure would fall if gravity turned by {}.",
+            sides.join(" or ")
+        )
     })
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::cli::complaint::CliError;
+use crate::cli::error::CliError;
 use crate::drawing::Theme;
 use crate::drawing::style::format::Notation;
 

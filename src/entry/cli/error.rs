@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
-use crate::cli::ending::ExitStatus;
+use crate::cli::exit_status::ExitStatus;
 use crate::cli::page::{Page, broken, seen};
 use crate::drawing::style;
 use crate::scene::{Code, Problem, SceneError};

@@ -1,0 +1,199 @@
+//! [`LoadCapacity`]: the set of forces that a block can carry, with its corners, edges and proofs.
+
+use super::region;
+use crate::geometry::{Point, Vector};
+use crate::proof::{Motion, Proof};
+use crate::scene::{BlockId, RobotId};
+
+/// All forces that may act on a block at a point, in addition to its present loads, such that the frame stands.
+///
+/// The set is the convex hull of `vertices`, extended without end along `rays`. Forces are in newtons, x to the right
+/// and y up.
+///
+/// # Example
+/// ```
+/// use drystone::analysis::{CapacityRequest, CapacityShape};
+/// use drystone::{Analysis, Scene};
+/// // A block of 6 N and 4 m × 2 m on a floor with friction 0.5, pushed at its centroid.
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
+///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+///     "blocks": [{ "id": "a", "polygon": [[1, 0], [5, 0], [5, 2], [1, 2]], "weight": 6 }] }"#)?;
+/// let request = CapacityRequest::of_block(scene.block_named("a").expect("it exists"));
+/// let capacity = Analysis::new(&scene).capacity(0, &request)?;
+/// // It slides if |Fx| > 0.5 (6 − Fy): a cone that opens downwards below its tip at (0, 6).
+/// assert_eq!(capacity.shape(), CapacityShape::Unbounded);
+/// assert!((capacity.vertices[0].force.y - 6.0).abs() < 1e-6);
+/// assert!(capacity.contains([2.9, 0.0]) && !capacity.contains([3.1, 0.0]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LoadCapacity {
+    /// The block on which the force acts.
+    pub block: BlockId,
+    /// The point at which the force acts, metres. A free contact has two points; the force is then their resultant.
+    pub at: Vec<Point>,
+    /// The robot whose force it is, if a robot holds the block at this point.
+    pub robot: Option<RobotId>,
+    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
+    pub vertices: Vec<CapacityVertex>,
+    /// The unit directions in which the set is unbounded, anticlockwise: at most two, or four if every force is
+    /// carried.
+    pub rays: Vec<Vector>,
+    /// The edges, anticlockwise.
+    pub edges: Vec<CapacityEdge>,
+    /// A bound on the error, N: no force that the motions allow is farther than this from the set of proved forces.
+    pub gap: f64,
+    /// How the frame begins to fall whatever the force is. Empty unless the set is empty and a motion proves it.
+    pub mechanism: Vec<Motion>,
+    /// The number of extreme cases in which each of these forces is carried; 1 if no range was given.
+    pub cases: usize,
+}
+
+/// A corner of a [`LoadCapacity`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CapacityVertex {
+    /// The force on the block, N.
+    pub force: Vector,
+    /// The torque of a free contact, N·m, about its first point; 0 if the force acts at one point.
+    pub torque: f64,
+    /// The contact forces that balance the force of this vertex. Empty if several cases were intersected, because each
+    /// case has its own.
+    pub contacts: Vec<VertexForce>,
+    /// The proof by these forces; `None` if several cases were intersected.
+    pub proof: Option<Proof>,
+}
+
+/// The forces at one interface that carry the force of a vertex, N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VertexForce {
+    /// The index of the interface among the contacts of the frame.
+    pub interface: usize,
+    /// Normal forces at its two application points, pressure positive.
+    pub normal: [f64; 2],
+    /// Friction on its first body, positive along (−n_y, n_x).
+    pub friction: f64,
+}
+
+/// An edge of a [`LoadCapacity`]: every force F of the set has normal · F ≤ limit.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CapacityEdge {
+    /// The indices of the vertices at which the edge begins and ends, anticlockwise. `None` on a side where it is
+    /// unbounded.
+    pub ends: [Option<usize>; 2],
+    /// The outward unit normal. The point of the block begins to move in this direction under a force just beyond the
+    /// edge.
+    pub normal: Vector,
+    /// The limit of normal · F, N.
+    pub limit: f64,
+    /// How the blocks begin to move under a force just beyond the edge.
+    pub mechanism: Vec<Motion>,
+    /// The proof that the frame falls by this motion under such a force.
+    pub proof: Proof,
+    /// The index, from 0, of the case that this edge belongs to.
+    pub case: usize,
+}
+
+/// The kind of set that a [`LoadCapacity`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CapacityShape {
+    /// No force is carried.
+    Empty,
+    /// Only one force is carried.
+    Point,
+    /// The forces on the line segment between two forces.
+    Segment,
+    /// A bounded polygon.
+    Polygon,
+    /// The set is unbounded: forces of any size are carried in some directions.
+    Unbounded,
+    /// Every force is carried.
+    Everything,
+}
+
+impl CapacityShape {
+    /// Returns the name of this shape in JSON results.
+    pub fn word(self) -> &'static str {
+        match self {
+            CapacityShape::Empty => "empty",
+            CapacityShape::Point => "point",
+            CapacityShape::Segment => "segment",
+            CapacityShape::Polygon => "polygon",
+            CapacityShape::Unbounded => "unbounded",
+            CapacityShape::Everything => "everything",
+        }
+    }
+}
+
+impl LoadCapacity {
+    /// Returns the kind of this set: empty, a point, a segment, a polygon, unbounded, or every force.
+    pub fn shape(&self) -> CapacityShape {
+        match (self.vertices.len(), self.rays.len()) {
+            (_, 3..) => CapacityShape::Everything,
+            (_, 1..) => CapacityShape::Unbounded,
+            (0, _) => CapacityShape::Empty,
+            (1, _) => CapacityShape::Point,
+            (2, _) => CapacityShape::Segment,
+            _ => CapacityShape::Polygon,
+        }
+    }
+
+    /// Returns the largest value of force · direction among the carried forces; it is in newtons for a unit direction.
+    /// `None` if this value is unbounded, or if no force is carried.
+    pub fn most(&self, direction: impl Into<Vector>) -> Option<f64> {
+        let direction = direction.into();
+        let unbounded = |ray: &Vector| ray.dot(&direction) > 1e-9 * direction.norm();
+        if self.rays.iter().any(unbounded) {
+            return None;
+        }
+        let along = self.vertices.iter().map(|v| v.force.dot(&direction));
+        along.reduce(f64::max)
+    }
+
+    /// True if the frame stands with this additional force, in newtons, on the block.
+    pub fn contains(&self, force: impl Into<Vector>) -> bool {
+        let force = force.into();
+        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
+        region::contains(&corners, &self.rays, force)
+    }
+
+    /// Returns the magnitude of the largest force, N, that the block can carry in a unit direction. Infinite if it can
+    /// carry every force in this direction. `None` if the frame falls without an additional force.
+    pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
+        let direction = direction.into();
+        if !self.contains(Vector::zeros()) {
+            return None;
+        }
+        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
+        Some(region::reach(&corners, &self.rays, direction))
+    }
+
+    /// Returns the indices of `edges`, from the longest edge to the shortest. Unbounded edges come first.
+    pub fn longest_edges(&self) -> Vec<usize> {
+        let length = |k: &usize| match self.edges[*k].ends {
+            [Some(a), Some(b)] => (self.vertices[a].force - self.vertices[b].force).norm(),
+            _ => f64::INFINITY,
+        };
+        let mut order: Vec<usize> = (0..self.edges.len()).collect();
+        order.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        order
+    }
+
+    /// Returns the empty set for a block. `mechanism` is how the frame begins to fall whatever the force is.
+    pub(super) fn empty(block: BlockId, at: Vec<Point>, mechanism: Vec<Motion>) -> LoadCapacity {
+        LoadCapacity {
+            block,
+            at,
+            robot: None,
+            vertices: Vec::new(),
+            rays: Vec::new(),
+            edges: Vec::new(),
+            gap: 0.0,
+            mechanism,
+            cases: 1,
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Draws the signs of interfaces in the key of a utilisation figure.
+
+use super::{idle_stroke, rimmed};
+use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
+
+/// Length of the line of a sign, pixels.
+pub(super) const SIGN_WIDTH: f64 = 26.0;
+
+/// Draws the sign of an interface that uses all its friction.
+pub(super) fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+    let middle = at.moved(SIGN_WIDTH / 2.0, 0.0);
+    let bar = Outline::line([middle.moved(0.0, -7.0), middle.moved(0.0, 7.0)]);
+    vec![
+        rimmed(line.clone(), 4.5, 0.7, theme).into(),
+        Path::stroked(line, Stroke::new(theme.amplitude(1.0), 4.5)).into(),
+        Path::stroked(bar, Stroke::new(theme.ink, 1.4)).into(),
+    ]
+}
+
+/// Draws the sign of an interface without friction.
+pub(super) fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+    vec![
+        rimmed(line.clone(), 4.5, 0.7, theme).into(),
+        Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
+    ]
+}
+
+/// Draws the sign of an interface without force.
+pub(super) fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+    vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]
+}
