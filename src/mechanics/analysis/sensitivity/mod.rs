@@ -134,11 +134,14 @@ impl Sensitivity {
             .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
     }
 
-    /// Returns why there are no derivatives, if neither end of the interval has any: the reason for the upper end.
-    /// Otherwise `None`.
+    /// Returns why there are no derivatives, if neither end of the interval has any. Otherwise `None`.
+    ///
+    /// This is the reason for the upper end. If the frame does not fall at the upper end, as with friction, it is the
+    /// reason for the lower end.
     pub fn reason(&self) -> Option<NoSensitivity> {
         match (&self.low, &self.high) {
-            (Err(_), Err(reason)) => Some(*reason),
+            (Err(low), Err(NoSensitivity::Unbounded | NoSensitivity::RangeEnds)) => Some(*low),
+            (Err(_), Err(high)) => Some(*high),
             _ => None,
         }
     }
