@@ -24,7 +24,6 @@ use crate::cli::picture::{Format, Picture};
 use crate::cli::style_args::StyleArgs;
 use crate::cli::terminal::Terminal;
 use crate::figure;
-use crate::output::fonts::Fonts;
 use crate::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
 use crate::scene::{Code, Problem, Scene, isolate};
 use crate::text;

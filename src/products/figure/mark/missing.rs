@@ -1,8 +1,8 @@
 //! Creates the arrows of missing forces, without which the frame falls.
 
-use super::super::apart;
 use super::super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::super::option::Normalisation;
+use super::super::parallel_arrows;
 use super::maker::{ArrowMaker, FORCE_TOL};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::drawing::{Colour, Theme};
