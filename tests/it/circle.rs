@@ -144,7 +144,7 @@ fn the_parts_of_a_figure_know_no_kind() {
         "description",
         "view",
         "unit",
-        "apart",
+        "parallel_arrows",
         "fill",
     ] {
         for barred in ["kind", "strip", "draw"] {

@@ -136,11 +136,14 @@ impl Sensitivity {
 
     /// Returns why there are no derivatives, if neither end of the interval has any. Otherwise `None`.
     ///
-    /// This is the reason for the upper end. If the frame does not fall at the upper end, as with friction, it is the
+    /// This is the reason for the upper end. If the frame falls at the lower end only, as with friction, it is the
     /// reason for the lower end.
     pub fn reason(&self) -> Option<NoSensitivity> {
+        let falls_nowhere = |reason: &NoSensitivity| {
+            matches!(reason, NoSensitivity::Unbounded | NoSensitivity::RangeEnds)
+        };
         match (&self.low, &self.high) {
-            (Err(low), Err(NoSensitivity::Unbounded | NoSensitivity::RangeEnds)) => Some(*low),
+            (Err(low), Err(high)) if falls_nowhere(high) && !falls_nowhere(low) => Some(*low),
             (Err(_), Err(high)) => Some(*high),
             _ => None,
         }
@@ -231,5 +234,23 @@ impl CornerMoves {
             CornerMoves::Along { direction, slope } => Some(direction * slope.unique()?),
             CornerMoves::Not => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reason_is_that_of_an_end_at_which_the_frame_falls() {
+        use NoSensitivity::{RangeEnds, Unbounded, Unconfirmed, Unsolved};
+        let reason = |low, high| {
+            let (kind, low, high) = (MarginKind::Friction, Err(low), Err(high));
+            Sensitivity { kind, low, high }.reason()
+        };
+        assert_eq!(reason(Unsolved, Unbounded), Some(Unsolved));
+        assert_eq!(reason(Unconfirmed, RangeEnds), Some(Unconfirmed));
+        assert_eq!(reason(Unsolved, Unconfirmed), Some(Unconfirmed));
+        assert_eq!(reason(RangeEnds, Unbounded), Some(Unbounded));
     }
 }
