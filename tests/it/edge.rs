@@ -1,4 +1,5 @@
-//! On either side of the edge: verdicts are right and decided as near to it as the band, and what falls is proved to fall.
+//! Cases close to the limit between standing and falling: verdicts are right and decided up to the tolerance, and
+//! every fall is proved.
 
 use drystone::analysis::{FrameAnalysis, Proof, Verdict};
 use drystone::internals::study::study;
@@ -10,7 +11,7 @@ use crate::structure::{arch, block, first, on_floor, rectangle, scene, verdict, 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
-/// A scene whose weights act by a share across gravity as well, as the margins turn it.
+/// The scene with an additional horizontal gravity of `share` times the vertical one.
 fn pushed(mut file: Value, share: f64) -> Value {
     file["gravity"] = json!([10.0 * share, -10.0]);
     for block in file["blocks"].as_array_mut().expect("a list") {
@@ -25,8 +26,9 @@ fn rules_out(frame: &FrameAnalysis) -> f64 {
     frame.proof.excluded_force_sum()
 }
 
-/// 410 bricks whose edge is at a share of 0.481616: programs that must decide between "balanced" and "no balance" end
-/// nowhere for shares about it, and motions with a ten-thousandth of their speed in violations seem to fall.
+/// A wall of 410 bricks that falls from a share of 0.481616 on. Near this limit, programs that must decide between
+/// "balanced" and "no balance" end without an answer, and motions that violate contacts by a ten-thousandth of their
+/// speed look like a fall.
 #[test]
 fn a_large_wall_is_decided_on_either_side_of_its_edge() {
     for share in [0.4815, 0.4816157] {
@@ -44,9 +46,10 @@ fn a_large_wall_is_decided_on_either_side_of_its_edge() {
     }
 }
 
-/// The least thickness at which a certified reference stands, found by halving, and a millionth to either side.
+/// The smallest thickness at which a certified reference stands, found by bisection. Verdicts are checked a millionth
+/// to either side.
 #[test]
-fn an_arch_is_decided_a_millionth_beside_its_minimum_thickness() {
+fn an_arch_is_decided_a_millionth_from_its_minimum_thickness() {
     for (voussoirs, least) in THINNEST {
         for (thickness, expected) in [(least - 1e-6, FALLS), (least + 1e-6, STANDS)] {
             let file = arch(voussoirs, thickness, 0.9);
@@ -60,10 +63,11 @@ fn an_arch_is_decided_a_millionth_beside_its_minimum_thickness() {
     }
 }
 
-/// Least thickness over radius of semicircular arches by their number of voussoirs.
+/// Minimum thickness over radius of semicircular arches, by number of voussoirs.
 const THINNEST: [(usize, f64); 2] = [(27, 0.106_720_9), (181, 0.107_462_3)];
 
-/// A wedge the wrong way up opens its contacts by a ten-millionth of its way, no more than a solver's error.
+/// An inverted wedge opens its contacts by as little as a ten-millionth of the distance it falls: no more than a
+/// solver's error.
 #[test]
 fn a_flat_wedge_that_falls_is_proved_to_fall() {
     for exponent in 2..=7 {
@@ -74,7 +78,7 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
             "1e-{exponent}: {:?}",
             frame.proof
         );
-        // The wedge that stands, lifted by a little more than its weight.
+        // The wedge that stands, lifted by a force a little larger than its weight.
         let mut file = wedge(half_angle);
         file["loads"] = json!([{ "block": "wedge", "force": [0, 6.0 * (1.0 + 1e-5)] }]);
         let frame = first(&file);
@@ -86,8 +90,8 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
     }
 }
 
-/// Such a wedge stands with a thrust that sixteen digits cannot balance, and a motion into its notch violates its contacts
-/// by less than any solver's error: nobody may say that it falls.
+/// Such a wedge stands, but 16 digits are too few to balance its thrust. A motion into its notch violates the
+/// contacts by less than a solver's error, and must not be taken for a fall.
 #[test]
 fn a_wedge_too_flat_for_sixteen_digits_never_falls() {
     for exponent in 8..=13 {
@@ -96,7 +100,7 @@ fn a_wedge_too_flat_for_sixteen_digits_never_falls() {
     }
 }
 
-/// Several blocks locked between two walls: their thrust has no upper end, and no motion opens every contact.
+/// Several blocks locked between two walls: their thrust is unbounded, and no motion opens every contact.
 #[test]
 fn a_row_of_blocks_locked_between_walls() {
     let row = |friction: f64| {
@@ -109,7 +113,7 @@ fn a_row_of_blocks_locked_between_walls() {
     for friction in [0.02, 0.5] {
         let frame = first(&row(friction));
         assert_eq!(frame.verdict, STANDS, "{friction}: {}", frame.doubt());
-        // Each wall's friction carries half of the weight, 15 N.
+        // The friction at each wall carries half of the weight, 15 N.
         let ends = frame
             .contacts
             .iter()
@@ -125,16 +129,16 @@ fn a_row_of_blocks_locked_between_walls() {
             );
         }
     }
-    // Without friction they fall, and slide along faces that cannot open: known to rounding, and no better.
+    // Without friction they fall and slide along faces that cannot open. This is proved only up to rounding.
     let frame = first(&row(0.0));
     assert!(rules_out(&frame) > 1e12, "{:?}", frame.proof);
-    // Pressed into a gap that narrows below, the same row stands without any friction.
+    // In a gap that narrows downwards, a wedge stands without any friction.
     assert_eq!(verdict(&wedge(1e-3)), STANDS);
 }
 
-/// What a motion leaves open is told: its violation times the forces it names is its power.
+/// A proof by a motion states which forces it excludes: smaller ones than its power divided by its worst violation.
 #[test]
-fn a_motion_says_what_it_rules_out() {
+fn a_motion_states_which_forces_it_excludes() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)]);
     assert!(rules_out(&first(&file)).is_infinite(), "nothing touches it");
     let doubtful = Proof::Mechanism {
@@ -142,5 +146,5 @@ fn a_motion_says_what_it_rules_out() {
         worst_violation: 1e-4,
     };
     assert_eq!(doubtful.excluded_force_sum(), 2500.0);
-    assert!(!doubtful.holds(), "forces of 2500 loads are no rarity");
+    assert!(!doubtful.holds(), "forces of 2500 loads do occur");
 }

@@ -1,4 +1,5 @@
-//! Hard cases: where a tolerance, a large number or a small one can turn a verdict over. Each says why it is hard.
+//! Hard cases: a tolerance, a very large number or a very small one could reverse the verdict. Each test says why its
+//! case is hard.
 
 use drystone::Analysis;
 use drystone::analysis::{Proof, Verdict};
@@ -11,7 +12,7 @@ use crate::structure::{
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
-/// A frictionless wedge between two slopes, its sides off the vertical by `half_angle`.
+/// A frictionless wedge between two slopes; each side is `half_angle` off the vertical.
 pub fn wedge(half_angle: f64) -> Value {
     let d = libm::tan(half_angle);
     json!({ "drystone": 1, "friction": 0,
@@ -20,7 +21,7 @@ pub fn wedge(half_angle: f64) -> Value {
         "blocks": [{ "id": "wedge", "polygon": [[-0.5, 0], [0.5, 0], [0.5 + d, 1], [-0.5 - d, 1]], "weight": 6 }] })
 }
 
-/// A block with its centre of gravity `beyond` the edge of what it rests on; with `pair`, on another block.
+/// A block whose centre of gravity lies `beyond` the edge of its support. With `pair` the support is another block.
 pub fn overhang(beyond: f64, pair: bool) -> Value {
     let mut blocks = vec![block(
         "a",
@@ -33,7 +34,7 @@ pub fn overhang(beyond: f64, pair: bool) -> Value {
     json!({ "drystone": 1, "ground": [{ "polygon": rectangle(0.0, -1.0, 1.0, 1.0) }], "blocks": blocks })
 }
 
-/// Errors pile up from the top to the foot of a long chain.
+/// Errors add up from the top to the bottom of a long chain.
 #[test]
 fn a_tower_of_a_thousand_blocks() {
     let frame = first(&tower(1000, 0.5));
@@ -47,7 +48,8 @@ fn a_tower_of_a_thousand_blocks() {
     assert!((foot - 6000.0).abs() < 1e-6 * 6000.0, "{foot}");
 }
 
-/// The thrust of a flat frictionless wedge grows as 1/α: beyond 10⁶ weights a big-M program calls it a failure.
+/// The thrust of a slender frictionless wedge grows as 1/α. Above 10⁶ times the weight, a big-M program would report
+/// a failure.
 #[test]
 fn a_flat_wedge_stands_however_large_its_thrust() {
     for exponent in 2..=7 {
@@ -72,7 +74,8 @@ fn a_flat_wedge_stands_however_large_its_thrust() {
     }
 }
 
-/// A feather's balance drowns in the rounding of a mountain's, so a falling feather looks standing.
+/// The rounding error of a mountain's balance can exceed the weight of a feather, so that a falling feather seems to
+/// stand.
 #[test]
 fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
     for exponent in [2, 4, 6, 8] {
@@ -94,7 +97,8 @@ fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
     }
 }
 
-/// Inside 1e-7 of L the forces win; outside, never a wrong word and never none.
+/// Very close to the edge (within about 1e-7 of L) a balance is accepted. Farther out the verdict must be right and
+/// decided.
 #[test]
 fn a_centre_of_gravity_on_the_edge() {
     for pair in [false, true] {
@@ -108,7 +112,7 @@ fn a_centre_of_gravity_on_the_edge() {
         assert_eq!(
             verdict(&overhang(1e-9, pair)),
             STANDS,
-            "within the band the forces win"
+            "a balance within the tolerance counts"
         );
         for beyond in [2e-7, 1e-6, 1e-5] {
             assert_eq!(
@@ -120,9 +124,9 @@ fn a_centre_of_gravity_on_the_edge() {
     }
 }
 
-/// Columns of very different sizes: a cone of slope 1000, a cone of none.
+/// Friction cones of very different slopes, 0 and 1000: the columns of the program differ much in size.
 #[test]
-fn no_friction_and_a_thousand() {
+fn friction_of_zero_and_of_a_thousand() {
     for friction in [0.0, 1e3] {
         let mut file = wall(4, 4);
         file["friction"] = json!(friction);
@@ -132,9 +136,9 @@ fn no_friction_and_a_thousand() {
     assert_eq!(verdict(&arch(11, 0.2, 1e3)), STANDS);
 }
 
-/// With kernel 1 both application points are one and nothing can take a moment.
+/// With kernel 1 both application points of a joint coincide, so that it cannot transmit a moment.
 #[test]
-fn kernel_none_and_whole() {
+fn kernels_of_zero_and_one() {
     for kernel in [0.0, 1.0] {
         let mut file = wall(4, 4);
         file["kernel"] = json!(kernel);
@@ -147,14 +151,15 @@ fn kernel_none_and_whole() {
     assert_eq!(
         frame.unsupported.len(),
         11,
-        "no sticking in the middle of a joint holds a chain of hinges"
+        "no adhesion in the middle of a joint holds a chain of hinges"
     );
 }
 
-/// On the edge between two verdicts a status of the solver means little.
+/// At the limit between two verdicts, the status that a solver returns is not reliable.
 #[test]
 fn an_arch_at_its_minimum_thickness() {
-    // The 181-voussoir arch's own limit, between the joints of the continuous one (0.1075).
+    // The arch of 181 voussoirs has a limit of its own, a little below that of the continuous arch (0.1075), whose
+    // hinges may lie between these joints.
     for (thickness, expected) in [
         (0.10743, FALLS),
         (0.10746, FALLS),
@@ -165,7 +170,7 @@ fn an_arch_at_its_minimum_thickness() {
     }
 }
 
-/// tan θ rounded either way decides about the last bit: within the band the forces win.
+/// The rounding of tan θ would decide in its last bit. A balance within the tolerance counts, so the block stands.
 #[test]
 fn friction_exactly_at_the_slope() {
     for degrees in [10.0f64, 30.0, 45.0, 60.0] {
@@ -178,7 +183,8 @@ fn friction_exactly_at_the_slope() {
     }
 }
 
-/// More supports than needed: a face of optima, not a point. The least squares share alike.
+/// There are more supports than needed, so many distributions of forces are optimal. The one of least squares is
+/// symmetric.
 #[test]
 fn redundant_supports_share() {
     let mut blocks: Vec<Value> = (0..5)
@@ -220,7 +226,7 @@ fn a_wall_on_a_tilted_table_fails_in_every_course() {
     );
 }
 
-/// Many small programs, none of which is another's business.
+/// Many small independent programs.
 #[test]
 fn a_thousand_towers_are_solved_apart() {
     let blocks = (0..1000).flat_map(|k| {
@@ -233,7 +239,7 @@ fn a_thousand_towers_are_solved_apart() {
     assert_eq!((frame.verdict, frame.solve.groups), (STANDS, 1000));
 }
 
-/// A robot at its last newton.
+/// A robot whose limit is exactly the force that it needs, or 1e-5 N less or more.
 #[test]
 fn a_robot_with_exactly_the_limit_it_needs() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
@@ -243,7 +249,7 @@ fn a_robot_with_exactly_the_limit_it_needs() {
     }
 }
 
-/// Self-stress: the thrust between two walls has no upper end, and no motion strictly opens every contact.
+/// Self-stress: the thrust between the two walls is unbounded, and no motion opens every contact.
 #[test]
 fn a_block_squeezed_between_walls_counts_as_balanced() {
     let file = json!({ "drystone": 1, "friction": 0.01,
@@ -251,14 +257,15 @@ fn a_block_squeezed_between_walls_counts_as_balanced() {
         "blocks": [block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)] });
     let frame = first(&file);
     assert_eq!(frame.verdict, STANDS);
-    // The least force that carries: μN on either side is half the weight.
+    // The least force that carries the block: μN on either side is half of the weight, 3 N.
     for contact in &frame.contacts {
         let pressed = contact.normal_forces[0] + contact.normal_forces[1];
         assert!((pressed - 300.0).abs() < 1e-6, "{pressed}");
     }
 }
 
-/// A sliver 10 long and 1e-3 thick: normals from short differences, centroids from cancelling areas.
+/// A sliver 10 m long and 1 mm thick: its normal comes from a short difference and its centroid from areas that
+/// cancel.
 #[test]
 fn a_needle_under_a_block() {
     let file = json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(0.0, -1.0, 10.0, 1.0) }],
@@ -267,9 +274,9 @@ fn a_needle_under_a_block() {
     assert_eq!(verdict(&file), STANDS);
 }
 
-/// Effects are simulated only where called for, and a frame equal to an earlier one is not solved again.
+/// Effects are simulated only if a frame needs them. A frame equal to an earlier one is not solved again.
 #[test]
-fn what_is_not_called_for_is_not_simulated() {
+fn effects_that_a_frame_does_not_need_are_not_simulated() {
     let mut file = wall(2, 2);
     file["friction"] = json!(0.0);
     file["steps"] = json!([
@@ -302,7 +309,7 @@ fn what_is_not_called_for_is_not_simulated() {
     let contacts = analysis.frames[1].contacts.len();
     assert_eq!(effect("contact").unknowns, 2 * contacts);
     assert_eq!(effect("friction").unknowns, 4 * contacts, "saved");
-    // The third frame is the first again.
+    // The third frame is equal to the first.
     let last = &analysis.frames[2];
     assert_eq!(
         (last.solve.reused, last.solve.groups, last.solve.programs),
@@ -317,7 +324,7 @@ fn what_is_not_called_for_is_not_simulated() {
     assert!(worst_imbalance < 1e-9);
 }
 
-/// A limit of 10¹² loads is a number in the objective that drowns all others.
+/// A very large limit could become a coefficient of the objective that hides all others by rounding.
 #[test]
 fn non_binding_limits_change_nothing() {
     let path = format!("{}/assets/thesis/figure-4.json", env!("CARGO_MANIFEST_DIR"));
@@ -345,7 +352,7 @@ fn non_binding_limits_change_nothing() {
     }
 }
 
-/// A contact a millionth of the block: the length L by which moments are counted is then as short.
+/// A contact as short as a millionth of the block: the length L, the unit of length for moments, is then as short.
 #[test]
 fn a_block_on_a_splinter() {
     let splinter = |width: f64, off: f64| {
@@ -360,7 +367,7 @@ fn a_block_on_a_splinter() {
     }
 }
 
-/// Coordinates of 10⁶ block lengths have ten digits left.
+/// At 10⁶ block lengths from the origin, f64 leaves ten digits for the shape of a block.
 #[test]
 fn a_wall_a_million_lengths_away() {
     let mut file = wall(4, 4);
@@ -380,7 +387,8 @@ fn a_wall_a_million_lengths_away() {
     assert!((frame.total_force - expected).abs() < 1e-6 * expected);
 }
 
-/// μ = 1000 makes a push of 7e-7 N look like noise beside μN; it is more than the band, and dropping it left no proof.
+/// With μ = 1000 a push of 7e-7 N is tiny compared with μN and looks like a rounding error. It exceeds the tolerance,
+/// though: when it was dropped, there was no proof.
 #[test]
 fn a_light_push_on_very_rough_bricks() {
     let brick = |id, x, y, width, height, weight| block(id, rectangle(x, y, width, height), weight);
@@ -398,7 +406,8 @@ fn a_light_push_on_very_rough_bricks() {
     assert_eq!(frame.verdict, STANDS, "{}", frame.doubt());
 }
 
-/// A robot's limit that binds is part of every optimum; the least squares may not give it back for other forces.
+/// A robot's limit that is reached stays part of every optimum: the least-squares step must not replace it by other
+/// forces.
 #[test]
 fn a_limit_that_binds_keeps_the_sum_least() {
     let file = json!({ "drystone": 1, "friction": 0.3409671125134316, "kernel": 0.1836611407211487,
@@ -410,7 +419,7 @@ fn a_limit_that_binds_keeps_the_sum_least() {
         "robots": [{ "holds": "1", "limits": { "fx": 0.1653510166185448, "fy": 9.5 } },
                    { "holds": "2", "at": [0.375, 0.921875], "limits": { "fx": 5.5, "torque": 3 } }] });
     let frame = first(&file);
-    // The optimum of an exact program; a face without the limit gave 33.3959.
+    // The optimum of an exact program. Least squares over a face without the limit gave 33.3959.
     assert!(
         (frame.total_force / 33.323_081_432_182_72 - 1.0).abs() < 1e-9,
         "{}",
@@ -418,7 +427,7 @@ fn a_limit_that_binds_keeps_the_sum_least() {
     );
 }
 
-/// What sticks against a light load is a thousandth of a thousandth of what sticks against the weights, and counts.
+/// The adhesion needed against a light load is less than a millionth of what the weights need, but it counts.
 #[test]
 fn a_light_load_on_a_falling_block_sticks_too() {
     let push = 8e-7;
@@ -432,7 +441,8 @@ fn a_light_load_on_a_falling_block_sticks_too() {
     file["loads"] = json!([{ "block": "a", "force": [push, 0] }]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    // b's weight acts 0.25 beyond a's edge, its only two points 0.25 apart: a pull of 6 at the far one; and the push.
+    // b's weight acts 0.25 m beyond a's edge and the two contact points are 0.25 m apart: a tension of 6 N at the far
+    // point. The push adds to it.
     assert!(
         (frame.total_sticking - 6.0 - push).abs() < 1e-9,
         "{}",
@@ -440,10 +450,10 @@ fn a_light_load_on_a_falling_block_sticks_too() {
     );
 }
 
-/// Wedged between walls and falling: the forces of the least sticking have no upper end, which is not to say that no
-/// sticking could hold it.
+/// A pile that is wedged between walls and still falls. The forces with the least adhesion are unbounded, but this
+/// does not mean that no adhesion could hold the pile.
 #[test]
-fn a_wedged_pile_that_falls_is_not_past_help() {
+fn a_wedged_pile_that_falls_could_be_held_by_adhesion() {
     let polygon = |corners: [[f64; 2]; 4]| json!({ "polygon": corners });
     let file = json!({ "drystone": 1, "friction": 1000.0, "kernel": 0.2,
         "ground": [polygon([[-9.0, -13.0], [15.0, 5.0], [12.0, 9.0], [-12.0, -9.0]]),

@@ -1,4 +1,5 @@
-//! The smallest stone: a pebble on a tower, beside a wall or in its joints is judged by its own forces, however light.
+//! Small stones: a pebble on a tower, beside a wall or in its joints is judged by the forces on the pebble, however
+//! light it is.
 
 use drystone::analysis::{Options, Verdict, verdicts};
 use drystone::internals::geometry::{Point, Vector, cross, zonotope_gauge};
@@ -15,8 +16,8 @@ use crate::structure::{
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
-/// Ten files with answers by hand: the pebble's centre of gravity beyond what it rests on or not, the slope steeper than
-/// its friction or not, a stone that touches a wall's side and nothing else.
+/// Ten scene files whose verdicts were found by hand. A pebble falls if its centre of gravity lies beyond its
+/// support, if the slope is steeper than its friction coefficient, or if it only touches the side of a wall.
 #[test]
 fn ten_cases_with_answers_by_hand() {
     let cases = [
@@ -37,7 +38,8 @@ fn ten_cases_with_answers_by_hand() {
     }
 }
 
-/// A tower of bricks 2 × 1 with a stone of this size on top, a share of which is beyond the edge.
+/// A tower of bricks of 2 m × 1 m with a square stone of side `size` on top. The fraction `beyond` of the stone's
+/// width lies beyond the edge of the tower.
 fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
     let mut blocks: Vec<Value> = (0..bricks)
         .map(|k| {
@@ -51,8 +53,8 @@ fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
         "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }], "blocks": blocks })
 }
 
-/// Size ratios of 1 to 10⁻⁶, weights to 10⁻¹², towers of 1 to 30, upright and turned by odd angles: the only question is on
-/// which side of the edge the stone's centre of gravity lies.
+/// Stones from 1 m to 10⁻⁶ m, weights down to about 10⁻¹² of a brick's, towers of 1 to 30 bricks, upright and rotated
+/// by odd angles. The verdict depends only on which side of the edge the stone's centre of gravity lies.
 #[test]
 fn stones_on_towers() {
     for bricks in [1, 2, 3, 5, 10, 20, 30] {
@@ -77,9 +79,9 @@ fn stones_on_towers() {
     }
 }
 
-/// Stones as small lie on a ramp on such towers: they slide where it is steeper than their friction.
+/// Small stones on a ramp on top of such towers: a stone slides if the ramp is steeper than its friction coefficient.
 #[test]
-fn stones_that_slide_on_towers() {
+fn stones_slide_on_towers_if_the_ramp_is_too_steep() {
     for bricks in [1, 5, 20] {
         for size in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for slope in [0.0625, 0.5] {
@@ -113,9 +115,11 @@ fn stones_that_slide_on_towers() {
     }
 }
 
-/// A block 1 m wide on a tip as narrow as a millionth of it, its centre of gravity a share of the tip's width off the middle.
+/// A block that is 1 m wide at the top and only `base` wide at the bottom, where it stands. Its centre of gravity
+/// lies `off * base` to the side of the middle of the bottom edge.
 fn on_a_tip(base: f64, off: f64, height: f64) -> Value {
-    // A trapezium's centroid lies at the middles of its parallel sides, in parts of their widths and the height.
+    // The centroid of a trapezium lies on the line through the middles of its parallel sides, at this share of its
+    // height.
     let share = (base + 2.0) / (3.0 * (base + 1.0));
     let lean = off * base / share;
     let tip = json!([
@@ -129,9 +133,9 @@ fn on_a_tip(base: f64, off: f64, height: f64) -> Value {
     file
 }
 
-/// Contacts of a millionth of a block are contacts where they are all there is of an edge. A force may be moved by 10⁻⁷ of
-/// the block's radius: beside the tip's edge that much is left to the band. Of tips of 10⁻⁶, turned, f64 leaves the normal ten
-/// digits, and a few of them are left undecided.
+/// A contact as short as a millionth of a block counts as a contact if the edge has no other. A force may be moved by
+/// 10⁻⁷ of the block's radius, so cases this close to the end of the tip are within the tolerance (`band`). For
+/// rotated tips of 10⁻⁶ m, f64 leaves ten digits for the normal, and a few of these cases stay undecided.
 #[test]
 fn large_blocks_stand_on_small_tips() {
     let (mut wrong, mut undecided) = (Vec::new(), Vec::new());
@@ -158,13 +162,15 @@ fn large_blocks_stand_on_small_tips() {
     assert!(undecided.len() <= 8, "{undecided:?}");
 }
 
-/// Two bricks that overlap by next to nothing may be neighbours or a support: where that decides, it is said. A tolerance
-/// on either side of the length settles it.
+/// If two bricks overlap by almost nothing, they may be neighbours, or one may support the other. If the verdict
+/// depends on this, it is undecided and the reason is given. A contact tolerance below or above the overlap settles
+/// it.
 #[test]
-fn slivers_between_large_blocks_are_judged_both_ways() {
+fn tiny_overlaps_that_decide_leave_the_verdict_undecided() {
     let length = 3e-7;
     let mut file = topped(1, 1.0, 0.0);
-    // A lintel from a post that ends a sliver short of its edge to one that it lies on in full.
+    // A lintel that rests on the left post over a length of only 3e-7 m, and on the right post over the full width of
+    // the post.
     let blocks = json!([
         { "id": "left", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) },
         { "id": "right", "polygon": rectangle(3.0, 0.0, 1.0, 1.0) },
@@ -184,9 +190,9 @@ fn slivers_between_large_blocks_are_judged_both_ways() {
     }
 }
 
-/// Where only a slight overlap carries a lintel, a verdict alone is as undecided as a whole analysis.
+/// If the verdict depends on a slight overlap, `verdicts` leaves it undecided, as the complete analysis does.
 #[test]
-fn verdicts_alone_are_judged_both_ways_at_overlaps() {
+fn verdicts_alone_are_undecided_where_an_overlap_decides() {
     let file = on_floor(
         0.7,
         vec![
@@ -203,8 +209,8 @@ fn verdicts_alone_are_judged_both_ways_at_overlaps() {
     assert_eq!(alone, [Verdict::Undecided]);
 }
 
-/// A brick on two pins, as high as a gap may be that counts as a contact elsewhere: it stands on them and not on what is
-/// below, however low they are.
+/// A brick on two pins of heights from 1/4 m down to 2⁻²⁰ m, as low as a gap that would elsewhere count as a contact.
+/// The upper brick rests on the pins only, never on the brick below them.
 #[test]
 fn pins_keep_a_gap_open_however_low() {
     for exponent in 2..=20 {
@@ -225,7 +231,7 @@ fn pins_keep_a_gap_open_however_low() {
     }
 }
 
-/// The same with weights listed: as light as 10⁻¹² of the bricks, as large as they.
+/// The same towers with a stone 1 m wide whose given weight is 10⁻² to 10⁻¹² of a brick's.
 #[test]
 fn light_stones_on_towers() {
     for bricks in [1, 3, 10, 30] {
@@ -247,7 +253,7 @@ fn light_stones_on_towers() {
     }
 }
 
-/// A ramp on a tower, and a light stone on it: it slides where the slope is steeper than its friction.
+/// A ramp on a tower and a light stone on it: the stone slides if the slope is steeper than its friction coefficient.
 #[test]
 fn light_stones_on_slopes() {
     for bricks in [1, 5, 20] {
@@ -286,8 +292,8 @@ fn light_stones_on_slopes() {
     }
 }
 
-/// Pinning stones in the gaps of a wall: resting in them they stand, and however small the stone, without what it rests on
-/// it falls.
+/// Pinning stones in the gaps of a wall stand as long as they rest on the course below. A stone that only touches the
+/// sides of two bricks falls, however small it is.
 #[test]
 fn pinning_stones_in_the_joints_of_a_wall() {
     for size in [0.1, 0.01, 0.001] {
@@ -301,7 +307,7 @@ fn pinning_stones_in_the_joints_of_a_wall() {
                     let at = rectangle(x, y, 1.0, 0.5);
                     blocks.push(json!({ "id": id, "polygon": at }));
                     if k < 2 && course > 0 {
-                        // As wide as the gap, half as high: it rests on the course below.
+                        // As wide as the gap and half as high as wide: it rests on the course below.
                         let at = rectangle(x + 1.0, y, size, 0.5 * size);
                         blocks.push(json!({ "id": format!("pin {id}"), "polygon": at }));
                     }
@@ -312,7 +318,7 @@ fn pinning_stones_in_the_joints_of_a_wall() {
                     "ground": [{ "polygon": rectangle(-5.0, -1.0, 12.0, 1.0) }], "blocks": blocks })
             };
             assert_eq!(verdict(&file(blocks.clone())), STANDS, "{size}, {courses}");
-            // Lifted off its bed, and smooth, the same stone touches the sides of two bricks and nothing else.
+            // Raised off its bed and without friction, the last stone touches only the sides of two bricks.
             let lifted = blocks
                 .iter_mut()
                 .rev()
@@ -329,7 +335,8 @@ fn pinning_stones_in_the_joints_of_a_wall() {
     }
 }
 
-/// A pebble on an outer edge of a block that faces sideways or down, a share of the edge in size; `None` for other edges.
+/// A pebble on the outside of a block's edge that faces sideways or down. Its size is a fraction of the edge's
+/// length. `None` for an edge that faces up.
 fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
     let corner = |k: usize| {
         let corner = &polygon[k % polygon.as_array()?.len()];
@@ -392,7 +399,8 @@ fn a_falling_pebble_makes_any_structure_fall() {
             .as_array_mut()
             .expect("a list")
             .push(block("pebble", pebble, weight));
-        // Where something is already there, or right beside it, it may not fit or may be held.
+        // If another body is at this place or next to it, the pebble may not fit or may be held. Such cases are
+        // skipped.
         let Ok(scene) = Scene::from_json(&file.to_string()) else {
             continue;
         };
@@ -420,10 +428,10 @@ fn a_falling_pebble_makes_any_structure_fall() {
     assert!(tried > 25, "{tried}");
 }
 
-/// The rule itself, held against the forces that are reported: each, changed by 10⁻⁷ of itself and moved by 10⁻⁷ of the
-/// block's radius, balances the block.
+/// Checks the tolerance of a proof on the reported forces: they balance each block if each may change by 10⁻⁷ of its
+/// amount and may be moved by 10⁻⁷ of the block's radius.
 #[test]
-fn reported_forces_keep_the_rule_at_every_block() {
+fn reported_forces_balance_every_block_within_the_tolerance() {
     let mut files = vec![
         wall(5, 5),
         arch(11, 0.4, 0.9),
@@ -470,7 +478,7 @@ fn reported_forces_keep_the_rule_at_every_block() {
             });
             let total: f64 = all.iter().map(|(_, force)| force.norm()).sum();
             generators.push([0.0, 0.0, total]);
-            // What this plain sum is rounded by: 10⁻¹⁵ of the forces.
+            // Rounding in this sum: 10⁻¹⁵ of the forces, because generators are scaled by at most 10⁻⁷.
             generators.push([1e-8 * total, 0.0, 0.0]);
             generators.push([0.0, 1e-8 * total, 0.0]);
             let scale = zonotope_gauge(&generators, left);
