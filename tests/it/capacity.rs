@@ -12,7 +12,6 @@ use crate::structure::{block, rectangle, scene};
 
 mod random;
 
-/// The capacity of a block at a point.
 fn capacity(file: &Value, name: &str, at: ForceAt) -> LoadCapacity {
     of(
         &scene(file),
@@ -29,8 +28,8 @@ fn of(scene: &Scene, request: CapacityRequest) -> Result<LoadCapacity, CapacityE
     Analysis::new(scene).capacity(0, &request)
 }
 
-/// A quarter of an arch from 5 m to 6 m: voussoirs 1 to 19 of 20, the first one is ground. Weights are areas.
-fn half_arch() -> Value {
+/// A semicircular arch between the radii 5 m and 6 m. The first of its 20 voussoirs is ground. Weights are areas.
+fn semicircle() -> Value {
     let corner = |radius: f64, k: usize| {
         let (sin, cos) = libm::sincos(std::f64::consts::PI * (1.0 - k as f64 / 20.0));
         [radius * cos, radius * sin]
@@ -54,7 +53,7 @@ fn half_arch() -> Value {
 /// The force at two points, the ends of the last radial face. Reference values from exact linear programs.
 #[test]
 fn an_arch_is_held_by_a_force_at_its_last_face() {
-    let file = half_arch();
+    let file = semicircle();
     let ends = [Point::new(5.0, 0.0), Point::new(6.0, 0.0)];
     let found = capacity(&file, "19", ForceAt::Contact(ends));
     assert_eq!(found.shape(), CapacityShape::Polygon);
@@ -68,7 +67,7 @@ fn an_arch_is_held_by_a_force_at_its_last_face() {
         let most = found.most(direction).expect("it is bounded");
         assert!((most - expected).abs() < 1e-6, "{direction:?}: {most}");
     }
-    // At the middle of the face alone the force has no torque: fewer forces hold the arch.
+    // A force at the middle of the face alone has no torque about it, so fewer forces hold the arch.
     let fewer = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
     assert!(
         fewer
@@ -139,7 +138,7 @@ fn every_shape_occurs() {
     let point = capacity(&hangs, "a", ForceAt::Default);
     assert_eq!(point.shape(), CapacityShape::Point, "{point:?}");
     near(point.vertices[0].force.y, 6.0);
-    // No force at one point holds it beside its centroid, but a free contact does.
+    // A single force at a point beside the centroid cannot hold the block, but a contact of two points can.
     let beside = capacity(&hangs, "a", ForceAt::Point(Point::new(4.0, 1.0)));
     assert_eq!(beside.shape(), CapacityShape::Empty);
     assert!(!beside.mechanism.is_empty() && !beside.contains([0.0, 6.0]));
@@ -153,11 +152,12 @@ fn every_shape_occurs() {
     let all = capacity(&held, "a", ForceAt::Point(Point::new(3.0, 1.0)));
     assert_eq!(all.shape(), CapacityShape::Everything);
     assert_eq!(all.reach([1.0, 0.0]), Some(f64::INFINITY));
-    // Of the robot itself, only the weight is asked for.
+    // For the block that the robot holds, the default request asks for the robot's force: it carries the weight
+    // alone.
     let tool = capacity(&held, "a", ForceAt::Default);
     assert_eq!(tool.shape(), CapacityShape::Point);
     assert!(tool.robot.is_some());
-    // What else falls makes the set empty.
+    // If another block falls, the set is empty.
     let mut other = on_floor();
     other["blocks"].as_array_mut().expect("a list").push(block(
         "b",
@@ -191,7 +191,7 @@ fn requests_that_are_not_valid_are_refused() {
     }
 }
 
-/// In every case of some ranges: the block on the floor again, by hand.
+/// The set carried in all cases of a range, for the same block on a floor, by hand.
 #[test]
 fn what_is_carried_in_every_case_is_carried_in_each() {
     let file = on_floor();
@@ -227,7 +227,7 @@ fn what_is_carried_in_every_case_is_carried_in_each() {
 
 /// Scenes for the checks below: the arch, walls and random ones.
 fn scenes() -> Vec<Value> {
-    let mut all = vec![half_arch(), on_floor()];
+    let mut all = vec![semicircle(), on_floor()];
     all.extend((0..10).map(|number| crate::oracle::random::scene(number).1));
     all
 }
@@ -294,7 +294,7 @@ fn just_beyond_an_edge_it_falls_and_at_a_vertex_it_stands() {
 
 #[test]
 fn the_forces_of_a_vertex_balance_every_block() {
-    let file = half_arch();
+    let file = semicircle();
     let found = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
     let analysis = Analysis::new(scene(&file));
     for vertex in &found.vertices {
@@ -325,7 +325,7 @@ fn the_forces_of_a_vertex_balance_every_block() {
 
 #[test]
 fn what_is_written_is_what_was_found() {
-    let file = half_arch();
+    let file = semicircle();
     let scene = scene(&file);
     let at = ForceAt::Point(Point::new(5.5, 0.0));
     let request = CapacityRequest::of_block(named(&file, "19")).at(at);
@@ -363,13 +363,13 @@ fn what_is_written_is_what_was_found() {
         .map(|e| e["limit"].as_f64().expect("a number"))
         .collect();
     assert_eq!(written, limits);
-    // Only where it is requested.
+    // The capacity is written only if it was requested.
     let plain = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
     assert!(!plain.contains("\"capacity\""));
 }
 
-/// A frame of a small scene: no set may be withheld for want of a proof, also not where a single force has none at
-/// first.
+/// All frames of a small scene: no capacity may be withheld because a proof is missing, even if a single force has no
+/// proof at first.
 #[test]
 fn every_block_of_the_doorway_has_a_capacity() {
     let scene = Scene::from_json(include_str!("../../assets/starter.json")).expect("valid");

@@ -1,4 +1,5 @@
-//! What falls: its failures are named, whatever the turn of gravity, and with them every block is in balance.
+//! Structures that fall, under gravity in many directions: their failures are listed, and together with these every
+//! block is in balance.
 
 use drystone::Analysis;
 use drystone::analysis::{
@@ -17,7 +18,8 @@ use serde_json::{Value, json};
 
 use crate::structure::{arch, block, first, on_floor, rectangle, scene, tilted, wall};
 
-/// The worst force and moment over the length 1 m that weights, contacts and what sticks leave on a block, in newtons.
+/// The largest force, or moment divided by 1 m, that weights, contacts and adhesion leave unbalanced on a block, in
+/// newtons.
 fn left(scene: &Scene, frame: &FrameAnalysis) -> f64 {
     let mut sums: Vec<(Vector, f64)> = Vec::new();
     for block in scene.blocks() {
@@ -90,7 +92,7 @@ fn named(file: Value, degrees: f64) {
     );
 }
 
-/// At 26° it is just past its edge of 25.7°, where the least sticking is half a brick's weight.
+/// A wall of 20 courses falls beyond 25.7°. At 26° the least adhesion is half of a brick's weight.
 #[test]
 fn turned_walls_name_their_failures() {
     for degrees in [26.0_f64, 30.0, 40.0, 60.0] {
@@ -106,9 +108,9 @@ fn turned_arches_name_their_failures() {
     }
 }
 
-/// Long arches have one set of forces of least squares too, whichever way round they are built.
+/// For long arches too, the forces of least squares are unique: they do not depend on the order of the blocks.
 #[test]
-fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
+fn the_forces_of_a_long_arch_do_not_depend_on_the_order_of_its_blocks() {
     let mut file = arch(1001, 0.3, 0.7);
     let before = scene(&file);
     file["blocks"].as_array_mut().unwrap().reverse();
@@ -123,7 +125,8 @@ fn an_arch_of_a_thousand_is_carried_the_same_way_from_either_end() {
     assert!((worst(&before) - worst(&after)).abs() < 1e-6 * worst(&before));
 }
 
-/// With the verdict alone the verdict and its proof are there, no soft program was posed, and the result says so.
+/// With `verdict_only` the verdict and its proof are reported, the program for the least adhesion is not solved, and
+/// the result says so.
 #[test]
 fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     let asked = Options::default().verdict_only(true);
@@ -177,8 +180,8 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     }
 }
 
-/// A motion of very many blocks does little work on its way. Where it violates nothing that is no reason for doubt. Beside it a
-/// brick touches the lowest, so that forces have a choice: then one program is enough.
+/// A motion of very many blocks does little work. If it violates no contact, this is no reason for doubt. A second
+/// case has a brick beside the lowest one, so that the forces are not unique: one program is enough.
 #[test]
 fn a_high_turned_stack_takes_no_program() {
     let at = |k: i32| rectangle(0.0, 0.5 * f64::from(k), 1.0, 0.5);
@@ -196,10 +199,11 @@ fn a_high_turned_stack_takes_no_program() {
     }
 }
 
-/// A stack that leans by nine tenths of what it may, alone and with a brick beside the lowest, so that forces have a choice. Where any balance has no proof the least force has: the least residual
-/// would end without a status after 200 iterations.
+/// A stack that leans by nine tenths of what it can, alone and with a brick beside the lowest one, so that the forces are
+/// not unique. An arbitrary balance may lack a proof here, but the balance of least forces has one. The program of the
+/// least residual would end without a status after 200 iterations.
 #[test]
-fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs() {
+fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_takes_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);
     let beside = block("beside", rectangle(-1.0, 0.0, 1.0, 0.25), 1.0);
     let alone: Vec<_> = (0..10_000)
@@ -221,10 +225,11 @@ fn the_verdict_alone_of_ten_thousand_blocks_one_on_the_other_takes_few_programs(
     }
 }
 
-/// Above a joint lie m bricks whose middle is half a brick and (m − 1)/2 shifts from its end; what that is beyond the face, times
-/// their weight, the other end has to pull.
+/// The m bricks above a joint have their centre half a brick and (m − 1)/2 shifts from one end of the joint. Where
+/// this lies beyond the other end of the face, the first end needs a tension: the distance times the weight of these
+/// bricks, divided by the length of the face.
 #[test]
-fn what_a_stack_of_ten_thousand_lacks_is_what_the_balance_above_each_joint_says() {
+fn the_adhesion_of_a_falling_stack_follows_from_the_balance_above_each_joint() {
     let (bricks, shift) = (10_000, 1.1e-4);
     let at = |k: usize| rectangle(shift * k as f64, 0.25 * k as f64, 1.0, 0.25);
     let all = (0..bricks).map(|k| block(&k.to_string(), at(k), 1.0));
@@ -253,7 +258,7 @@ fn what_a_stack_of_ten_thousand_lacks_is_what_the_balance_above_each_joint_says(
     );
 }
 
-/// The program of a structure that hangs together.
+/// The program of a structure whose blocks are all connected.
 pub fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
@@ -265,7 +270,7 @@ pub fn program(scene: &Scene) -> Program {
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }
 
-/// Plain conditioning of so many blocks means the normal equations, full conditioning clarabel.
+/// With this many blocks, plain conditioning uses the normal equations and full conditioning uses clarabel.
 #[test]
 fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
     let file = wall(30, 30);
@@ -296,9 +301,10 @@ fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
     }
 }
 
-/// There a step of the normal equations leaves 10⁻⁶ of the loads unbalanced; the amounts themselves can do better.
+/// This close to the limit a step of the normal equations leaves 10⁻⁶ of the loads unbalanced, but the program still
+/// ends within 60 iterations.
 #[test]
-fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
+fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
     let edge = 24.299_095;
     let program = program(&scene(&tilted(wall(30, 30), edge * (1.0 - 1e-5))));
     let all = columns(&program);
@@ -314,10 +320,11 @@ fn a_wall_short_of_its_edge_by_a_hundred_thousandth_is_balanced_at_once() {
     }
 }
 
-/// A ten-thousandth of a degree past its edge a wall lacks next to nothing. Velocities that no column violates bound the
-/// least sticking from below, by the loads' power along them (weak duality); what is reported is that bound.
+/// A ten-thousandth of a degree beyond its limit a wall needs almost no adhesion. Velocities that violate no column
+/// give a lower bound of the least adhesion: the power of the loads along them (weak duality). The reported value is
+/// that bound.
 #[test]
-fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
+fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let file = wall(16, 16);
     let options = Options::default()
         .margins(true)
@@ -344,8 +351,9 @@ fn what_a_wall_lacks_just_past_its_edge_is_the_least_that_could_hold_it() {
     assert!(off.abs() < 1e-6, "{} N of {bound} N", frame.total_sticking);
 }
 
-/// A joint ends where the brick below it does. The centre of all above the lowest brick is beyond that by a thousandth of a
-/// brick, those above other joints, and of all bricks, are not: so all but the lowest tip about that end, as one.
+/// A joint ends where the brick below it ends. The centre of gravity of all bricks above the lowest one lies a
+/// thousandth of a brick beyond that end; for all other joints and for the ground it lies inside. So all bricks but
+/// the lowest tip about that end as one body.
 #[test]
 fn a_tall_leaning_stack_tips_as_one() {
     let (count, high) = (300_u32, 0.25);

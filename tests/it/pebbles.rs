@@ -1,6 +1,6 @@
-//! Round stones: bodies of many corners, whose edges are as short as the contact tolerance or shorter.
+//! Round stones: bodies with many corners, whose edges are as short as the contact tolerance or shorter.
 //!
-//! `DRYSTONE_PEBBLES=6000` looks at more random pebbles than an everyday run; `DRYSTONE_PEBBLES_FIRST` is the number of
+//! `DRYSTONE_PEBBLES=6000` checks more random pebbles than the usual 300; `DRYSTONE_PEBBLES_FIRST` is the number of
 //! the first one.
 
 use drystone::analysis::Verdict;
@@ -12,7 +12,7 @@ use crate::random::Random;
 
 type Outline = Vec<[f64; 2]>;
 
-/// A number as a file holds it that is written with `decimals` decimals; `None` for all digits.
+/// The number that a file contains if it is written with this many decimals; `None` keeps all digits.
 fn written(x: f64, decimals: Option<usize>) -> f64 {
     match decimals {
         Some(decimals) => format!("{x:.decimals$}").parse().unwrap(),
@@ -27,7 +27,7 @@ fn rounded(outline: &Outline, decimals: Option<usize>) -> Outline {
         .collect()
 }
 
-/// A scene of one stone on flat ground, all lengths in units of `unit` metres.
+/// A scene of one stone on flat ground, which reaches `reach` to each side of the origin.
 fn on_ground(stone: &Outline, reach: f64, tolerance: Option<f64>) -> Value {
     let mut file = json!({
         "drystone": 1,
@@ -52,7 +52,7 @@ fn circle(radius: f64, corners: usize) -> Outline {
     (0..corners).map(corner).collect()
 }
 
-/// Corners as polygons have them, without repeated ones.
+/// The outline without repeated corners.
 fn without_repeats(outline: Outline) -> Outline {
     let mut out: Outline = Vec::with_capacity(outline.len());
     for p in outline {
@@ -87,7 +87,7 @@ fn stones_with_edges_shorter_than_the_tolerance_are_answered() {
     }
 }
 
-/// A circle stands on its lowest edge, however it is written and whatever counts as touching.
+/// A circle stands on its lowest edge, whatever its size, its number of corners and the decimals in the file.
 #[test]
 fn a_circle_of_any_size_and_any_number_of_corners_stands_on_its_lowest_edge() {
     let counts = [20, 50, 200, 500, 2000, 5000];
@@ -106,7 +106,7 @@ fn a_circle_of_any_size_and_any_number_of_corners_stands_on_its_lowest_edge() {
             let file = on_ground(&stone, 10.0 * radius, None);
             match verdict(&file) {
                 Ok((Verdict::Stable, _)) => None,
-                // Rounded to nothing.
+                // Rounding has left fewer than three corners.
                 Err(_) if stone.len() < 3 => None,
                 other => Some(format!("{radius} {corners} {decimals:?}: {other:?}")),
             }
@@ -115,7 +115,8 @@ fn a_circle_of_any_size_and_any_number_of_corners_stands_on_its_lowest_edge() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A tolerance of a tenth, of once and of ten times the block joins nothing within one outline.
+/// A contact tolerance from a thousandth of the radius to a thousand times the radius changes nothing within one
+/// outline.
 #[test]
 fn a_tolerance_larger_than_the_block_leaves_its_outline_alone() {
     let mut cases = Vec::new();
@@ -137,7 +138,7 @@ fn a_tolerance_larger_than_the_block_leaves_its_outline_alone() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The corners of the convex hull, anticlockwise, from the lowest one.
+/// The corners of the convex hull, anticlockwise, from the leftmost one.
 fn hull(mut points: Outline) -> Outline {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
@@ -177,7 +178,7 @@ fn centroid(outline: &Outline) -> [f64; 2] {
     [base[0] + x / (3.0 * area), base[1] + y / (3.0 * area)]
 }
 
-/// Corners of an ellipse at random angles, each off by up to `rough` of its radius.
+/// Corners of an ellipse at random angles, each moved inwards by up to `rough` of its radius.
 fn pebble(chance: &mut Random, radius: f64, corners: usize, rough: f64) -> Outline {
     let turn = core::f64::consts::TAU;
     let mut angles: Vec<f64> = (0..corners).map(|_| turn * chance.share()).collect();
@@ -193,7 +194,8 @@ fn pebble(chance: &mut Random, radius: f64, corners: usize, rough: f64) -> Outli
         .collect()
 }
 
-/// A stone turned and moved so that an edge of its hull lies on y = 0: below its centre of gravity, or any.
+/// The stone, rotated and moved so that an edge of its hull lies on y = 0: an edge below its centre of gravity, or
+/// any edge.
 fn laid_down(chance: &mut Random, stone: &Outline) -> Outline {
     let around = hull(stone.clone());
     let centre = centroid(stone);
@@ -216,14 +218,14 @@ fn laid_down(chance: &mut Random, stone: &Outline) -> Outline {
     let place = |p: &[f64; 2]| {
         let d = [p[0] - a[0], p[1] - a[1]];
         let y = cos * d[1] - sin * d[0];
-        // The two corners of the edge lie on the ground to the last bit.
+        // Both corners of this edge lie exactly on the ground.
         let y = if *p == a || *p == b { 0.0 } else { y };
         [cos * d[0] + sin * d[1], y]
     };
     stone.iter().map(place).collect()
 }
 
-/// A stone turned by any angle, its lowest corner on y = 0.
+/// The stone, rotated by a random angle, with its lowest corner on y = 0.
 fn dropped(chance: &mut Random, stone: &Outline) -> Outline {
     let (sin, cos) = libm::sincos(core::f64::consts::TAU * chance.share());
     let turned = |p: &[f64; 2]| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]];
@@ -232,32 +234,33 @@ fn dropped(chance: &mut Random, stone: &Outline) -> Outline {
     turned.iter().map(|p| [p[0], p[1] - lowest]).collect()
 }
 
-/// The pebble of a number: its file, the outline as it is written, and how far corners may lie off the ground by rounding.
+/// A random pebble: its scene file, its outline as written, and how far rounding may have lifted corners off the
+/// ground.
 fn random(number: u64) -> (Value, Outline, f64) {
     let mut chance = Random::new(number);
     let radius = chance.one_of(&[0.01, 0.05, 0.1, 0.5, 1.0, 5.0, 100.0]);
     let corners = chance.whole(20, 80) as usize;
     let rough = chance.one_of(&[0.0, 0.0, 0.02, 0.1]);
     let stone = pebble(&mut chance, radius, corners, rough);
-    // A rough stone on an edge of its hull would stand on two tips, which carry nothing.
+    // A rough stone lying on an edge of its hull would rest on two corners, which carry nothing.
     let stone = match rough == 0.0 && chance.percent(50) {
         true => laid_down(&mut chance, &stone),
         false => dropped(&mut chance, &stone),
     };
-    // From three digits of the radius upward.
+    // At least three digits of the radius are kept.
     let least = (2.5 - libm::log10(radius)).ceil().max(0.0) as usize;
     let decimals = match chance.whole(0, 5) {
         5 => None,
         more => Some(least + more as usize),
     };
     let stone = without_repeats(rounded(&stone, decimals));
-    // As `scene::heal` counts it: three times the error of a coordinate.
+    // As in `scene::heal`: three times the rounding error of a coordinate.
     let slack = decimals.map_or(0.0, |k| 1.5 * libm::pow(10.0, -(k as f64)) * (1.0 + 1e-9));
     (on_ground(&stone, 10.0 * radius, None), stone, slack)
 }
 
-/// Whether a stone on y = 0 stands, its corners up to `slack` above the ground touching it: its centre of gravity lies above
-/// what it rests on.
+/// Whether a stone on y = 0 stands: its centre of gravity lies above the edges on the ground. Corners up to `slack`
+/// above the ground count as on it.
 fn stands(stone: &Outline, slack: f64) -> bool {
     let mut rests = (f64::INFINITY, f64::NEG_INFINITY);
     for (i, a) in stone.iter().enumerate() {
@@ -270,7 +273,8 @@ fn stands(stone: &Outline, slack: f64) -> bool {
     rests.0 <= centre && centre <= rests.1
 }
 
-/// Number of a pebble, its verdict with the doubt or its problems, and whether it stands by hand: exactly and within rounding.
+/// The number of a pebble, its verdict with the doubt or its problems, and whether it should stand: exactly, and with
+/// rounding.
 type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
 
 #[test]
@@ -303,7 +307,7 @@ fn hardly_any_pebble_is_undecided() {
             (Ok((Verdict::Undecided, doubt)), _) => undecided.push(format!("{number}: {doubt}")),
             (Ok((Verdict::Stable, _)), true) => standing += 1,
             (Ok((Verdict::Unstable, _)), false) => {}
-            // Which of the two was meant the file does not show.
+            // The file does not show which of the two was meant.
             (Ok(_), _) if exactly != within_rounding => {}
             (Ok((verdict, _)), _) => wrong.push(format!("{number}: {verdict:?}")),
         }
@@ -324,8 +328,8 @@ fn hardly_any_pebble_is_undecided() {
     assert!(refused.len() as u64 <= count / 10, "{}", few(&refused));
 }
 
-/// Circles and pebbles in all digits, turned with gravity, mirrored, and a million times as large or as small: the verdict
-/// stays, and no more of them are undecided.
+/// Circles and pebbles with all digits keep their verdict when they are rotated with gravity, mirrored, or made a
+/// million times larger or smaller, and are decided as before.
 #[test]
 fn a_stone_turned_mirrored_or_scaled_keeps_its_verdict() {
     let mut stones: Vec<(String, Outline)> = [20, 200, 2000]

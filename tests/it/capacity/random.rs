@@ -1,4 +1,4 @@
-//! Random sets of carried forces against exact programs.
+//! Capacities of random scenes, compared with exact programs.
 
 use drystone::analysis::{CapacityError, CapacityRequest, CapacityShape, ForceAt};
 use drystone::{Analysis, Scene};
@@ -9,8 +9,8 @@ use crate::oracle::balance::Balance;
 use crate::oracle::number_of;
 use crate::oracle::touch::touches;
 
-/// Random sets against exact programs in 90 directions each: no vertex outside, and no direction short.
-/// `DRYSTONE_CAPACITY_SCENES=1000` looks at more scenes than an everyday run.
+/// In 90 directions each, no vertex lies outside the exact set and the set reaches as far as the exact one.
+/// `DRYSTONE_CAPACITY_SCENES=1000` compares more scenes than the usual 30.
 #[test]
 #[expect(
     clippy::print_stdout,
@@ -77,18 +77,19 @@ fn random_sets_are_those_of_an_exact_program() {
     assert!(withheld.len() as u64 <= 2 + wanted / 100, "{withheld:?}");
 }
 
-/// By how much the vertices lie outside and the directions are short, relative to the size of the set; or why there is
-/// nothing to compare.
+/// How far the vertices lie outside the exact set, and how much the set falls short of it, both relative to its size;
+/// or why there is nothing to compare.
 type Compared = Result<(f64, f64, CapacityShape), Skipped>;
 
 /// Why a scene is not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Skipped {
-    /// It is no sound scene, its blocks overlap, or rounding opens a contact of the exact program.
+    /// The scene is not valid, its blocks overlap, or rounding opens a contact of the exact program.
     NoScene,
-    /// Other blocks stand or fall within the band of the verdicts, or a set that is exactly empty is not empty within it.
+    /// The verdict of other blocks lies within the tolerance, or a set that is empty in exact numbers is not empty
+    /// within it.
     InBand,
-    /// The set of this scene is withheld, since the forces and the motions that were proved do not agree closely enough.
+    /// The capacity is withheld, because the proved forces and the proved motions do not agree closely enough.
     Withheld(u64),
 }
 
@@ -133,7 +134,7 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let Some(exact) = exact else {
         return match found.shape() {
             CapacityShape::Empty => Ok(Ok((0.0, 0.0, found.shape()))),
-            // It may be carried within the tolerance of a proof.
+            // Some force may be carried within the tolerance of a proof.
             _ if own.holds_within_band(block, [at.x, at.y]) => Ok(Err(Skipped::InBand)),
             shape => Err(format!("{number}: {shape:?} instead of empty\n{file}")),
         };
