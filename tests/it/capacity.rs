@@ -152,8 +152,7 @@ fn every_shape_occurs() {
     let all = capacity(&held, "a", ForceAt::Point(Point::new(3.0, 1.0)));
     assert_eq!(all.shape(), CapacityShape::Everything);
     assert_eq!(all.reach([1.0, 0.0]), Some(f64::INFINITY));
-    // For the block that the robot holds, the default request asks for the robot's force: it carries the weight
-    // alone.
+    // By default the force replaces that of the robot that holds the block: it must carry exactly the weight.
     let tool = capacity(&held, "a", ForceAt::Default);
     assert_eq!(tool.shape(), CapacityShape::Point);
     assert!(tool.robot.is_some());

@@ -199,9 +199,9 @@ fn a_high_turned_stack_takes_no_program() {
     }
 }
 
-/// A stack that leans by nine tenths of what it can, alone and with a brick beside the lowest one, so that the forces are
-/// not unique. An arbitrary balance may lack a proof here, but the balance of least forces has one. The program of the
-/// least residual would end without a status after 200 iterations.
+/// A stack that leans by nine tenths of what it can, alone and with a brick beside the lowest one, so that the forces
+/// are not unique. An arbitrary balance may lack a proof here, but the balance of least forces has one. The program of
+/// the least residual would end without a status after 200 iterations.
 #[test]
 fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_takes_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);

@@ -1,5 +1,5 @@
-//! The structure that was meant: turned, rounded, split at extra vertices, a structure keeps its verdict, and its forces
-//! within the rounding.
+//! Healing restores the intended structure: rotated, rounded or split at extra vertices, a structure keeps its
+//! verdict, and its forces up to the rounding.
 
 mod narrow;
 
@@ -40,7 +40,7 @@ impl Written {
         }
     }
 
-    /// How far total forces may be off, in parts.
+    /// The permitted relative error of total forces.
     fn error(self) -> f64 {
         match self {
             Written::InFull => 1e-7,
@@ -103,7 +103,7 @@ fn arch(count: usize, inner: f64, thickness: f64) -> Built {
     }
 }
 
-/// A point set into every side, somewhere.
+/// Inserts a point at a random place into every side.
 fn split(outline: &Outline, chance: &mut Random) -> Outline {
     let mut out = Vec::new();
     for (i, a) in outline.iter().enumerate() {
@@ -216,8 +216,8 @@ fn stones_beside_walls(chance: &mut Random) -> Built {
     }
 }
 
-/// Pressed between upright faces that are parallel but for rounding a stone is a wedge of 10⁻⁶, and its least forces are those
-/// of a stone between parallel faces.
+/// Between upright faces that are parallel except for rounding, a stone is a wedge of 10⁻⁶. Its least forces are
+/// those of a stone between parallel faces.
 #[test]
 fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
     let (mut stand, mut fall) = (0, 0);
@@ -242,7 +242,7 @@ fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
 
 #[test]
 fn structures_that_fall_are_not_healed_into_standing() {
-    // A corbel of four, each 0.4 m beyond the one below; and an arch too thin.
+    // A corbel of four blocks, each 0.4 m beyond the one below, and an arch that is too thin.
     let corbel = Built {
         name: "corbel".into(),
         ground: vec![corners(-1.0, -1.0, 3.0, 1.0)],
@@ -265,7 +265,7 @@ fn structures_that_fall_are_not_healed_into_standing() {
     }
 }
 
-/// One frame of a scene on its own, all of it in metres, turned with its gravity.
+/// One frame of a scene as a scene of its own, in metres and rotated together with gravity.
 fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
@@ -327,7 +327,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
         let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let meant = Analysis::new(&scene);
         for (number, (frame, meant)) in scene.frames().iter().zip(&meant.frames).enumerate() {
-            // Its centre of gravity lies exactly above a corner: rounding moves it to either side.
+            // Its centre of gravity lies exactly above a corner, and rounding moves it to either side.
             if path.ends_with("figure-6-kernel-0.json") && number == 0 {
                 continue;
             }
@@ -338,7 +338,8 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
                     if meant.robots.is_empty() {
                         same(&name, (meant.verdict, meant.total_force), &file, written);
                     } else {
-                        // A robot's cost is counted by components, so it changes with the turn.
+                        // The cost of a robot's force depends on its components, so the total force changes with the
+                        // rotation.
                         let (verdict, _, doubt) = judged(&file);
                         assert_eq!(verdict, meant.verdict, "{name}, {written:?}: {doubt}");
                     }
@@ -376,13 +377,13 @@ fn where_coordinates_come_from_is_told() {
     );
     let (from, _, healed) = source(Written::InFull);
     assert_eq!((from, healed.corners), (ToleranceSource::Size, 0));
-    // Upright, everything fits already.
+    // Upright, all corners already fit.
     let scene = Scene::from_json(&wall.file(0.0, Written::Decimals(3), None).to_string()).unwrap();
     assert_eq!(scene.healed().corners, 0);
 }
 
-/// Three stones whose corners a wide tolerance would push into each other. They stay as they are written, are judged as such, and the
-/// first of them is named with its place.
+/// Three stones whose corners a wide tolerance would push into each other. They stay as written and are analysed as
+/// such, and the first of them is reported with its place.
 #[test]
 fn what_cannot_be_healed_stays_as_written_and_is_named_with_its_place() {
     let file = json!({ "drystone": 1, "contact_tolerance": 0.05,

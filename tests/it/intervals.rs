@@ -1,9 +1,9 @@
-//! Intervals of margins against an exact program: both ends of each, over whole frames.
+//! Intervals of margins, compared with an exact program: both ends of each interval, for complete frames.
 //!
-//! The load factor and the horizontal load are linear programs, solved in fractions. For friction, kernel, tilt and
-//! limits the exact program judges the scene just inside and just beyond each end.
-//! `DRYSTONE_INTERVAL_SCENES=3000` looks at more scenes than an everyday run; `DRYSTONE_INTERVAL_FIRST` is the number of
-//! the first.
+//! The load factor and the horizontal load are linear programs, solved in exact fractions. For friction, kernel, tilt
+//! and limits, the exact program gives the verdict just inside and just beyond each end.
+//! `DRYSTONE_INTERVAL_SCENES=3000` checks more scenes than the usual run; `DRYSTONE_INTERVAL_FIRST` is the number of
+//! the first scene.
 
 use drystone::analysis::{End, Interval, Margin, MarginKinds, Margins, Options};
 use drystone::session::Session;
@@ -44,13 +44,13 @@ fn known(name: &str) -> (Value, Margins) {
     (serde_json::from_str(&text).expect("JSON"), analysed(&scene))
 }
 
-/// Both ends as numbers, infinite where there is none; `None` of an empty interval.
+/// Both ends as numbers, infinite if there is no end; `None` for an empty interval.
 #[track_caller]
 fn ends(interval: &Option<Interval>) -> Option<[f64; 2]> {
     read(interval.as_ref().expect("the interval was requested")).expect("both ends are confirmed")
 }
 
-/// The same; an error where something is withheld.
+/// Like [`ends`], with an error if an end is withheld.
 fn read(interval: &Interval) -> Result<Option<[f64; 2]>, String> {
     let end = |end: &End, endless: f64| match end {
         End::At { value, .. } => Ok(*value),
@@ -77,7 +77,7 @@ fn near(found: Option<[f64; 2]>, expected: [f64; 2]) {
 }
 
 #[test]
-fn what_falls_at_every_factor_has_none() {
+fn structures_that_fall_at_every_load_factor_have_no_interval() {
     for name in ["hang", "over", "ramp", "side"] {
         let (_, margins) = known(&format!("load-factor-unbounded-{name}"));
         assert_eq!(ends(&margins.intervals.load_factor), None, "{name}");
@@ -85,7 +85,7 @@ fn what_falls_at_every_factor_has_none() {
     }
 }
 
-/// One part needs a push to the left of its own weight, the other bears half its weight.
+/// One part needs a push to the left as large as its weight; the other can only take half of its weight.
 #[test]
 fn parts_whose_intervals_do_not_meet_stand_at_no_value() {
     let (_, margins) = known("margin-horizontal-two-groups");
@@ -103,7 +103,7 @@ fn parts_whose_intervals_do_not_meet_stand_at_no_value() {
     }
 }
 
-/// About the edge of the pier the counterweight must outweigh what overhangs.
+/// About the edge of the pier, the moment of the counterweight must be at least that of the overhanging part.
 #[test]
 fn a_counterweight_is_needed_from_three_tenths() {
     let (file, margins) = known("plank");
@@ -126,7 +126,7 @@ fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
     near(ends(&margins.intervals.load_factor), [0.0, 0.327657247]);
 }
 
-/// Large polygons and a robot, where the reported least friction was 0.3 % too high.
+/// Large polygons and a robot: the reported least friction used to be 0.3 % too high.
 #[test]
 fn the_least_friction_beside_robots_is_the_least() {
     for name in ["friction-margin-300084", "friction-margin-300297"] {
@@ -137,11 +137,12 @@ fn the_least_friction_beside_robots_is_the_least() {
     }
 }
 
-/// What is wrong with the intervals of one scene.
+/// The errors in the intervals of one scene.
 fn problems(number: u64) -> Vec<String> {
     let file = random_scene(number);
     let found = problems_of(number, &file, false);
-    // A frame that stands today within the band of the verdicts, and falls exactly, has ends within the band only.
+    // If a frame falls exactly but stands within the tolerance of the verdicts, its ends exist only within the
+    // tolerance.
     match found.is_empty() || !is_borderline(&file) {
         true => found,
         false => problems_of(number, &file, true),
@@ -202,15 +203,15 @@ fn both_ends_are_those_of_an_exact_program() {
     );
 }
 
-/// A load pulls a lintel off its posts. The mechanisms of nearby tilts differ a little, and each cuts off a fifteenth less than the
-/// one before: the tilt was withheld after 200 cuts.
+/// A load pulls a lintel off its posts. The mechanisms of nearby tilts differ little, and each cuts off a fifteenth
+/// less than the one before. The tilt used to be withheld after 200 cuts.
 #[test]
-fn slow_cuts_of_the_tilt_are_hurried() {
+fn slow_cuts_of_the_tilt_are_accelerated() {
     let found = problems(2536);
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// Ends beyond half a turn were once off by 0.0001005 degrees.
+/// Ends beyond half a turn used to be wrong by 0.0001005 degrees.
 #[test]
 fn a_tilt_beyond_half_a_turn_is_as_exact_as_a_small_one() {
     for number in [10581, 10850] {
@@ -219,8 +220,9 @@ fn a_tilt_beyond_half_a_turn_is_as_exact_as_a_small_one() {
     }
 }
 
-/// The roots of Newton's method lie beyond these ends, from whichever side: the method ended without a root, and the verdicts that
-/// replaced it are true to 10⁻⁷ of the forces only. Three frictions were up to 2·10⁻⁶ too low, two kernels 7·10⁻⁷ too high.
+/// The roots of Newton's method lie beyond these ends, seen from either side. The method used to end without a root,
+/// and the verdicts used instead are true only to 10⁻⁷ of the forces. Three friction coefficients were up to 2·10⁻⁶
+/// too low, and two kernels 7·10⁻⁷ too high.
 #[test]
 fn friction_and_kernel_are_as_exact_as_the_program_where_roots_lie_beyond_the_end() {
     for number in [10711, 11445, 11776, 10944, 12008] {

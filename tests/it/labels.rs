@@ -1,4 +1,4 @@
-//! Labels hide nothing: measured on the drawings themselves, whoever placed them.
+//! Labels hide nothing. This is measured on the finished drawings, whatever code has placed the labels.
 
 use drystone::analysis::Analysis;
 use drystone::drawing::{Anchor, Drawing, Face, Group, Item, PagePoint, Segment, Text, text};
@@ -11,7 +11,7 @@ use crate::pictures::{gallery, scene};
 /// An upright box: left, top, right, bottom.
 pub(crate) type Box4 = [f64; 4];
 
-/// The ink of a text: from the height of capitals to the base line, and its descenders where it has any.
+/// The inked area of a text: from the height of capitals to the baseline, and down to its descenders if it has any.
 pub(crate) fn ink(text: &Text) -> Box4 {
     let wide = text::width(&text.words, text.face, text.size);
     let left = match text.anchor {
@@ -56,7 +56,7 @@ pub(crate) fn texts(group: &Group) -> Vec<Text> {
     found
 }
 
-/// Every group of a class, with those inside others.
+/// All groups of a class, including those inside other groups.
 fn of_class<'d>(items: &'d [Item], class: &str, found: &mut Vec<&'d Group>) {
     for item in items {
         if let Item::Group(group) = item {
@@ -76,12 +76,12 @@ pub(crate) fn classes<'d>(items: &'d [Item], wanted: &[&str]) -> Vec<&'d Group> 
     found
 }
 
-/// The straight pieces of a group's own paths, curves as their control polygons.
+/// The straight segments of a group's own paths; curves are replaced by their control polygons.
 pub(crate) fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
     let mut pieces = Vec::new();
     for item in &group.items {
         let Item::Path(path) = item else { continue };
-        // The seams between a block's cells are no edge: its filled outline is.
+        // The seams between the cells of a block are not edges; its filled outline is.
         if group.class == "block" && path.fill.is_none() {
             continue;
         }
@@ -105,7 +105,7 @@ pub(crate) fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
     pieces
 }
 
-/// Whether a line runs through a box: cut to the box's slabs, something of it is left.
+/// Whether a line crosses a box: the line is clipped to the box, and a part of it is left.
 pub(crate) fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (start, along, low, high) in [
@@ -125,7 +125,7 @@ pub(crate) fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
     from < to
 }
 
-/// Every label of a drawing whose ink lies on another label, or on a path of one of these classes.
+/// The number of labels in a drawing, and those whose ink lies on another label or on a path of a class in `barred`.
 pub(crate) fn hidden(items: &[Item], labels: &[&str], barred: &[&str]) -> (usize, Vec<String>) {
     let mut labelled: Vec<(String, Box4)> = Vec::new();
     for label in classes(items, labels) {
@@ -151,7 +151,7 @@ pub(crate) fn hidden(items: &[Item], labels: &[&str], barred: &[&str]) -> (usize
     (labelled.len(), complaints)
 }
 
-/// A drawing's panels, or all of it.
+/// The panels of a drawing.
 fn panels(drawing: &Drawing) -> Vec<&[Item]> {
     let frames = classes(&drawing.items, &["picture"]);
     frames.iter().map(|g| g.items.as_slice()).collect()
@@ -178,10 +178,10 @@ fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
     assert!(count > 150, "only {count} labels were looked at");
 }
 
-/// One column of a journal, 84 mm, at eight tenths of a pixel's natural size.
+/// The width of a column of a journal, 84 mm, in pixels that are printed at 0.8 of their natural size.
 pub(crate) const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
 
-/// Two columns, 174 mm.
+/// The width of two columns, 174 mm.
 const TWO_COLUMNS: f64 = 174.0 / 25.4 * 96.0 / 0.8;
 
 #[test]
@@ -272,7 +272,7 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
             let inside =
                 left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
             assert!(inside, "{name}: {} is cut", text.words);
-            // 0.6 points a pixel: 7.5 points, of names 5.4.
+            // At 0.6 points per pixel, texts have at least 7.5 points and names 5.4.
             let least = if names.contains(&text) { 9.0 } else { 12.5 };
             let small_sign = name.ends_with("freebody") && text.size > 10.0;
             assert!(
@@ -285,10 +285,10 @@ fn on_a_page_as_wide_as_a_column_words_stay_large_and_nothing_is_cut() {
     }
 }
 
-/// Whether a text has a name as a word of its own.
+/// Whether a text contains a name as a separate word.
 fn names(text: &str, name: &str) -> bool {
     let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
-    // A number before a unit or a noun is an amount or a count and names nothing.
+    // A number before a unit or a noun is an amount or a count, not a name.
     let counts = |rest: &str| {
         let word = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}']);
         let nouns = [
@@ -316,7 +316,7 @@ fn names(text: &str, name: &str) -> bool {
         ];
         nouns.iter().any(|noun| word.starts_with(noun))
     };
-    // Digits on either side of a point are one number.
+    // Digits on both sides of a point form one number.
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let goes_on = |rest: &str| rest.starts_with('.') && digit(rest.chars().nth(1));
     let began = |before: &str| before.ends_with('.') && digit(before.chars().rev().nth(1));
@@ -354,7 +354,7 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                         .collect();
                     let said: Vec<&str> = own.iter().map(|t| t.words.as_str()).collect();
                     let said = said.join(" ");
-                    // A name of several words may stand in several lines.
+                    // A name of several words may take several lines.
                     let lines = |label| texts(label).into_iter().map(|t| t.words);
                     let labels: Vec<String> = classes(&group.items, &["name"])
                         .into_iter()
@@ -363,7 +363,8 @@ fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
                     let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
                     for id in blocks.filter(|id| names(&said, id)) {
                         named += 1;
-                        // Bands of flow may leave no room; the frame then says how many names are left out.
+                        // Bands of force flow may leave no room for a name; the frame then states how many names are
+                        // left out.
                         let is_counted = kind == figure::Kind::Flow && said.contains("no room for");
                         assert!(
                             labels.contains(id) || is_counted,

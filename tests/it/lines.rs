@@ -1,4 +1,4 @@
-//! Lines and arrows tell the truth: measured on the drawings themselves, against the forces that were found.
+//! Lines and arrows are true: they are measured on the drawings and compared with the computed forces.
 
 use drystone::Analysis;
 use drystone::analysis::FrameAnalysis;
@@ -9,7 +9,7 @@ use drystone::scene::{BlockId, BodyId, Scene};
 
 use crate::pictures::{gallery, scene};
 
-/// Structures that nobody here designed, as strangers brought them.
+/// Structures by other authors, from `tests/scenes`.
 pub(crate) fn brought() -> Vec<(String, Scene)> {
     let folder = format!("{}/tests/scenes", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(folder)
@@ -55,7 +55,7 @@ struct Acting {
     moment: f64,
 }
 
-/// What bodies and robots give to a block, and its weight and loads.
+/// The forces of bodies and robots on a block, and its weight and loads.
 fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2] {
     let block = &scene.blocks()[id.0];
     let at = |p: Point, force: Vector, torque: f64| Acting {
@@ -69,7 +69,7 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
             [_, BodyId::Block(b)] if b == id => -1.0,
             _ => continue,
         };
-        // From the corners, not from the resultant that the picture is made of.
+        // From the forces at the two points, not from the resultant from which the picture is drawn.
         let normal = contact.interface.normal;
         let [p, q] = contact.application_points;
         let [n, m] = contact.normal_forces;
@@ -97,7 +97,8 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
     [pressing, loads]
 }
 
-/// Every force that may run through a block on one line: each by itself, and each joint's with some of the loads.
+/// All forces that may run through a block on one line: each by itself, and the force of each joint with some of the
+/// loads.
 fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
     let sum = |a: Acting, b: &Acting| Acting {
         force: a.force + b.force,
@@ -105,7 +106,7 @@ fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
     };
     let mut lines: Vec<Acting> = loads.clone();
     for one in pressing {
-        // With three forces and more there is no telling which of them a load belongs to.
+        // With three or more forces it is not determined to which of them a load belongs.
         let subsets = if pressing.len() <= 2 {
             1 << loads.len()
         } else {
@@ -140,7 +141,7 @@ fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
         }
         scenes += 1;
     }
-    // All other pieces are schematic, in a class of their own.
+    // All other pieces are schematic and have a class of their own.
     assert!(checked > 150 && scenes > 20, "{checked} pieces of {scenes}");
 }
 
@@ -214,7 +215,8 @@ fn newtons(words: &str) -> Option<f64> {
     Some(number * factor)
 }
 
-/// From tail to tip, pixels: the outline of an arrow begins and ends at its tail, its fourth corner is the tip.
+/// The length of an arrow from tail to tip, in pixels. Its outline begins and ends at its tail; the fourth corner is
+/// the tip.
 fn long(outline: &Outline) -> f64 {
     let points: Vec<PagePoint> = outline.points().collect();
     assert_eq!(points.len(), 7);
@@ -230,7 +232,7 @@ fn long(outline: &Outline) -> f64 {
     tip
 }
 
-/// The scale arrow of a panel: how long it is, and for how much.
+/// The scale arrow of a panel: its length and the amount that it stands for.
 fn scale(frame: &Group) -> Option<(f64, f64)> {
     frame.items.windows(2).find_map(|pair| match pair {
         [Item::Path(path), Item::Text(text)] if path.outline.points().count() == 7 => {
@@ -272,9 +274,9 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
                     let force = newtons(told).unwrap_or_else(|| panic!("{}", arrow.title));
                     let long = long(outline(arrow));
                     let expected = force * per_newton;
-                    // Three digits are printed. Missing forces have a scale of their own where they are small.
+                    // Three digits are printed. Small missing forces may have a scale of their own.
                     let own = arrow.title.starts_with("Missing");
-                    // Loads that would be too short have a scale of their own, and are longer then.
+                    // Loads whose arrows would be too short have a scale of their own and are drawn longer.
                     let own = own || (arrow.title.starts_with("Load") && long > expected);
                     assert!(
                         own || (long - expected).abs() <= 0.006 * expected,
@@ -315,7 +317,7 @@ fn what_is_too_small_to_be_drawn_is_counted() {
             items: drawing.items.clone(),
             ..Group::default()
         };
-        // Where arrows would be dust none is drawn: then the key counts them for all frames together.
+        // Arrows that would be too small to read are not drawn. The key then counts them for all frames together.
         let key = all_text(&page).join(" ");
         if let Some((before, _)) = key.split_once(" too small to read, left out") {
             let frames = 0..scene.frames().len();
@@ -367,7 +369,7 @@ fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
             let size = drawing.width;
             let near =
                 |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
-            // Where what gives back would cover what acts, the two are drawn apart and their places joined by lines.
+            // Where reactions would cover actions, the two are drawn apart and lines join their positions.
             let joins: Vec<[(f64, f64); 2]> = all(&polygon.items, "join")
                 .iter()
                 .map(|join| {

@@ -56,7 +56,8 @@ fn wedge(friction: f64) -> Value {
         "blocks": [{ "id": "wedge", "polygon": [[0, 0], [right, 1], [left, 1]], "weight": 6 }] })
 }
 
-/// Turned to the right the wedge leaves the left face and slides up the right one, at its slope plus the angle of friction.
+/// Tilted to the right, the wedge leaves the left face and slides up the right one. This begins at a tilt of the
+/// slope of that face plus the friction angle.
 #[test]
 fn a_wedge_leaves_its_notch_at_the_slope_of_a_face_and_the_angle_of_friction() {
     for friction in [0.2, 0.5, 0.7] {
@@ -81,15 +82,15 @@ fn a_block_on_a_slope_slides_down_or_up() {
     near(&found.horizontal_load.left, share(angle - 30.0), 1e-7);
     near(&found.horizontal_load.right, share(angle + 30.0), 1e-5);
     near(&found.friction, share(30.0), 1e-6);
-    // The weight's line meets the slope 2 − 0.25·tan 30° from the nearer end of its 4 m.
+    // The line of action of the weight meets the contact, 4 m long, at 2 − 0.25·tan 30° from its nearer end.
     near(&found.kernel, 1.0 - 0.25 * share(30.0) / 2.0, 1e-6);
 }
 
 #[test]
-fn figure_6_ends_at_a_quarter_of_a_kernel() {
+fn figure_6_stands_up_to_a_kernel_of_a_quarter() {
     near(&step("figure-6-kernel-0", 1).kernel, 0.25, 1e-6);
     near(&step("figure-6-kernel-02", 1).friction, 0.3464, 5e-5);
-    // The upright link has its centre of gravity above a corner: it stands, and bears nothing to that side.
+    // The upright link has its centre of gravity above a corner: it stands, but has no reserve towards that side.
     let upright = step("figure-6-kernel-0", 0);
     let least = [&upright.tilt.left, &upright.tilt.right]
         .map(|m| m.at().expect("a tilt at which it falls"));
@@ -120,18 +121,18 @@ fn the_thinnest_arch() {
     assert!((stands - 0.10745).abs() < 1e-4, "{stands}");
 }
 
-/// A block 2 m wide and 3 m high, pushed at its top by 1 N to the left and hung on to by 0.5 N at its right edge.
+/// A block 2 m wide and 3 m high with a load of 1 N to the left and 0.5 N downwards at its upper right corner.
 #[test]
 fn a_load_grows_until_the_block_topples() {
     let mut file = on_floor(0.9, vec![block("a", rectangle(0.0, 0.0, 2.0, 3.0), 6.0)]);
     file["loads"] = json!([{ "block": "a", "force": [-1, -0.5], "at": [2, 3] }]);
     let found = margins(&file);
-    // About the left foot: 6·1 + λ·0.5·2 = λ·1·3.
+    // Moments about the left foot: 6·1 + λ·0.5·2 = λ·1·3.
     near(&found.load_factor, 3.0, 1e-7);
     // 6·1 + 0.5·2 − 1·3 = h·6·1.5 to the left; to the right, about the right foot, 6·1 + 1·3 = h·6·1.5.
     near(&found.horizontal_load.left, 4.0 / 9.0, 1e-7);
     near(&found.horizontal_load.right, 1.0, 1e-7);
-    // 1 + 3·(cos θ·… ): the turned weight's moment about the left foot is 6 cos θ − 9 sin θ, and 2 of it is needed.
+    // Moments about the left foot: the turned weight gives 6 cos θ − 9 sin θ, and the loads need 1·3 − 0.5·2 = 2.
     let left = found.tilt.left.at().expect("it topples").to_radians();
     let moment = 6.0 * libm::cos(left) - 9.0 * libm::sin(left);
     assert!((moment - 2.0).abs() < 1e-5, "{moment}");
@@ -139,7 +140,7 @@ fn a_load_grows_until_the_block_topples() {
 }
 
 #[test]
-fn what_falls_at_any_value_has_none() {
+fn structures_that_fall_at_any_value_have_no_margin() {
     let flying = margins(&on_floor(
         0.5,
         vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)],
@@ -156,9 +157,9 @@ fn what_falls_at_any_value_has_none() {
 }
 
 #[test]
-fn a_robot_needs_no_more_than_what_it_holds() {
+fn a_robot_needs_only_the_force_and_torque_of_its_block() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    // Held 0.25 m left of the centroid: 8 N and 2 N·m.
+    // Held 0.25 m to the left of its centroid, the block needs 8 N and 2 N·m.
     file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5], "limits": { "force": 20, "torque": 5 } }]);
     let found = margins(&file);
     let [robot] = &found.robots[..] else {
@@ -167,7 +168,7 @@ fn a_robot_needs_no_more_than_what_it_holds() {
     near(&robot.fx, 0.0, 0.0);
     near(&robot.fy, 8.0, 1e-6);
     near(&robot.torque, 2.0, 1e-6);
-    // Sideways it can take 20 N of 8 N of weight.
+    // The robot can take 20 N sideways, 2.5 times the weight of 8 N.
     near(&found.horizontal_load.left, 2.5, 1e-6);
     file["robots"][0]["limits"] = json!({ "force": 4, "torque": 5 });
     let [robot] = &margins(&file).robots[..] else {
@@ -178,9 +179,9 @@ fn a_robot_needs_no_more_than_what_it_holds() {
     near(&robot.fy, 8.0, 1e-6);
 }
 
-/// Forty robots hold a block of 8 N in the air, each with up to 2 N. Any 36 of them can lack a limit of their own: it
-/// takes 0 of each limit alone. The robots fall into two halves that each hold the block without the other, so three
-/// verdicts settle all 120 limits.
+/// Forty robots hold a block of 8 N in the air, each with up to 2 N. Four of them suffice, so no single limit is
+/// needed, and each margin is 0. The robots are split into two halves; each half holds the block without the other.
+/// So three verdicts settle all 120 limits.
 #[test]
 fn robots_that_do_not_matter_are_settled_in_groups() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
@@ -204,7 +205,7 @@ fn robots_that_do_not_matter_are_settled_in_groups() {
             near(margin, 0.0, 0.0);
         }
     }
-    // With 7.9 N and 0.1 N in turn, the stronger robot must give the rest: 8 N − 0.1 N · 39.
+    // With one robot of 7.9 N and 39 of 0.1 N, the strong robot must give the rest: 8 N − 0.1 N · 39.
     file["robots"] = vec![robot(0.1); 40].into();
     file["robots"][25]["limits"]["force"] = 7.9.into();
     let (robots, count) = judged(&file);
@@ -212,7 +213,7 @@ fn robots_that_do_not_matter_are_settled_in_groups() {
     near(&robots[25].fx, 0.0, 0.0);
     near(&robots[3].fy, 0.0, 0.0);
     assert!(count.is_some_and(|count| count < 60), "{count:?}");
-    // Together they lack 4 N, and each has 4 N more without its limit upwards.
+    // Together they lack 4 N. Any one of them could give these in addition to its own 0.1 N.
     file["robots"] = vec![robot(0.1); 40].into();
     let (robots, _) = judged(&file);
     near(&robots[7].fy, 4.1, 1e-6);
@@ -222,9 +223,10 @@ fn robots_that_do_not_matter_are_settled_in_groups() {
     );
 }
 
-/// A robot that can give 8 N each way holds 8 N turned by 45° as well, but not by 45° ± any more than its box allows.
+/// A robot that can give 4 N sideways holds a block of 8 N up to a tilt of 30°. With 8 N it holds the block at every
+/// tilt.
 #[test]
-fn a_limited_robot_is_turned_to_the_first_edge() {
+fn a_limited_robot_holds_up_to_the_tilt_of_its_first_limit() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     file["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
@@ -235,9 +237,9 @@ fn a_limited_robot_is_turned_to_the_first_edge() {
     assert_eq!(margins(&file).tilt.right, Margin::Unbounded);
 }
 
-/// A block that a robot presses onto the floor and pushes with all it has: W sin θ = f + μ (W cos θ + f).
+/// A block that a robot presses onto the floor and pushes with its full limit f: W sin θ = f + μ (W cos θ + f).
 #[test]
-fn a_limited_robot_that_pushes_and_presses_is_turned_to_where_the_block_slides() {
+fn a_limited_robot_that_pushes_and_presses_holds_up_to_the_tilt_of_sliding() {
     let friction = 0.7;
     for weight in [9.81, 10.0, 3.0] {
         for share in [0.1, 0.2, 0.3, 0.4, 0.5, 0.51, 0.55, 0.6] {
@@ -262,7 +264,7 @@ fn a_limited_robot_that_pushes_and_presses_is_turned_to_where_the_block_slides()
 }
 
 #[test]
-fn a_squeezed_block_needs_next_to_nothing() {
+fn a_squeezed_block_needs_almost_no_friction() {
     let file = json!({ "drystone": 1, "friction": 0.5,
         "ground": [{ "polygon": rectangle(-2.0, -1.0, 2.0, 3.0) }, { "polygon": rectangle(1.0, -1.0, 2.0, 3.0) }],
         "blocks": [block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)] });
@@ -332,7 +334,8 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
     assert!(why(2).contains(" 0 changed"), "{}", why(2));
 }
 
-/// Steeper than its friction it falls as it is; leaning the world against the slope would let it stand.
+/// On a slope steeper than its friction angle the block falls as it is. With gravity turned towards the slope it
+/// would stand.
 #[test]
 fn a_block_that_falls_unturned_has_no_tilt_though_it_would_stand_turned() {
     let file = on_slope(30.0, 4.0, 0.5, 0.3, 0.0);
@@ -345,7 +348,7 @@ fn a_block_that_falls_unturned_has_no_tilt_though_it_would_stand_turned() {
     assert_eq!(verdict(&turned), Verdict::Stable);
 }
 
-/// Every margin of the source's scenes, asked of changed scene files through the front door.
+/// Margins of the scenes of the thesis, checked by analysing changed scene files.
 #[test]
 fn just_inside_it_stands_and_just_beyond_it_falls() {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
@@ -386,7 +389,7 @@ fn just_inside_it_stands_and_just_beyond_it_falls() {
                 changed[key] = value;
                 changed
             };
-            // The source's scenes know one friction coefficient and a gravity of (0, −1).
+            // These scenes have one friction coefficient and gravity (0, −1), so each change needs a single key.
             agrees(&found.friction, false, &|mu| with("friction", json!(mu)));
             agrees(&found.kernel, true, &|kernel| with("kernel", json!(kernel)));
             for (margin, side) in [(&found.tilt.left, -1.0), (&found.tilt.right, 1.0)] {
@@ -403,7 +406,7 @@ fn just_inside_it_stands_and_just_beyond_it_falls() {
     assert_eq!(asked, 30);
 }
 
-/// How many changed frames were judged.
+/// The number of changed frames that were analysed for the margins.
 fn judged(frame: &FrameAnalysis) -> usize {
     let effect = frame
         .effects
@@ -415,7 +418,8 @@ fn judged(frame: &FrameAnalysis) -> usize {
     number.unwrap_or_else(|| panic!("{why} counts the changed frames"))
 }
 
-/// What one program finds is confirmed by its own forces and motion, and a search takes a step for every digit or two.
+/// A result of one program is confirmed by its own forces and motion, and a search takes about one step for each one
+/// or two digits. So few changed frames are analysed.
 #[test]
 fn few_changed_frames_are_judged_for_a_margin() {
     for (file, most) in [(wall(8, 8), 6), (arch(31, 0.3, 0.7), 60)] {
@@ -430,7 +434,7 @@ fn few_changed_frames_are_judged_for_a_margin() {
 }
 
 #[test]
-fn a_margin_alone_is_what_it_is_among_all() {
+fn a_margin_requested_alone_has_the_same_value() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
     let asked = Options::default()

@@ -1,8 +1,9 @@
-//! Scenes changed where it hurts: numbers huge, tiny and subnormal, hostile ids, steps that contradict each other.
+//! Scenes changed at sensitive places: huge, tiny and subnormal numbers, hostile ids, steps that contradict each
+//! other.
 //!
-//! Every scene of the assets is changed a few times over, by a generator with a seed. What comes out is either a list of
-//! problems with words and places, or a scene with verdicts, finite numbers and figures that can be read back: never a
-//! panic.
+//! Every small scene of the assets is changed several times by a generator with a seed. The result must be either a
+//! list of problems with messages and places, or a scene with verdicts, finite numbers and figures that can be read
+//! back. It must never be a panic.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,7 +16,7 @@ use serde_json::{Map, Value, json};
 
 use crate::random::Random;
 
-/// So many mutants are made of each scene.
+/// The number of mutants of each scene.
 const EACH: u64 = 24;
 
 const NUMBERS: &[f64] = &[
@@ -62,7 +63,7 @@ const WORDS: &[&str] = &[
     "👩\u{200d}🔬",
 ];
 
-/// How many values there are in a value, itself included.
+/// The number of JSON values in a value, itself included.
 fn count(value: &Value) -> usize {
     1 + match value {
         Value::Array(list) => list.iter().map(count).sum(),
@@ -84,7 +85,6 @@ fn at<'v>(value: &'v mut Value, number: &mut usize) -> Option<&'v mut Value> {
     }
 }
 
-/// Changes one value.
 fn change(value: &mut Value, random: &mut Random) {
     match value {
         Value::Number(old) => {
@@ -92,7 +92,7 @@ fn change(value: &mut Value, random: &mut Random) {
             *value = match random.below(8) {
                 0..=3 => json!(random.choose(NUMBERS)),
                 4 => json!(-old),
-                // The next number there is: what just touched no longer does.
+                // The next floating-point number: bodies that just touched no longer do.
                 5 => json!(f64::from_bits(old.to_bits().wrapping_add(1))),
                 6 => json!(old * 1e6),
                 _ => json!(format!("{old}")),
@@ -126,7 +126,7 @@ fn change(value: &mut Value, random: &mut Random) {
     }
 }
 
-/// Steps that place what stands, remove what is held, and hold with everything at once.
+/// Steps that place blocks that already stand, remove blocks that are held, and hold everything at once.
 fn contradict(scene: &mut Map<String, Value>, random: &mut Random) {
     let ids = |key: &str| -> Vec<String> {
         let list = scene.get(key).and_then(Value::as_array);
@@ -165,7 +165,7 @@ fn mutant(original: &Value, seed: u64) -> Value {
             change(value, &mut random);
         }
     }
-    // Most mutants are to come past the first look.
+    // Most mutants should pass the check of the format version.
     if let Some(map) = scene.as_object_mut() {
         map.insert("drystone".into(), json!(1));
     }
@@ -232,7 +232,7 @@ fn originals() -> Vec<(String, Value)> {
         paths.sort();
         for path in paths {
             let text = fs::read_to_string(&path).expect("readable");
-            // Large scenes take long, and hold nothing that small ones do not.
+            // Large scenes take long and contain nothing that small ones do not.
             if text.len() < 4_000 {
                 let value = serde_json::from_str(&text).expect("JSON");
                 scenes.push((path.display().to_string(), value));
@@ -268,10 +268,10 @@ fn mutants_are_refused_in_words_or_decided() {
     );
 }
 
-/// Found by a mutant: a weight or an area that a float cannot hold made numbers of the program infinite, or let a block weigh
-/// nothing.
+/// Found by a mutant: weights or areas outside the range of f64 made numbers of the program infinite, or let a block
+/// weigh nothing.
 #[test]
-fn numbers_that_products_of_them_cannot_hold_are_refused() {
+fn numbers_whose_products_overflow_or_vanish_are_refused() {
     let scene = |size: f64, weight: f64| {
         json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [size, 0], [size, -size], [0, -size]] }],
             "blocks": [{ "id": "a", "polygon": [[0, 0], [size, 0], [size, size], [0, size]], "weight": weight }] })

@@ -1,6 +1,6 @@
-//! The pages that tell every key of the formats, held against the types and against real results.
+//! The pages that describe every key of the formats, compared with the types and with real results.
 //!
-//! Tables stand between marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them anew.
+//! Tables stand between marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them again.
 
 mod format;
 mod result;
@@ -14,14 +14,14 @@ use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
 
-/// A page's words, each one blank behind the other.
+/// The words of a page, separated by single spaces.
 fn words_of(page: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
     let text = std::fs::read_to_string(path).expect("the page is there");
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Puts a table between its marks, or fails where another stands there.
+/// Compares a table with the one between its marks, or writes it there with `UPDATE_SNAPSHOTS=1`.
 fn table(page: &str, mark: &str, rows: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
     let text = std::fs::read_to_string(&path).expect("the page is there");
@@ -44,7 +44,7 @@ fn table(page: &str, mark: &str, rows: &str) {
     );
 }
 
-/// What a value of the scene format may be, in words.
+/// The permitted values of a key of the scene format, in words.
 fn words(schema: &Value, definitions: &Value) -> String {
     if let Some(path) = schema["$ref"].as_str() {
         let name = path.trim_start_matches("#/$defs/");
@@ -103,7 +103,7 @@ fn words(schema: &Value, definitions: &Value) -> String {
     }
 }
 
-/// How the page calls a type of the format.
+/// The name of a type of the format on the page.
 fn title(name: &str) -> &str {
     match name {
         "MaterialEntry" => "A material",
@@ -123,7 +123,7 @@ fn title(name: &str) -> &str {
     }
 }
 
-/// The keys of one object as a table.
+/// The table of an object's keys.
 fn object_table(schema: &Value, definitions: &Value) -> String {
     let required: Vec<&str> = schema["required"]
         .as_array()
@@ -133,7 +133,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
     let keys = schema["properties"].as_object().expect("keys");
     for (key, value) in keys {
         let meaning = (value["description"].as_str()).expect("every key is described");
-        // A description may run over several lines; a row of a table may not.
+        // A description may have several lines, but a row of a table may not.
         let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
         let default = match &value["default"] {
             _ if required.contains(&key.as_str()) => "required".to_owned(),
@@ -145,7 +145,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
                 other.to_string().replace(".0", "").replace(',', ", ")
             ),
         };
-        // What the text says of a default is what the schema says.
+        // The default in the description must be that of the schema.
         if let (Some(said), false) = (
             meaning.split(" Default ").nth(1),
             value["default"].is_null(),
@@ -178,7 +178,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
 }
 
 #[test]
-fn the_format_page_tells_every_key_of_a_scene_file() {
+fn the_format_page_describes_every_key_of_a_scene_file() {
     let root: Value = serde_json::from_str(&drystone::scene::schema()).expect("JSON");
     let definitions = &root["$defs"];
     let mut text = format!("## The scene\n\n{}", object_table(&root, definitions));
@@ -232,7 +232,7 @@ fn key_table(keys: &[Key]) -> String {
 }
 
 #[test]
-fn the_result_page_tells_every_key_and_code() {
+fn the_result_page_describes_every_key_and_code() {
     table("src/doc/result.md", "keys", &key_table(KEYS));
     table(
         "src/doc/result.md",
@@ -251,7 +251,7 @@ fn the_result_page_tells_every_key_and_code() {
     table("src/doc/result.md", "notes", &rows);
 }
 
-/// Whether a value is what a key says.
+/// Whether a value has the type of its key.
 fn fits(kind: Type, value: &Value) -> bool {
     let number = |v: &Value| v.is_number() || v.is_null();
     let list =
@@ -294,7 +294,7 @@ fn fits(kind: Type, value: &Value) -> bool {
     }
 }
 
-/// Holds an object against the keys, and marks those that occur.
+/// Checks an object against the keys, and records the keys that occur.
 fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static str>) {
     let entries = object.as_object().expect("an object");
     for (name, value) in entries {
@@ -338,7 +338,7 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
 }
 
 #[test]
-fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
+fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut seen = BTreeSet::new();
     let extra = [
@@ -353,14 +353,14 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
             .to_owned(),
     ];
     let mut texts: Vec<String> = extra.into();
-    // A bar between two walls that only press it if it is put in too tight.
+    // A bar between two walls that press it only if it was put in too tightly.
     texts.push(
         r#"{ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 1], [-1, 1]] },
             { "polygon": [[3, 0], [4, 0], [4, 1], [3, 1]] }],
             "blocks": [{ "polygon": [[0, 0], [3, 0], [3, 1], [0, 1]] }] }"#
             .to_owned(),
     );
-    // A block that hangs in the air next to one that a robot holds: it stands at no value of anything.
+    // A block that hangs in the air next to one that a robot holds: the scene stands at no value of any parameter.
     texts.push(
         r#"{ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 9], [-1, 9]] }],
             "blocks": [{ "id": "held", "polygon": [[0, 5], [1, 5], [1, 6], [0, 6]] },
@@ -419,7 +419,7 @@ fn every_key_of_real_results_is_told_and_every_told_key_occurs() {
 }
 
 #[test]
-fn a_refused_file_has_the_keys_that_are_told() {
+fn a_refused_file_has_the_described_keys() {
     let problems = Scene::from_json(r#"{ "drystone": 1, "bloks": [] }"#).expect_err("refused");
     let json: Value =
         serde_json::from_str(&refusal("é.json", &problems.list, Layout::Lines)).expect("JSON");
@@ -431,7 +431,7 @@ fn a_refused_file_has_the_keys_that_are_told() {
 }
 
 #[test]
-fn the_schema_of_results_tells_the_same_keys() {
+fn the_schema_of_results_has_the_same_keys() {
     let schema: Value = serde_json::from_str(&schema()).expect("JSON");
     for (number, keys) in [KEYS, REFUSAL_KEYS].into_iter().enumerate() {
         let object = &schema["anyOf"][number];

@@ -1,6 +1,7 @@
-//! Text from files stays text: hostile strings against every kind of output, and no output beside those in this table.
+//! Text from files stays text: hostile strings are put into every kind of output. There is no output except those
+//! listed here.
 //!
-//! Each output is read back by a reader of its own kind, which must find one text where one was put, and nothing else.
+//! Each output is read back by a parser of its format, which must find each text as one text, and nothing else.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use drystone::{Analysis, Scene, figure, output, report};
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use serde_json::{Value, json};
 
-/// What a stranger may write for a title or a name.
+/// Titles and names that a hostile author may write.
 const HOSTILE: &[&str] = &[
     "x\n  all     stands    29.43 N       none        0 %   no robot   forces balance to 0e0\n\nnext",
     "x\r  all     stable    29.43 N",
@@ -50,7 +51,7 @@ fn scene(hostile: &str) -> String {
     .to_string()
 }
 
-/// Every text as a scene of its own, with its analysis.
+/// Makes a scene of each hostile text and analyses it.
 fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
         let scene =
@@ -59,7 +60,7 @@ fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     }
 }
 
-/// Whether a character does something on a terminal beside being seen.
+/// Whether a character has an effect on a terminal other than being shown.
 fn acts(c: char) -> bool {
     (c.is_control() && c != '\n')
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
@@ -90,7 +91,7 @@ fn a_terminal_has_a_line_for_each_frame_and_no_more() {
         let (_, out, err) = run(&["check", "--no-timing", "a.json"]);
         silent(&(out.clone() + &err), hostile);
         counts.push(out.lines().count());
-        // An unknown name and a place in the file are quoted in complaints.
+        // Error messages quote an unknown name and its place in the file.
         let wrong = scene(hostile).replace("\"place\":[", "\"place\":[\"none\",");
         fs::write(folder.path().join("a.json"), wrong).expect("writable");
         let (code, out, err) = run(&["check", "a.json"]);
@@ -178,7 +179,7 @@ fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
         let svg = report::accuracy::svg(&study).expect("drawn");
         assert!(roxmltree::Document::parse(&svg).is_ok(), "{hostile:?}");
         silent(&drystone::result::accuracy_json(&study), hostile);
-        // The number of points in the picture depends on the times; only the table counts here.
+        // The number of points in the picture depends on the times, so only the table is compared.
         let table = page
             .split("</svg>")
             .nth(1)
@@ -200,7 +201,7 @@ fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
     );
 }
 
-/// What begins in a text of Markdown beside words and paragraphs.
+/// The elements of a Markdown text other than paragraphs and words.
 fn begun(markdown: &str) -> Vec<String> {
     Parser::new_ext(markdown, Options::all())
         .filter_map(|event| match event {
@@ -213,7 +214,7 @@ fn begun(markdown: &str) -> Vec<String> {
 }
 
 #[test]
-fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
+fn hostile_text_stays_text_in_markdown_and_in_a_book() {
     for hostile in HOSTILE {
         let words = drystone::internals::text::markdown(hostile);
         assert_eq!(
@@ -252,7 +253,7 @@ fn markdown_is_words_and_a_book_keeps_them_in_its_figure() {
 }
 
 #[test]
-fn snapshots_are_told_in_words_whatever_their_names() {
+fn reports_of_snapshots_keep_their_shape_whatever_the_names() {
     use drystone::snapshot::fact::{DIGITS, Facts};
     use drystone::snapshot::{CheckOutcome, Finding, Layer, Snapshot, State, ci, review};
     let mut shapes = Vec::new();
@@ -309,7 +310,7 @@ fn snapshots_are_told_in_words_whatever_their_names() {
 }
 
 #[test]
-fn a_report_keeps_words_as_words_in_all_its_forms() {
+fn hostile_text_stays_text_in_all_forms_of_a_report() {
     use drystone::report::entry::{Entry, File, ReportOptions};
     use drystone::report::page::{Form, Piece, Refused, Report};
     use drystone::scene::Problem;
@@ -353,7 +354,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
                     );
                 } else if name.ends_with(".md") {
                     for event in Parser::new_ext(&text, Options::all()) {
-                        // What is ours: from the names in the table of all scenes to the scenes.
+                        // The report's own links lead from the names in the table of all scenes to the scenes.
                         let acts = match &event {
                             Event::Html(html) | Event::InlineHtml(html) => {
                                 !html.starts_with("<a id=\"scene-") && **html != *"</a>"
@@ -376,7 +377,7 @@ fn a_report_keeps_words_as_words_in_all_its_forms() {
 }
 
 #[test]
-fn what_cannot_be_seen_is_seen() {
+fn invisible_characters_are_made_visible() {
     each(|hostile, _, analysis| {
         let hidden = hostile.contains(|c: char| acts(c) && !"\r\u{85}\u{2028}\u{2029}".contains(c));
         let svg = output::svg::write(&figure::forces(analysis, &figure::Options::default()));
@@ -386,8 +387,8 @@ fn what_cannot_be_seen_is_seen() {
     });
 }
 
-/// Where each kind of output is written, by what only its writers have to say. A new file that says it is a new row for the
-/// table above.
+/// The files that write each kind of output, found by an expression that only its writers contain. A new file with
+/// such an expression must be added here.
 const WRITERS: &[(&str, &[&str])] = &[
     (
         "io::stdout",
@@ -406,7 +407,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         "\"<",
         &[
             "output/svg.rs",
-            // Puts the name space into a chart that is written already.
+            // Inserts the name space into a finished chart.
             "report/entry/part.rs",
             // Refuses a script that would end its own element; writes nothing.
             "cli/report/interactive.rs",
@@ -444,7 +445,7 @@ fn nothing_is_written_but_by_the_writers_of_this_table() {
     let mut faults = Vec::new();
     for file in &files {
         let text = fs::read_to_string(file).expect("UTF-8");
-        // Tests and examples write what they like.
+        // Tests and examples may write any output.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let path = file
             .strip_prefix(&root)

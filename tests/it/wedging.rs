@@ -1,4 +1,4 @@
-//! Wedging: which structures stand only by a self-stress that nobody built up.
+//! Structures that stand only by wedging: by a self-stress that nothing has built up.
 
 use drystone::Analysis;
 use drystone::analysis::{EffectName, FrameAnalysis, Options, Verdict};
@@ -56,7 +56,7 @@ fn the_a_model_stands_only_by_wedging() {
 
 #[test]
 fn a_bar_that_wedges_itself_in_does_not() {
-    // Walls that lean apart at the top: the bar's own weight presses it in.
+    // Walls that lean apart at the top: the weight of the bar presses it between them.
     assert!(!wedged(&bar_between_walls(-0.2, 0.7)));
     assert!(!wedged(&bar_between_walls(-0.5, 0.1)));
     assert!(!wedged(&bar_between_walls(-0.02, 0.7)));
@@ -78,7 +78,7 @@ fn a_feather_squeezed_in_a_mountain_is_found() {
     assert!(wedged(&file));
 }
 
-/// The springs divide out, and so do the units.
+/// The stiffness of the springs cancels out, and so do the units.
 #[test]
 fn the_answer_does_not_depend_on_size() {
     for size in [1e-3, 1e3] {
@@ -138,7 +138,8 @@ fn the_figure_says_so() {
     assert!(!drawn(&Options::default()).contains("only by wedging"));
 }
 
-/// What holds one block between grounds, read from a result: application points, normals into the block and μ.
+/// The contacts between one block and the ground, read from a result: application points, normals into the block and
+/// μ.
 struct Between {
     points: Vec<([f64; 2], [f64; 2], usize)>,
     friction: Vec<f64>,
@@ -166,7 +167,8 @@ impl Between {
         }
     }
 
-    /// Whether unit springs, tried in every way in which points press and faces stick or slide, come to rest.
+    /// Whether unit springs come to rest. All combinations of pressing points and of sticking or sliding faces are
+    /// tried.
     fn rests(&self) -> bool {
         let (points, faces) = (self.points.len(), self.friction.len());
         (0..(1 << points) * 3usize.pow(faces as u32)).any(|code| {
@@ -238,7 +240,7 @@ impl Between {
     }
 }
 
-/// Three equations by elimination, unless they depend on each other.
+/// Solves three equations by elimination; `None` if they depend on each other.
 fn solved(mut t: [[f64; 4]; 3]) -> Option<[f64; 3]> {
     for k in 0..3 {
         let best = (k..3).max_by(|a, b| t[*a][k].abs().total_cmp(&t[*b][k].abs()))?;
@@ -262,10 +264,10 @@ fn solved(mut t: [[f64; 4]; 3]) -> Option<[f64; 3]> {
     Some(x)
 }
 
-/// Bars between two walls, leaning either way, rough and smooth, long and short, against every way of pressing and
-/// sliding, tried one by one.
+/// Bars between two walls that lean either way, rough and smooth, long and short, compared with a search through all
+/// combinations of pressing points and sliding faces.
 #[test]
-fn whatever_is_said_to_be_wedged_has_no_rest() {
+fn springs_do_not_come_to_rest_in_wedged_structures() {
     let (mut wedged, mut resting, mut open) = (0, 0, Vec::new());
     for lean in [-0.5, -0.1, -0.01, 0.0, 0.01, 0.05, 0.2] {
         for friction in [0.05, 0.3, 0.7, 2.0, 20.0] {
@@ -325,12 +327,13 @@ fn row_between_walls(length: f64, height: f64, friction: f64) -> Value {
                    { "polygon": rectangle(3.0 * length, -2.0, 2.0, 5.0) }] })
 }
 
-/// A row of three bars is a flat arch, by hand. The outer bars turn about their lower corners at the walls, so that their
-/// upper corners close on the middle bar as it sinks: each wall carries 3W/2, each inner face W/2, and moments of an outer bar
-/// about its lower corner, Wl/2 + (W/2)·l = H·h, give the thrust H = Wl/h there. Springs of stiffness 1 come to rest
-/// in just that: corners at the walls pressed by H go back by H, those at the middle bar likewise, so an outer bar turns by
-/// 2H/h, opens at its other two corners by H, and faces slip by 3W/2 and W/2 while they stick, as they do where
-/// 3W/2 ≤ μH: at μ ≥ 1.5 h/l. With less, thrust alone could hold it, and nothing builds that up.
+/// A row of three bars is a flat arch; this is its solution by hand. The outer bars turn about their lower corners at
+/// the walls, and their upper corners press on the middle bar as it sinks. Each wall carries 3W/2 and each inner face
+/// W/2. Moments of an outer bar about its lower corner, Wl/2 + (W/2)·l = H·h, give the thrust H = Wl/h. Springs of
+/// stiffness 1 come to rest in this state: the corners at the walls, pressed by H, move back by H, and so do those at
+/// the middle bar. An outer bar thus turns by 2H/h and opens by H at its other two corners, and the faces slip by
+/// 3W/2 and W/2 against their springs while they stick. They stick if 3W/2 ≤ μH, so for μ ≥ 1.5 h/l. With less
+/// friction a larger thrust could hold the row, but nothing builds it up.
 #[test]
 fn three_bars_between_walls_are_a_flat_arch() {
     for (length, height) in [(3.0, 0.5), (1.0, 0.5), (1.0, 1.0)] {
@@ -346,7 +349,7 @@ fn three_bars_between_walls_are_a_flat_arch() {
     }
 }
 
-/// Springs that only press take the least energy, which has an answer exactly where a balance exists.
+/// Springs that can only press end in the state of least energy, which exists exactly if a balance exists.
 #[test]
 fn without_friction_a_balance_is_reached_from_rest() {
     for half_angle in [0.3, 0.01, 1e-3] {
@@ -374,9 +377,9 @@ fn without_friction_a_balance_is_reached_from_rest() {
     assert!(standing > 10, "{standing}");
 }
 
-/// Where the balance leaves no choice and no friction is at its limit, springs end in it too.
+/// If the balance is unique and no friction is at its limit, springs reach it too.
 #[test]
-fn the_only_forces_are_reached_from_rest() {
+fn a_unique_balance_is_reached_from_rest() {
     for share in [0.3, 0.7, 0.99] {
         assert!(!wedged(&harmonic(5, share)), "{share}");
     }
@@ -410,7 +413,8 @@ fn the_answer_keeps_the_laws() {
         every_number(&mut mirrored, &|[x, y]| [-x, y]);
         assert_eq!(wedged(&mirrored), expected, "mirrored {file}");
         let mut turned = file.clone();
-        // Six, eight and ten: coordinates stay decimal fractions, and so exact enough to touch.
+        // Rotation with sines and cosines of 0.6 and 0.8 keeps coordinates decimal fractions, exact enough for blocks
+        // to touch.
         every_number(&mut turned, &|[x, y]| {
             [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y]
         });
@@ -429,7 +433,8 @@ fn the_answer_keeps_the_laws() {
     }
 }
 
-/// What stays open says why, and is rare; `DRYSTONE_ORACLE_SCENES` and `DRYSTONE_ORACLE_FIRST` choose the scenes.
+/// Scenes that stay undecided are rare and state a reason; `DRYSTONE_ORACLE_SCENES` and `DRYSTONE_ORACLE_FIRST`
+/// choose the scenes.
 #[test]
 fn few_random_scenes_stay_open() {
     let number_of = |name: &str, otherwise: u64| {

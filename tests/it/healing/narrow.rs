@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::judged;
 use crate::structure::{first, scene as checked};
 
-/// A lintel on two posts, its right end `gap` above its post.
+/// A lintel on two posts; its right end lies `gap` above its post.
 fn lintel(gap: f64, tolerance: Option<f64>) -> Value {
     let mut file = json!({
         "drystone": 1, "ground": [{ "polygon": [[-1.3333333333, -1], [5, -1], [5, 0], [-1.3333333333, 0]] }],
@@ -25,7 +25,7 @@ fn lintel(gap: f64, tolerance: Option<f64>) -> Value {
 }
 
 #[test]
-fn a_verdict_that_hinges_on_a_narrow_gap_is_not_given_silently() {
+fn a_verdict_that_depends_on_a_narrow_gap_is_not_given_silently() {
     let (verdict, _, doubt) = judged(&lintel(0.004, None));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
     for word in [
@@ -38,16 +38,16 @@ fn a_verdict_that_hinges_on_a_narrow_gap_is_not_given_silently() {
     ] {
         assert!(doubt.contains(word), "{word}: {doubt}");
     }
-    // The number it names settles it, and so does one that leaves the gap open.
+    // The tolerance in the message settles the verdict, and so does one that leaves the gap open.
     assert_eq!(judged(&lintel(0.004, Some(0.00404))).0, Verdict::Stable);
     assert_eq!(judged(&lintel(0.004, Some(1e-6))).0, Verdict::Unstable);
-    // A gap of more than a hundredth of a post is a gap.
+    // A gap of more than a hundredth of a post stays a gap.
     assert_eq!(judged(&lintel(0.03, None)).0, Verdict::Unstable);
     assert_eq!(judged(&lintel(0.0, None)).0, Verdict::Stable);
 }
 
-/// Stones of a fifth of a metre, too small for millimetres to be healed: the widest gap measured along edges is 0.33 mm, but a
-/// corner of the pier lies 0.8 mm from where it belongs. With that closed the arch stands.
+/// Stones of a fifth of a metre, too small for healing by millimetres. The widest gap measured along edges is 0.33
+/// mm, but a corner of the pier lies 0.8 mm from its intended place. If that gap is closed, the arch stands.
 #[test]
 fn closing_gaps_reaches_the_corners_that_are_off() {
     let path = concat!(
@@ -67,7 +67,7 @@ fn closing_gaps_reaches_the_corners_that_are_off() {
 
 #[test]
 fn a_small_stone_keeps_its_own_tolerance() {
-    // A pebble of 2 mm, 20 µm beside its step: less than a millionth of the scene, a hundredth of the pebble.
+    // A pebble of 2 mm, 20 µm from its step: less than a millionth of the scene, but a hundredth of the pebble.
     let pebble = |x: f64| {
         json!({
             "drystone": 1, "friction": 0.0, "gravity": [9.81, -9.81],
@@ -89,8 +89,8 @@ fn a_small_stone_keeps_its_own_tolerance() {
 }
 
 #[test]
-fn a_verdict_that_hinges_on_a_slight_overlap_is_not_given_silently() {
-    // The lintel lies in both posts; where that carries nothing it falls.
+fn a_verdict_that_depends_on_a_slight_overlap_is_not_given_silently() {
+    // The lintel overlaps both posts. If these overlaps carry nothing, it falls.
     let file = |depth: f64, tolerance: Option<f64>| {
         let mut file = lintel(0.0, tolerance);
         file["blocks"][2]["polygon"] = json!([[0, 2.0 - depth], [4, 2.0 - depth], [4, 3], [0, 3]]);
@@ -108,7 +108,7 @@ fn a_verdict_that_hinges_on_a_slight_overlap_is_not_given_silently() {
     ] {
         assert!(doubt.contains(word), "{word}: {doubt}");
     }
-    // The number it names settles it; a smaller one is a statement that these bodies lie in each other, as is a larger depth.
+    // The tolerance in the message settles the verdict. If the overlap exceeds the tolerance, the file is refused.
     assert_eq!(judged(&file(0.003, Some(0.00303))).0, Verdict::Stable);
     for (depth, tolerance) in [(0.003, Some(1e-4)), (0.02, None)] {
         let problems = Scene::from_json(&file(depth, tolerance).to_string()).unwrap_err();
@@ -121,8 +121,9 @@ fn a_verdict_that_hinges_on_a_slight_overlap_is_not_given_silently() {
 }
 
 #[test]
-fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
-    // Two posts side by side, the second 4 mm in the first; a push of a tenth of its weight, or of all of it.
+fn a_slight_overlap_that_does_not_matter_is_reported_with_the_verdict() {
+    // Two posts side by side, the second 4 mm inside the first. It is pushed by a tenth of its weight, or by all of
+    // it.
     let file = |push: f64| {
         json!({
             "drystone": 1, "ground": [{ "polygon": [[-1.3333333333, -1], [5, -1], [5, 0], [-1.3333333333, 0]] }],
@@ -139,7 +140,7 @@ fn a_slight_overlap_on_which_nothing_hinges_is_told_beside_the_verdict() {
         let told = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
         assert!(frame.notices.iter().any(told), "{:?}", frame.notices);
     }
-    // Pushed against its neighbour it stands only if it leans on it.
+    // Pushed towards its neighbour, it stands only if it can lean on it.
     let (verdict, _, doubt) = judged(&file(-7.5));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
 }
