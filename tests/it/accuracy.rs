@@ -1,4 +1,5 @@
-//! What accuracy costs: the reference is true, wrong verdicts are flagged, levels keep their word, pictures are the same twice.
+//! The study of accuracy: the reference is true, wrong verdicts are flagged, accuracy levels mean what they promise,
+//! and the same study gives the same picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -73,7 +74,8 @@ fn scenes() -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// The study's scenes are made here, so that they are those of the hard suite. `UPDATE_SNAPSHOTS=1` writes them anew.
+/// The scenes of the study are made here with the functions of the hard cases. `UPDATE_SNAPSHOTS=1` writes their
+/// files again.
 #[test]
 fn the_scenes_of_the_study_are_as_they_are_made() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/study");
@@ -96,12 +98,12 @@ fn the_scenes_of_the_study_are_as_they_are_made() {
     assert_eq!(files, scenes().len(), "no file without a scene");
 }
 
-/// Sums known by hand: a reference that shared a mistake with the solver would show here.
+/// Sums known by hand. They would show a mistake that the reference shares with the solver.
 #[test]
-fn the_reference_is_what_a_hand_finds() {
+fn the_reference_agrees_with_sums_by_hand() {
     let truth = case(&wedge(1e-3)).truth;
     assert_eq!(truth.verdict, Verdict::Stable);
-    // Two sides press with W / (2 sin α) each; the wedge's corners are rounded to f64, and α with them.
+    // The two sides press with W / (2 sin α) each. The corners of the wedge are rounded to f64, and so is α.
     let found = truth.total.expect("certified");
     let expected = 6.0 / libm::sin(1e-3);
     assert!((found / expected - 1.0).abs() < 1e-12, "{found:e}");
@@ -111,13 +113,13 @@ fn the_reference_is_what_a_hand_finds() {
     near(truth.largest, 18.0);
     assert!(truth.gap < 1e-12, "{}", truth.gap);
 
-    // A beam on two posts, its load off the middle: 15 N and 30 N by the lever, and a post's own weight.
+    // A beam of 45 N on two posts that weigh 2 N each.
     let lever = json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(-9.0, -1.0, 30.0, 1.0) }],
         "blocks": [block("l", rectangle(0.0, 0.0, 1.0, 1.0), 2.0), block("r", rectangle(5.0, 0.0, 1.0, 1.0), 2.0),
                    block("beam", rectangle(0.0, 1.0, 6.0, 0.5), 45.0)] });
     near(case(&lever).truth.total, 45.0 + 45.0 + 4.0);
 
-    // A block on a slope steeper than friction: what must stick is W (sin − μ cos).
+    // A block on a slope steeper than its friction angle: the least adhesion is W (sin θ − μ cos θ).
     let truth = case(&on_slope(45.0, 2.0, 0.5, 0.25, 0.0)).truth;
     assert_eq!(truth.verdict, Verdict::Unstable);
     let (found, expected) = (truth.total.expect("certified"), 5.0 * 0.75 * 0.5f64.sqrt());
@@ -134,7 +136,7 @@ fn every_scene_of_the_study_has_a_certified_truth_as_its_name_says() {
             .cases
             .remove(0)
             .truth;
-        // Friction exactly at tan θ: the last bit of a rounded tangent decides, and nobody can certify that.
+        // Friction exactly at tan θ: the last bit of a rounded tangent decides, and this cannot be certified.
         if name == "slope-exact" {
             continue;
         }
@@ -148,9 +150,10 @@ fn every_scene_of_the_study_has_a_certified_truth_as_its_name_says() {
     }
 }
 
-/// Beyond β newtons of thrust for a newton of sticking, the source's program reports a failure in what stands.
+/// The program of the thesis reports failures in a stable structure if the thrust exceeds β newtons per newton of
+/// adhesion.
 #[test]
-fn a_large_number_is_flagged_where_the_thrust_is_larger() {
+fn a_penalty_smaller_than_the_thrust_is_flagged() {
     let case = case(&wedge(1e-7));
     assert_eq!(case.truth.verdict, Verdict::Stable);
     for run in &case.runs {
@@ -201,7 +204,7 @@ fn all_forms_tell_every_run_and_names_are_escaped() {
 #[test]
 fn the_same_study_is_the_same_picture() {
     let mut study = measured(&tower(2, 0.5), &[1e-4, 1e-9]);
-    // Times are what may differ from run to run; here they are given.
+    // Times differ from run to run, so they are set here.
     for (k, run) in study.cases[0].runs.iter_mut().enumerate() {
         run.seconds = 1e-4 * (1.0 + k as f64);
     }
@@ -241,8 +244,9 @@ fn proved_answers_only_with_a_better_proof() {
             } => assert!(power >= 1e10 * worst_violation),
         }
     }
-    // The rule lets the load and what carries it each be moved by a billionth of the block's radius, √5/4 m: together by
-    // 1.1·10⁻⁹ m. Beyond that it just falls, is called stable at the usual level, and at this one nobody says so.
+    // The tolerance lets the load and the forces that carry it be moved by a billionth of the block's radius, √5/4 m:
+    // together by 1.1·10⁻⁹ m. Just beyond that the structure falls. The standard level still calls it stable; this
+    // level must not.
     for beyond in [1.2e-9, 2e-9] {
         let barely = overhang(beyond, true);
         assert_eq!(at(&barely, Accuracy::Standard).0, Verdict::Stable);

@@ -1,5 +1,5 @@
-//! The same truth by every way in: `check --json`, `batch`, a session, a report's `.json`, the facts of snapshots and figures say
-//! the same of random scenes.
+//! All ways to get a result agree: `check --json`, `batch`, a session, a report's `.json`, the facts of snapshots and
+//! figures give the same results for random scenes.
 
 use std::process::Command;
 
@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 use crate::oracle::{number_of, random};
 
-/// How many scenes are compared on an ordinary run; `DRYSTONE_AGREEMENT` sets another number.
+/// The number of scenes that a usual run compares; `DRYSTONE_AGREEMENT` sets another number.
 const SCENES: u64 = 30;
 
 /// Random scenes in a folder, in the order of their names.
@@ -33,7 +33,7 @@ fn scenes(folder: &TempDir) -> Vec<Value> {
     files
 }
 
-/// What a command prints.
+/// The output of a command.
 fn run(folder: &TempDir, line: &str) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
     command
@@ -57,7 +57,7 @@ fn lines(text: &str) -> Vec<Value> {
 }
 
 #[test]
-fn every_way_in_says_the_same() {
+fn all_ways_to_get_a_result_agree() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = scenes(&folder);
     let checked = lines(&run(&folder, "check --json --no-timing --margins in"));
@@ -105,7 +105,7 @@ fn every_way_in_says_the_same() {
     }
 }
 
-/// A number as facts write it, and half of its last digit.
+/// A number as written in facts, and half a unit of its last digit.
 fn written(word: &str) -> (f64, f64) {
     let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
     let decimals = mantissa
@@ -131,11 +131,12 @@ fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
     numbers.collect()
 }
 
-/// Facts list the verdict, the sums, each interface with its forces and each robot of a result, in the result's order.
+/// The facts list the verdict, the sums, each interface with its forces and each robot of a result, in the same
+/// order.
 fn says_facts(text: &str, frame: &Value) {
     let near = |word: &str, exact: f64| {
         let (value, half) = written(word);
-        // What was rounded may have been a hair off a tie.
+        // A value close to the middle of two roundings may be rounded either way.
         assert!(
             (value - exact).abs() <= 1.01 * half,
             "{word} {exact}: {text}"

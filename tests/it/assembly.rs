@@ -1,9 +1,9 @@
-//! The assembly held against the outlines by a route that shares no code with it, and the law that a frame's answer depends
-//! on nothing placed later.
+//! The assembly is compared with the outlines by separate code, and the analysis of a frame must not depend on
+//! anything placed later.
 //!
-//! Proofs sum forces on the assembly's centroids, load vectors and contacts. If those were wrong, so would be every proof.
-//! Here areas and centroids are summed over triangles with the first corner (the library sums over edges), and contacts
-//! are found by sampling points on either side of every outline.
+//! Proofs sum forces with the assembly's centroids, load vectors and contacts. If those were wrong, every proof would
+//! be wrong. Here areas and centroids are summed over triangles with the first corner (the library sums over edges),
+//! and contacts are found by sampling points on both sides of every outline.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use crate::random::Random;
 use crate::structure::{arch, on_slope, rectangle, wall};
 
-/// The scenes of the source's figures, and some that lie askew.
+/// The scenes of the thesis's figures, and some scenes that are rotated.
 fn scenes() -> Vec<(String, Value)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/thesis");
     let mut paths: Vec<_> = fs::read_dir(&folder)
@@ -61,7 +61,7 @@ fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
     (assemble(&situation).0, kinds)
 }
 
-/// Area and first moments of a ring, over triangles with its first corner.
+/// Area and first moments of a ring, summed over triangles that share its first corner.
 fn by_triangles(ring: &[Point]) -> (f64, Vector) {
     let origin = ring[0];
     let mut area = 0.0;
@@ -75,7 +75,7 @@ fn by_triangles(ring: &[Point]) -> (f64, Vector) {
     (area, moment + origin.coords * area)
 }
 
-/// Whether a point lies in a body: rays to the right cross its outline and holes an odd number of times.
+/// Whether a point lies in a body: a ray to the right crosses its outline and holes an odd number of times.
 fn contains(scene: &Scene, body: BodyId, p: Point) -> bool {
     let polygon = &scene.body(body).polygon;
     let mut inside = false;
@@ -113,7 +113,7 @@ fn centroids_and_load_vectors_are_those_of_the_outlines() {
                     (centroid - body.centroid).norm() < 1e-9,
                     "{name}: {centroid}"
                 );
-                // The loads once more, about the origin, in plain components.
+                // The loads again, with the moment about the origin, in plain components.
                 let g = scene.gravity();
                 let pull = if g.norm() > 0.0 { g / g.norm() } else { g };
                 let (mut fx, mut fy) = (pull.x * block.weight, pull.y * block.weight);
@@ -150,7 +150,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
         for body in &assembly.bodies {
             let me = BodyId::Block(body.block);
             let outline = scene.body(me).polygon.outline();
-            // How much of my boundary touches each other body.
+            // How much of this body's outline touches each other body.
             let mut touching = vec![0.0; bodies.len()];
             for (k, a) in outline.iter().enumerate() {
                 let along = outline[(k + 1) % outline.len()] - a;
@@ -259,7 +259,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
 }
 
 #[test]
-fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
+fn an_effect_that_a_frame_does_not_need_is_not_in_the_assembly() {
     let mut smooth = wall(2, 3);
     smooth["friction"] = json!(0.0);
     let smooth = crate::structure::scene(&smooth);
@@ -271,7 +271,7 @@ fn an_effect_that_is_not_called_for_leaves_no_trace_in_the_assembly() {
     assert_eq!(columns(&program).len(), 2 * assembly.contacts.len());
 }
 
-/// A building sequence from a seed: bricks of many widths on a floor, robots that hold some of them for a while.
+/// A random building sequence: bricks of many widths on a floor, some of them held by robots for a while.
 fn sequence(seed: u64) -> Value {
     let mut numbers = Random::new(seed);
     let mut random = |n: u64| numbers.next() % n;
@@ -306,14 +306,15 @@ fn sequence(seed: u64) -> Value {
 }
 
 #[test]
-fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
+fn a_frame_has_the_result_of_a_scene_with_only_its_blocks() {
     let (mut frames, mut falling) = (0, 0);
     for seed in 1..40 {
         let file = sequence(seed);
         let scene = crate::structure::scene(&file);
         let whole = Analysis::new(&scene);
         for (frame, result) in scene.frames().iter().zip(&whole.frames) {
-            // The same as a file of its own: only what stands, held as it is held then.
+            // The same frame as a file of its own: only the placed blocks, with the robots that hold them in this
+            // frame.
             let mut alone = file.clone();
             alone.as_object_mut().expect("an object").remove("steps");
             let placed: Vec<&str> = frame
@@ -353,10 +354,10 @@ fn a_frame_is_answered_as_the_scene_of_what_stands_then() {
     );
 }
 
-/// A box of 4 m by 3 m on the ground, with a load and a robot: lengths in parts of L = 4 m, the joint's, and forces such that
-/// the heaviest load is 300.
+/// A box of 4 m by 3 m on the ground with a load and a robot. Lengths are divided by L = 4 m, the length of the
+/// joint, and forces are scaled so that the heaviest load is 300.
 #[test]
-fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
+fn a_program_scales_lengths_by_l_and_forces_by_the_heaviest_load() {
     let file = json!({ "drystone": 1, "friction": 0.5, "kernel": 0.5,
         "ground": [{ "polygon": rectangle(-1.0, -1.0, 9.0, 1.0) }],
         "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 4.0, 3.0), "weight": 600 }],
@@ -366,7 +367,7 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
     let (assembly, _) = assembly_of(&scene, &scene.frames()[0]);
     let scale = Scale::from_assembly(&assembly);
     assert_eq!((scale.length, scale.moment()), (4.0, 4.0 * scale.force));
-    // The load and the weight together pull a little more than the weight alone.
+    // The load and the weight together are a little more than the weight alone.
     let heaviest = libm::hypot(600.0, 10.0);
     assert!((scale.force * Scale::HEAVIEST - heaviest).abs() < 1e-9);
     let program = Program::new(&assembly, scale);
@@ -375,7 +376,7 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
     for (found, expected) in program.loads.iter().zip(loads) {
         assert!((found - expected).abs() < 1e-9, "{:?}", program.loads);
     }
-    // Points 1 m to either side and 1.5 m below, from the left to the right against the joint's ends.
+    // The application points lie 1 m to either side of the centroid and 1.5 m below it, ordered from left to right.
     let arms = [Vector::new(0.25, -0.375), Vector::new(-0.25, -0.375)];
     assert_eq!(
         (program.contacts[0].on, program.contacts[0].from),
@@ -386,6 +387,6 @@ fn a_program_counts_lengths_in_l_and_forces_in_parts_of_the_heaviest_load() {
     assert!((limits[0] * scale.force - 20.0).abs() < 1e-9);
     assert!((limits[1] * scale.force - 50.0).abs() < 1e-9);
     assert!((limits[2] * scale.moment() - 64.0).abs() < 1e-9);
-    // Without loads a unit is a three hundredth of a newton.
+    // Without loads, the unit of force is 1/300 N.
     assert_eq!(Scale::new(2.0, 0.0).force, 1.0 / 300.0);
 }

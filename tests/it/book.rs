@@ -1,4 +1,4 @@
-//! The mdBook preprocessor: what it makes of a book's chapters, and what it says where it cannot.
+//! The mdBook preprocessor: how it changes the chapters of a book, and the messages if it cannot.
 
 use drystone::report::book::illustrate;
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ const SCENE: &str = r#"{ "drystone": 1, "title": "An overhang",
   "ground": [{ "polygon": [[0, 0], [2, 0], [2, -1], [0, -1]] }],
   "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#;
 
-/// What mdbook hands a preprocessor for a book of one chapter with one below it.
+/// The input that mdbook gives to a preprocessor, for a book with one chapter and one below it.
 fn input(chapter: &str, below: &str) -> String {
     let chapter_of = |name: &str, content: &str, items: Value| {
         json!({ "Chapter": { "name": name, "content": content, "number": [1], "sub_items": items,
@@ -73,7 +73,7 @@ fn a_figure_stays_inside_its_list_and_its_quotation() {
 }
 
 #[test]
-fn every_broken_scene_is_told_with_its_chapter_and_line() {
+fn every_broken_scene_is_reported_with_its_chapter_and_line() {
     let chapter = "one\ntwo\n\n```drystone\n{ \"drystone\": 1, \"blocks\": [{}] }\n```\n";
     let below = "```drystone file=nowhere.json\n```\n\n```drystone kind=spiral file=figure-1.json\n```\n\n```drystone colour=red\n```\n";
     let problems = illustrate(&input(chapter, below))

@@ -1,5 +1,5 @@
-//! Everything ends: the worst files of less than a megabyte are refused, or done, within ten seconds of processor time
-//! and a gigabyte of memory, and in words with the number found.
+//! Every run ends: the worst files of less than a megabyte are refused or done within ten seconds of processor time
+//! and a gigabyte of memory. The messages name the number found.
 
 #![cfg(unix)]
 
@@ -19,13 +19,13 @@ struct Ran {
     said: String,
 }
 
-/// Runs the program on a file with the system's own limits on time and memory.
+/// Runs the program on a file under the system's limits on time and memory.
 fn run(name: &str, text: &str, arguments: &str) -> Ran {
     assert!(text.len() < 1_000_000, "{name} has {} bytes", text.len());
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join(name), text).expect("writable");
     let program = env!("CARGO_BIN_EXE_drystone");
-    // The promise is one of an optimised program; the checks of a debug build take several times as long.
+    // The limit of ten seconds holds for an optimised build; the checks of a debug build take several times as long.
     let seconds = if cfg!(debug_assertions) { 60 } else { 10 };
     let line = format!("ulimit -t {seconds}; ulimit -v 1300000; exec '{program}' {arguments}");
     let ran = Command::new("sh")
@@ -183,7 +183,7 @@ fn unknown_names_and_keys() {
 
 #[test]
 fn crossings_without_number() {
-    // A star that crosses itself at every side.
+    // A star whose every side crosses others.
     let n = 20_001;
     let corners: Vec<_> = (0..n)
         .map(|i| {

@@ -1,4 +1,5 @@
-//! A scene built in code is the scene of the file that says the same, and what is wrong with one is wrong with the other.
+//! A scene built in code equals the scene of a file with the same content, and errors in it are reported in the same
+//! way.
 
 use drystone::analysis::Analysis;
 use drystone::scene::format::{
@@ -139,7 +140,7 @@ fn cells_and_their_grid_read_like_the_file() {
     assert!(made.build().expect("sound").exact());
 }
 
-/// What is said of each place, without line and column, in alphabetical order.
+/// The messages for each place, without line and column, in alphabetical order.
 fn said(problems: &[Problem]) -> Vec<String> {
     let mut said: Vec<String> = (problems.iter())
         .map(|p| format!("{} {} {} {}", p.path, p.code, p.message, p.help))
@@ -149,12 +150,12 @@ fn said(problems: &[Problem]) -> Vec<String> {
 }
 
 #[test]
-fn code_is_told_what_a_file_is_told() {
+fn errors_in_code_are_reported_as_in_a_file() {
     let mut compared = 0;
     for case in REFERENCE.split("\n## ") {
         let text = case.split_once('\n').expect("a title").1;
         let text = text.split("\n--\n").next().expect("a scene");
-        // What has no type of the format's cannot be written in code.
+        // A value without a type of the format cannot be written in code.
         let Ok(file) = serde_json::from_str::<SceneFile>(text) else {
             continue;
         };
@@ -170,7 +171,7 @@ fn code_is_told_what_a_file_is_told() {
 }
 
 #[test]
-fn a_name_given_twice_in_code_is_told_as_a_key_given_twice_in_a_file() {
+fn a_name_used_twice_in_code_is_reported_as_a_key_used_twice_in_a_file() {
     let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
     let problems = Scene::builder()
         .material("oak", MaterialEntry::default())

@@ -1,4 +1,5 @@
-//! The figure of the capacity: its area is the set of the result, and its small pictures belong to the edges.
+//! The figure of the capacity: its area is the set of the result, and its small pictures show the mechanisms of the
+//! edges.
 
 use drystone::analysis::{CapacityRequest, ForceAt, LoadCapacity, Options as Asked};
 use drystone::drawing::{Camera, Drawing, Group, Item, PagePoint, Path};
@@ -47,7 +48,7 @@ fn paths(group: &Group) -> Vec<&Path> {
     paths.collect()
 }
 
-/// From one point of the page to another, with y upwards.
+/// The vector from one point of the page to another, with y upwards.
 fn shown(from: PagePoint, to: PagePoint) -> Vector {
     Vector::new(to.x - from.x, from.y - to.y)
 }
@@ -63,7 +64,7 @@ fn drawn(drawing: &Drawing, capacity: &LoadCapacity) -> (Vec<PagePoint>, Option<
     (corners, (!is_apart).then(|| camera.place(capacity.at[0])))
 }
 
-/// The scale, pixels per newton, and the position of the force 0 with which every force is a corner.
+/// The scale in pixels per newton, and the position of the force 0, for which every force is a corner.
 fn scale(corners: &[PagePoint], forces: &[Vector], zero: Option<PagePoint>) -> (f64, PagePoint) {
     let place = |force: Vector, scale: f64, zero: PagePoint| {
         PagePoint::new(zero.x + scale * force.x, zero.y - scale * force.y)
@@ -90,7 +91,7 @@ fn scale(corners: &[PagePoint], forces: &[Vector], zero: Option<PagePoint>) -> (
     found.unwrap_or_else(|| panic!("{corners:?} {forces:?}"))
 }
 
-/// A block on the ground that a robot with limits holds. Its set has no end downwards.
+/// A block on the ground that a robot with limits holds. Its set is unbounded downwards.
 fn held() -> Scene {
     let mut file = on_floor(0.5, vec![block("a", rectangle(-1.0, 0.0, 2.0, 1.0), 8.0)]);
     let limits = json!({ "fx": 3, "fy": 5, "torque": 2 });
@@ -125,7 +126,7 @@ fn the_area_is_the_set_of_the_result_in_one_scale() {
     }
 }
 
-/// Each small picture has an arrow in the direction in which the point of the block begins to move beyond its edge.
+/// Each small picture has an arrow in the direction in which the block's point begins to move beyond the edge.
 #[test]
 fn small_pictures_belong_to_the_longest_edges() {
     let scene = scene(&arch(9, 0.4, 0.7));

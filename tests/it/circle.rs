@@ -65,9 +65,9 @@ fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The first cycle among modules that use each other, as the way round it.
+/// The first cycle of modules that use each other, as the list of its modules.
 fn cycle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
-    // Modules that use nothing that is left are removed again and again; the rest contains a cycle.
+    // Modules that use none of the remaining modules are removed again and again; the rest contains a cycle.
     let mut left = uses.clone();
     loop {
         let done: Vec<String> = left

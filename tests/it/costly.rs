@@ -1,4 +1,4 @@
-//! Small files that would cost much: what they need is counted, or they are refused.
+//! Small files that would be expensive: their cost is counted, and if it is too large they are refused.
 
 use drystone::scene::{Code, Scene};
 use drystone::{Analysis, figure, output};
@@ -30,7 +30,7 @@ fn corner_contacts_of_too_many_blocks_in_one_point_are_refused() {
     // 400 · 399 / 2.
     assert!(words.contains("79800 corner contacts"), "{words}");
     assert!(words.contains("remove `corner_contacts`"), "{words}");
-    // Without corner contacts, or never more than 100 at a time, they are no problem.
+    // Without corner contacts, or with fewer blocks placed at a time, they are accepted.
     let mut without = fan(400);
     without["corner_contacts"] = false.into();
     assert!(Scene::from_json(&without.to_string()).is_ok());

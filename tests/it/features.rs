@@ -1,10 +1,10 @@
-//! What each feature costs in crates, as the table in `src/doc/library.md` says, and that the library alone stays small.
+//! The number of crates that each feature needs, as stated in `src/doc/library.md`; and the library alone needs few.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Without features there may be so many other crates.
+/// The largest permitted number of other crates without features.
 const MAX_ALONE: usize = 75;
 
 /// The lines of `cargo tree` for some features, sorted, each once. Nothing is downloaded.
@@ -30,7 +30,7 @@ fn tree(features: &[&str]) -> Vec<String> {
     lines
 }
 
-/// How many other crates some features bring along, each version once.
+/// The number of other crates that some features need, each version counted once.
 fn crates(features: &[&str]) -> usize {
     let mut names: Vec<String> = tree(features)
         .iter()
@@ -61,7 +61,7 @@ fn rows() -> Vec<(Option<String>, usize)> {
         .collect()
 }
 
-/// The features that Cargo.toml declares, `default` apart.
+/// The features that Cargo.toml declares, except `default`.
 fn declared() -> Vec<String> {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
     let text = fs::read_to_string(manifest).expect("the manifest");
@@ -78,8 +78,8 @@ fn declared() -> Vec<String> {
 }
 
 #[test]
-fn the_readme_tells_what_every_feature_costs() {
-    // The numbers are those of the platform on which the table was made.
+fn the_page_states_how_many_crates_every_feature_needs() {
+    // The numbers hold for the platform on which the table was made.
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         return;
     }

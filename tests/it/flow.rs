@@ -1,4 +1,5 @@
-//! Force flow: widths follow forces, true lines of action run through the resultants, and amounts are printed.
+//! Force flow: bands are as wide as their forces, true lines of action run through the resultants, and amounts are
+//! printed.
 
 use drystone::drawing::{Drawing, Group, Item, PagePoint, Path};
 use drystone::figure::{self, Kind, Options};
@@ -75,7 +76,7 @@ fn bands_are_as_wide_as_their_forces() {
     let (first, last) = (low[0].1, low[low.len() - 1].1);
     assert!((last / first - 1.5).abs() < 1e-6, "{first} {last}");
     assert!((first / middle[0].1 - 2.0).abs() < 1e-6);
-    // On both sides of a joint a band is equally wide, and lies at the same place.
+    // On both sides of a joint, a band has the same width and position.
     let end = middle[middle.len() - 1];
     assert!((end.1 - first).abs() < 1e-6 && (end.0.x - low[0].0.x).abs() < 1e-6);
 }
@@ -116,7 +117,8 @@ fn in_a_voussoir_the_lines_are_true_lines_of_action() {
     let mut checked = 0;
     for group in groups(&drawing.items, "strand") {
         let axis: Vec<Point> = band(group).iter().map(|p| camera.back(p.0)).collect();
-        // A corner stands twice, before and behind the change of width: such a band has true lines.
+        // At a corner there are two points, before and after the change of width: such a band follows true lines of
+        // action.
         if axis.len() != 4 || (axis[1] - axis[2]).norm() > 1e-9 {
             continue;
         }
@@ -154,7 +156,7 @@ fn the_largest_force_and_every_load_are_written() {
 
 #[test]
 fn what_is_missing_is_red_and_has_its_amount() {
-    // A block whose centroid overhangs its support by a quarter of a metre.
+    // A block whose centroid lies a quarter of a metre beyond its support.
     let blocks = vec![
         structure::block("low", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0),
         structure::block("high", structure::rectangle(1.25, 1.0, 2.0, 1.0), 6.0),

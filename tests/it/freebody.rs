@@ -10,7 +10,7 @@ use crate::labels::{COLUMN, hidden, ink, texts};
 use crate::lines::brought;
 use crate::pictures::{gallery, scene};
 
-/// A row of the list: name, and x, y and moment as they are printed.
+/// A row of the list: its name, and x, y and moment as printed.
 struct Row {
     name: String,
     numbers: [String; 3],
@@ -86,7 +86,7 @@ fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::new(&scene);
         for frame in 0..analysis.frames.len() {
-            // A wall has many blocks like each other.
+            // A wall has many similar blocks, so the first 24 are enough.
             for id in scene.frames()[frame].placed.iter().take(24) {
                 listed += balances(&name, &analysis, frame, *id);
             }
@@ -177,7 +177,7 @@ fn the_free_body_of_the_slope_names_and_tells_every_force() {
             "{name}"
         );
     }
-    // 6 N on a slope of 20°: friction holds 6·sin 20° back, up the slope and to the right of ŝ.
+    // 6 N on a slope of 20°: friction of 6·sin 20° acts up the slope, to the right of the normal ŝ.
     for said in [
         "mg = 6.000 N: (0.000; −6.000) N",
         "F_fl1 = 0.000 N: (0.000; 0.000) N",

@@ -1,4 +1,4 @@
-//! The gallery of the source: its panels as scenes of our own, beside the numbers its author's program computed.
+//! The gallery of the thesis: its panels as scenes, compared with the numbers that its author's program computed.
 
 use drystone::Analysis;
 use drystone::analysis::{Failure, Verdict};
@@ -138,7 +138,7 @@ fn figure_4_plans_the_block_of_its_title() {
     }
 }
 
-/// Corner forces of the source at an interface as (N1, N2, f⁺ − f⁻).
+/// The corner forces of the thesis at an interface, as (N1, N2, f⁺ − f⁻).
 fn expected_forces(interface: &Value) -> ([f64; 2], f64) {
     let corner = |k: usize, n: usize| {
         interface["corner_forces_N_fplus_fminus"][k][n]
@@ -155,7 +155,7 @@ fn point(value: &Value) -> Point {
     Point::new(value[0].as_f64().expect("x"), value[1].as_f64().expect("y"))
 }
 
-/// Verdict, totals, robots and every interface of every panel, to the six places the source is rounded to.
+/// Verdict, totals, robots and every interface of every panel, to the six decimals of the thesis's numbers.
 #[test]
 fn forces_are_those_of_the_source() {
     for (name, panel) in panels() {
@@ -253,7 +253,8 @@ fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// What carries figures 9a and 9b when the neglected effect is switched on.
+/// Figure 9a stands from a least friction on, which depends on corner contacts and the kernel. Figure 9b stands if its
+/// robot may exert a torque.
 #[test]
 fn neglected_effects_carry_figure_9() {
     let read = |name: &str| -> Value {

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::source::{bare, collect, modules_used, names_after, names_crate, without_groups};
 
-/// Which groups of modules a group may use, itself apart. A module outside of the groups is a group of its own.
+/// Which groups of modules a group may use besides itself. A module outside all groups counts as a group.
 const GROUP_RULES: &[(&str, &[&str])] = &[
     ("text", &[]),
     ("geometry", &[]),
@@ -77,7 +77,8 @@ impl Layers {
     }
 }
 
-/// The modules of a group in their order, those of a group within it in its place; a module without groups alone.
+/// The modules of a group in their order; a nested group is replaced by its modules. For a module outside all groups,
+/// that module.
 fn members_of(root: &Path, group: &str) -> Vec<String> {
     let path = root.join(group).join("mod.rs");
     let is_group = crate::source::GROUPS.contains(&group);
@@ -196,16 +197,16 @@ const DOORS: &[(&str, &[&str])] = &[
     ("arrow_schema", &["python/table.rs"]),
 ];
 
-/// Doors that are one file, but whose file the owning module may choose.
+/// Foreign crates that may be named in one file only; the owning module chooses the file.
 const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa"];
 
-/// Names that say nothing about what a file is.
+/// File names that do not say what the file contains.
 const EMPTY_NAMES: &[&str] = &[
     "utils", "util", "common", "helpers", "helper", "core", "misc",
 ];
 
 #[test]
-fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
+fn modules_use_only_allowed_modules_and_foreign_crates_only_in_their_places() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     collect(&root, &mut files);
@@ -252,10 +253,10 @@ fn every_arrow_points_the_right_way_and_every_crate_has_one_door() {
     );
 }
 
-/// Everything that is wrong with one source file, `path` given below `src`.
+/// All faults of one source file; `path` is relative to `src`.
 fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
-    // A visibility names the module's own full path.
+    // A visibility names the full path of its own module.
     let code = bare(text).replace("pub(in crate::", "pub(in ");
     let own = path.split(['/', '.']).next().unwrap_or_default();
     let stem = path
@@ -278,7 +279,7 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
             }
         }
     }
-    // `super` in a module's mod.rs is the crate itself, and two of them leave any module of ours.
+    // In a module's `mod.rs`, `super` is the crate itself, and two of them leave every module of this crate.
     let climbs = code.matches("super::super::").count();
     let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs"))
         - 1.min(path.matches('/').count());
@@ -321,7 +322,7 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     faults
 }
 
-/// The faults of a made-up file under the rules of the crate.
+/// The faults of an invented source file under the rules of the crate.
 fn faults(path: &str, text: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     faults_of(&Layers::from_source(&root), path, text)
@@ -342,7 +343,7 @@ fn a_module_uses_what_is_listed_before_it_and_groups_below_its_own() {
 }
 
 #[test]
-fn a_picture_that_asks_the_mechanics_is_caught() {
+fn a_drawing_module_that_uses_the_mechanics_is_a_fault() {
     let bad = "use crate::analysis::Analysis;\nfn f() {}\n";
     assert_eq!(
         faults("drawing/arrow.rs", bad),
@@ -352,7 +353,7 @@ fn a_picture_that_asks_the_mechanics_is_caught() {
 }
 
 #[test]
-fn an_arrow_hidden_in_a_group_or_in_code_is_caught() {
+fn uses_in_braces_and_in_code_are_found() {
     let group = "use crate::{geometry::{Point, Vector}, program::Columns};";
     assert_eq!(modules_used(group), ["geometry", "program"]);
     assert_eq!(
@@ -367,7 +368,7 @@ fn an_arrow_hidden_in_a_group_or_in_code_is_caught() {
 }
 
 #[test]
-fn a_second_door_is_caught() {
+fn a_foreign_crate_used_in_a_second_place_is_a_fault() {
     let sources = [
         "use serde::Serialize;",
         "#[derive(serde::Serialize)] struct A;",
@@ -382,7 +383,7 @@ fn a_second_door_is_caught() {
 }
 
 #[test]
-fn a_second_clock_is_caught() {
+fn a_clock_other_than_the_crates_own_is_a_fault() {
     let sources = [
         "use std::time::{Duration, Instant};",
         "fn f() { std::time::Instant::now(); }",
@@ -396,7 +397,7 @@ fn a_second_clock_is_caught() {
 }
 
 #[test]
-fn words_that_only_look_like_arrows_are_let_pass() {
+fn words_that_only_look_like_uses_are_no_faults() {
     let fine = r##"
         //! Made by crate::analysis, unlike serde::Serialize.
         /* crate::cli /* crate::figure */ clarabel::solve */
@@ -410,7 +411,7 @@ fn words_that_only_look_like_arrows_are_let_pass() {
 }
 
 #[test]
-fn globs_climbing_and_empty_names_are_caught() {
+fn globs_paths_above_the_module_and_empty_names_are_faults() {
     assert_eq!(faults("scene/shape.rs", "use crate::geometry::*;").len(), 1);
     assert_eq!(faults("scene/shape.rs", "use super::*;").len(), 1);
     assert_eq!(

@@ -399,9 +399,9 @@ fn every_number(value: &mut Value, change: &dyn Fn([f64; 2]) -> [f64; 2]) {
     }
 }
 
-/// Mirrored, heavier, and with a weight or a size far from the others': the same answer.
+/// Mirrored, rotated, heavier, and with weights or sizes that differ much: the same answer.
 #[test]
-fn the_answer_keeps_the_laws() {
+fn the_answer_stays_when_the_scene_is_mirrored_rotated_or_scaled() {
     let files = [
         (h_model(0.7), true),
         (bar_between_walls(0.05, 0.3), true),
