@@ -1,8 +1,8 @@
-//! What results and captions state, each held against something else that is known: sums against what is listed, shares
-//! against forces and limits, motions against contacts, margins against verdicts. `src/doc/claims.md` is the list.
+//! The statements of results and captions are compared with other known values: sums with the listed amounts, shares
+//! with forces and limits, motions with contacts, margins with verdicts. `src/doc/claims.md` is the list.
 //!
-//! Everything here reads the JSON that other programs read, with geometry of its own, so that a number that is right
-//! inside and wrong on its way out is caught too.
+//! These tests read the JSON that other programs read, and use geometry of their own. So they also find a number that
+//! is correct inside the program but written incorrectly.
 
 mod balance;
 mod beyond;
@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
-/// A scene file, what `check --json` says of it, and L.
+/// A scene file, its result from `check --json`, and L.
 struct Told {
     file: Value,
     json: Value,
@@ -73,7 +73,7 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// Standing, sliding, toppling, held with limits, loaded, without friction; and random ones.
+/// Structures that stand, slide, topple, are held with limits, carry loads or have no friction; and random ones.
 fn structures() -> Vec<Told> {
     let mut files = vec![
         arch(11, 0.3, 0.7),
@@ -99,7 +99,7 @@ fn structures() -> Vec<Told> {
     files.iter().filter(|file| sound(file)).map(told).collect()
 }
 
-/// A caption's verdict and amounts are those of the result.
+/// The verdict and the amounts of a caption are those of the result.
 #[test]
 fn captions_say_what_the_result_says() {
     for told in structures() {
@@ -118,7 +118,7 @@ fn captions_say_what_the_result_says() {
             assert!(!caption.contains("would have to"), "{caption}");
             continue;
         }
-        // The largest of what is missing is in the caption, to the digits it is written with.
+        // The caption contains the largest missing force, with the digits it is written with.
         let largest = list(&told.json["frames"][0]["failures"])
             .iter()
             .filter(|f| f["torque"].is_null())
@@ -138,7 +138,7 @@ fn captions_say_what_the_result_says() {
     }
 }
 
-/// The list of claims names tests that exist, so that a renamed or removed one is missed.
+/// The tests named in the list of claims exist, so a renamed or removed test is noticed.
 #[test]
 fn every_test_named_in_the_list_exists() {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -160,7 +160,7 @@ fn every_test_named_in_the_list_exists() {
     assert!(seen > 30, "{seen}");
 }
 
-/// Every key of a result that is a number, a word or a sentence stands in the list of claims, next to at least one test.
+/// Every key of a result that is a number, a word or a sentence is in the list of claims, with at least one test.
 #[test]
 fn every_key_of_a_result_has_a_test() {
     let root = env!("CARGO_MANIFEST_DIR");

@@ -1,5 +1,5 @@
-//! Forces against the outlines: where they act, that they balance, and what the proof says of them. Everything is summed again
-//! from the scene's outlines and the JSON of the result, in plain arithmetic.
+//! Forces are compared with the outlines: their positions, their balance, and the numbers of the proof. Everything is
+//! summed again from the scene's outlines and the JSON of the result, in plain arithmetic.
 
 use drystone::Analysis;
 use drystone::analysis::Proof;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{Told, cross, dot, less, list, number, pair, structures};
 use crate::structure::scene;
 
-/// What acts on one block.
+/// The forces on one block.
 #[derive(Default)]
 struct Acting {
     force: [f64; 2],
@@ -48,7 +48,8 @@ fn name(value: &Value) -> &str {
     value.as_str().expect("a name")
 }
 
-/// Every block's forces: weight, loads, interfaces, robots, and the missing forces. With each its radius.
+/// The forces on every block: weight, loads, interfaces, robots, and the missing forces; with the radius of the
+/// block.
 fn acting(told: &Told) -> Vec<(String, f64, Acting)> {
     let (scene, frame) = (scene(&told.file), &told.json["frames"][0]);
     let down = [scene.down().x, scene.down().y];
@@ -116,7 +117,7 @@ fn acting(told: &Told) -> Vec<(String, f64, Acting)> {
     all
 }
 
-/// What is left unbalanced of a block, N, and in parts of its load.
+/// The unbalanced remainder of a block, in newtons, and as a share of its load.
 fn left(radius: f64, acting: &Acting) -> (f64, f64) {
     let left = norm(acting.force).max(acting.moment.abs() / radius);
     (left, left / acting.load)
@@ -132,7 +133,8 @@ fn listed_forces_and_missing_ones_balance_every_block() {
             continue;
         }
         let all = acting(&told);
-        // What misses is a share of the component's forces, whose largest block is the measure.
+        // The permitted remainder is a share of the forces of the component, measured by its most heavily loaded
+        // block.
         let size = all.iter().map(|(.., a)| a.total).fold(0.0, f64::max);
         for (id, radius, acting) in &all {
             if unsupported.iter().any(|block| name(block) == id) {
@@ -170,7 +172,7 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
             if acting.load == 0.0 {
                 continue;
             }
-            // A plain sum rounds by some 1e-15 of what is summed, more about a far centroid.
+            // The rounding error of a plain sum is about 1e-15 of its terms, and more about a distant centroid.
             rounding = rounding.max(1e-13 * acting.total / acting.load);
             worst_share = worst_share.max(left(radius, &acting).1);
             // A force may change by a share of its amount and move by that share of the radius.
@@ -220,7 +222,7 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
     assert!(seen > 20, "{seen}");
 }
 
-/// Limits and shares hold to the last bit, as a reader compares them.
+/// Limits hold to the last bit, because a reader compares the printed numbers.
 #[test]
 fn shares_and_forces_lie_within_the_limits_they_are_compared_with() {
     for told in structures() {
@@ -309,7 +311,7 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
             let normal = pair(&interface["normal"]);
             assert!((norm(normal) - 1.0).abs() <= 1e-12, "{interface}");
             assert!(dot(normal, span).abs() <= 1e-9 * norm(span), "{interface}");
-            // A hair along the normal lies in the first body, and not beyond it.
+            // A point slightly along the normal lies in the first body.
             let hair = 1e-3 * norm(span);
             let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
             let inside = [0, 1].map(|k| middle[k] + hair * normal[k]);
@@ -319,7 +321,7 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
                 winding != 0,
                 "the normal does not point into {first}: {interface}"
             );
-            // The kernel keeps forces away from each end by half its share of the stretch.
+            // The kernel keeps forces away from each end by half of its share of the length.
             for (k, at) in list(&interface["application_points"]).iter().enumerate() {
                 let share = if k == 0 {
                     0.5 * kernel
@@ -340,7 +342,7 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
     assert!(seen > 200, "{seen}");
 }
 
-/// How often a ring goes around a point.
+/// How many times a ring goes around a point.
 fn turns(ring: &[[f64; 2]], at: [f64; 2]) -> i32 {
     let mut turns = 0;
     for (k, a) in ring.iter().enumerate() {

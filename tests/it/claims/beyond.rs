@@ -1,4 +1,4 @@
-//! What a result says of how a frame begins to move just beyond each end of its margins.
+//! The motions that a result lists for the frame just beyond each end of its margins.
 
 use drystone::analysis::Options;
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{Told, cross, dot, less, list, number, pair, told, told_with};
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
-/// How fast a motion moves a point of a body; the ground and what is not listed rest.
+/// The velocity of a point of a body under a motion. The ground and bodies that are not listed are at rest.
 fn velocity(motions: &Value, body: &str, centroid: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     let own = list(motions).iter().find(|m| m["block"] == body);
     own.map_or([0.0; 2], |m| {
@@ -15,7 +15,8 @@ fn velocity(motions: &Value, body: &str, centroid: [f64; 2], at: [f64; 2]) -> [f
     })
 }
 
-/// The power of gravity, loads and robots along a motion, and the worst power that a force of 1 N at a contact takes against it.
+/// The power of gravity, loads and robots along a motion, and the largest power that a contact force of 1 N takes
+/// from it.
 fn power_and_worst(changed: &Value, motions: &Value) -> (f64, f64) {
     let scene = scene(changed);
     let centroid = |name: &str| {
@@ -59,17 +60,18 @@ fn power_and_worst(changed: &Value, motions: &Value) -> (f64, f64) {
     (power, worst)
 }
 
-/// A scene whose margins are looked at, and how many motions beyond their ends were found to do work.
+/// A scene whose margins are checked, and the number of motions beyond their ends that do work.
 struct Beyond {
     told: Told,
     seen: usize,
 }
 
 impl Beyond {
-    /// The motion beyond an end does work in the scene that is changed by a little more, and no contact can stop it.
+    /// Asserts that the motion beyond an end does work in a scene that is changed slightly further, and no contact
+    /// can stop it.
     fn holds(&mut self, motions: &Value, end: &Value, change: &dyn Fn(f64) -> Value, sign: f64) {
         let Some(at) = end.as_f64().filter(|at| at.abs() > 1e-6) else {
-            // There is nothing below 0, and nothing beyond what has no end.
+            // There are no values below 0, and no motion if there is no end.
             assert!(list(motions).is_empty(), "{end}: {motions}");
             return;
         };
@@ -163,7 +165,7 @@ impl Beyond {
                 self.holds(motions, &robot[key], &limited, -1.0);
             }
         }
-        // Loads and limits that do not turn leave other tilts at which a frame may stand; a note says so.
+        // Loads and limits do not turn with gravity, so a frame may stand again at other tilts; a note says so.
         let is_noted = list(&margins["notes"])
             .iter()
             .any(|note| note.as_str().is_some_and(|note| note.starts_with("tilt:")));
@@ -173,7 +175,7 @@ impl Beyond {
     }
 }
 
-/// The motions that a result lists beyond the ends of its margins, in scenes that are changed a thousandth beyond.
+/// The motions that a result lists beyond the ends of its margins, checked in scenes changed by a further thousandth.
 #[test]
 fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
     let mut pushed = wall(3, 2);
@@ -224,8 +226,8 @@ fn hopeless() -> Vec<Value> {
     files
 }
 
-/// Whether one of these motions is said to exclude a value, and does work in the scene that is changed to it, with no contact
-/// or robot that can stop it.
+/// Whether one of the listed motions excludes a value: it does work in the scene changed to this value, and no
+/// contact or robot can stop it.
 fn is_excluded(reasons: &Value, at: f64, turn: f64, changed: &Value) -> bool {
     let covers = |reason: &&Value| {
         let from = reason["from"].as_f64().unwrap_or(f64::NEG_INFINITY);
@@ -241,7 +243,7 @@ fn is_excluded(reasons: &Value, at: f64, turn: f64, changed: &Value) -> bool {
     })
 }
 
-/// Where an interval is empty, the listed motions exclude all its values; where it is not, none are listed.
+/// If an interval is empty, the listed motions exclude all its values. Otherwise none are listed.
 #[test]
 fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
     let signed: Vec<f64> = vec![-900.0, -3.1, -0.61, -0.07, 0.0, 0.03, 0.47, 0.9, 8.0, 1e3];

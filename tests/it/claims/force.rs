@@ -1,4 +1,4 @@
-//! What is told of forces: totals, weights, resultants, shares of friction and of limits.
+//! The statements about forces: totals, weights, resultants, shares of friction and of limits.
 
 use drystone::result::{
     Fields, Layout, Origin, PictureOutcome, Timing, line_of, to_json, to_json_with_blocks,
@@ -139,7 +139,7 @@ fn resultants_replace_the_forces_at_both_points() {
                     "{interface}"
                 );
             }
-            // The same moment about the first point, where friction has none.
+            // The moment about the first point must be the same; friction has no moment about it.
             let span = less(points[1], points[0]);
             let moment = cross(span, normal.map(|n| n * forces[1]));
             let of_resultant = cross(less(at, points[0]), force);
@@ -153,7 +153,7 @@ fn resultants_replace_the_forces_at_both_points() {
 }
 
 #[test]
-fn contact_forces_press_and_friction_is_told_as_its_share() {
+fn contact_forces_press_and_friction_is_stated_as_a_share() {
     for told in structures() {
         for interface in list(&told.json["frames"][0]["interfaces"]) {
             let forces = pair(&interface["normal_forces"]);
@@ -172,7 +172,7 @@ fn contact_forces_press_and_friction_is_told_as_its_share() {
 }
 
 #[test]
-fn a_robot_gives_no_more_than_it_may_and_tells_the_largest_share() {
+fn a_robot_stays_within_its_limits_and_states_the_largest_share() {
     let mut limited = 0;
     for told in structures() {
         for robot in list(&told.json["frames"][0]["robots"]) {
@@ -190,7 +190,7 @@ fn a_robot_gives_no_more_than_it_may_and_tells_the_largest_share() {
             let given = [
                 (x, limit("fx")),
                 (y, limit("fy")),
-                // Without a limit of its own a robot gives no torque.
+                // A robot without a limit of its torque exerts no torque.
                 (
                     number(&robot["torque"]),
                     Some(limit("torque").unwrap_or(0.0)),

@@ -1,4 +1,4 @@
-//! What a result says of the scene as a whole: version, title, and what healing moved.
+//! The statements about the scene: version, title, and the corners that healing moved.
 
 use drystone::Scene;
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{less, list, number, pair, told};
 use crate::structure::wall;
 
-/// A wall turned about the origin, its coordinates written with four decimals.
+/// A wall rotated about the origin, with coordinates of four decimals.
 fn turned(degrees: f64) -> Value {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let mut file = wall(4, 3);
@@ -24,7 +24,7 @@ fn turned(degrees: f64) -> Value {
     file
 }
 
-/// How far each corner of a file lies from the nearest corner of the same body of its scene, metres.
+/// The distance of each corner of a file from the nearest corner of the same body of its scene, in metres.
 fn moves(file: &Value) -> Vec<f64> {
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let blocks = scene.blocks().iter().map(|block| &block.body);
@@ -44,7 +44,8 @@ fn moves(file: &Value) -> Vec<f64> {
     moves
 }
 
-/// Four decimals leave corners up to 7·10⁻⁵ m off what they touch. The result counts the corners that healing moved.
+/// Four decimals leave corners up to 7·10⁻⁵ m away from the bodies that they touch. The result counts the corners
+/// that healing moved.
 #[test]
 fn what_healing_moved_is_counted_and_measured() {
     let mut seen = 0;
@@ -55,7 +56,8 @@ fn what_healing_moved_is_counted_and_measured() {
         assert_eq!(json["drystone"], env!("CARGO_PKG_VERSION"));
         assert_eq!(json["scene"], "a wall");
         let tolerance = &json["contact_tolerance"];
-        // Rounding by half of the last digit, both bodies, and their diagonals: one and a half digits.
+        // Half of the last digit for rounding, twice for two bodies, and their diagonals: together one and a half
+        // digits.
         let gap = 1.5e-4;
         assert_eq!(
             (&tolerance["from"], &tolerance["digits"]),
@@ -79,7 +81,7 @@ fn what_healing_moved_is_counted_and_measured() {
         seen += usize::from(stated > 0.0);
     }
     assert_eq!(seen, 3);
-    // Upright, every corner lies on what it touches.
+    // Without rotation, every corner lies on the body that it touches.
     let tolerance = &told(&turned(0.0)).json["contact_tolerance"];
     let moved = (&tolerance["moved_corners"], &tolerance["largest_move"]);
     assert_eq!(moved, (&json!(0), &json!(0.0)));

@@ -1,4 +1,4 @@
-//! Intervals in words and as bars: what the terminal prints and a report draws is recomputed from `check --json`.
+//! Intervals in words and as bars: the output of the terminal and of a report is recomputed from `check --json`.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -10,7 +10,8 @@ use tempfile::TempDir;
 use super::{list, number};
 use crate::structure::{on_slope, wall};
 
-/// What varies: its name in words, its key in `margins.intervals`, whether it runs to both sides of 0, its present value.
+/// A parameter that varies: its name in words, its key in `margins.intervals`, whether it may be negative, its
+/// present value.
 struct Parameter {
     name: String,
     pointer: String,
@@ -53,7 +54,7 @@ fn parameters(file: &Value) -> Vec<Parameter> {
     all
 }
 
-/// What the program says of one scene: the result, the terminal's lines, and the report.
+/// The output for one scene: the result, the terminal's lines, and the report.
 struct Statements {
     file: Value,
     frame: Value,
@@ -114,7 +115,7 @@ fn scenes() -> Vec<Statements> {
     files.into_iter().map(statements).collect()
 }
 
-/// The sentence behind a margin's name in the terminal's table.
+/// The sentence after the name of a margin in the terminal's table.
 fn sentence<'a>(table: &'a str, name: &str) -> Option<&'a str> {
     let start = format!("{name}: ");
     table
@@ -122,7 +123,7 @@ fn sentence<'a>(table: &'a str, name: &str) -> Option<&'a str> {
         .find_map(|line| line.trim().strip_prefix(&start))
 }
 
-/// The numbers of a sentence; those to the left are negative.
+/// The numbers of a sentence; numbers to the left are negative.
 fn signed_numbers(sentence: &str) -> Vec<f64> {
     let words: Vec<&str> = sentence.split([' ', ';', ',']).collect();
     let following = words.iter().skip(1).chain([&""]);
@@ -208,7 +209,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
         let same: BTreeSet<&str> = drawn.iter().copied().collect();
         assert_eq!(seen, same.len(), "every bar is of an interval");
         if list(&told.file["loads"]).is_empty() {
-            // The report's proof speaks of loads in another sense.
+            // The report's proof mentions loads in another sense.
             for words in ["factor on", "with its loads", "loads times"] {
                 assert!(!told.table.contains(words), "{}", told.table);
                 assert!(!told.page.contains(words), "{words}");
@@ -221,7 +222,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
     );
 }
 
-/// The ends of an interval that are values, and at which the parameter does not itself begin.
+/// The ends of an interval that are finite, except an end at which the range of the parameter itself begins.
 fn finite(parameter: &Parameter, interval: &Value) -> [Option<f64>; 2] {
     let low = interval[0].as_f64();
     let begins = |low: &f64| parameter.is_signed || *low > 0.0;
@@ -234,7 +235,8 @@ fn contains(interval: &Value, value: f64) -> bool {
     !interval.is_null() && low <= value && value <= high
 }
 
-/// The ends of two parts that conflict: below the first one falls, above the second, smaller one the other.
+/// The ends of two parts in conflict: one part falls below the first end, the other falls above the second, smaller
+/// end.
 fn conflict(excluded: &Value) -> Vec<f64> {
     let [below, above] = list(excluded) else {
         return Vec::new();
@@ -292,7 +294,7 @@ fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words:
     );
 }
 
-/// All marks lie on one scale, whose 0 is the track's left end, or its middle where a parameter runs to both sides.
+/// All marks lie on one scale. Its 0 is the left end of the track, or the middle if the parameter may be negative.
 fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     let one = |name: &str| class(bar, name).into_iter().next().expect("one");
     let track = one("all");
@@ -356,7 +358,7 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     };
     assert!(pixels >= 0.0);
     for (at, value) in marks {
-        // Places are written to a tenth of a pixel; the scale is read from one such place.
+        // Positions are written to a tenth of a pixel, and the scale is read from one of them.
         let expected = zero + pixels * value;
         assert!(
             (at - expected).abs() < 0.25,
@@ -365,7 +367,7 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     }
 }
 
-/// Words of a headline, and the parameter that it is about.
+/// Words of a headline, and the parameter that they refer to.
 const HEADLINE_SIGNS: [(&str, &str); 4] = [
     ("gravity turns", "/tilt"),
     ("pushes it", "/horizontal_load"),
@@ -373,7 +375,7 @@ const HEADLINE_SIGNS: [(&str, &str); 4] = [
     ("safety kernel", "/kernel"),
 ];
 
-/// The headline of a frame with loads names the end of the interval of its load factor, to three digits.
+/// The headline of a frame with loads states the end of the interval of its load factor, with three digits.
 fn assert_load_headline(headline: &str, verdict: &str, interval: &Value) {
     let [low, high] = [0, 1].map(|k| interval.get(k).and_then(Value::as_f64));
     let named = |start: &str| -> f64 {
@@ -382,7 +384,7 @@ fn assert_load_headline(headline: &str, verdict: &str, interval: &Value) {
         number.parse().unwrap_or(f64::NAN)
     };
     let is_near = |found: f64, value: f64| (found - value).abs() <= 1e-2 * value.abs();
-    // What is carried is rounded down, what is needed is rounded up.
+    // A load that is carried is rounded down, a load that is needed is rounded up.
     let is_below = |found: f64, value: f64| is_near(found, value) && found <= value * (1.0 + 1e-6);
     let is_above = |found: f64, value: f64| is_near(found, value) && found >= value * (1.0 - 1e-6);
     let holds = match (verdict, low, high) {
@@ -399,7 +401,7 @@ fn assert_load_headline(headline: &str, verdict: &str, interval: &Value) {
     assert!(holds, "{headline}: {verdict}, {interval}");
 }
 
-/// The headline is the load factor if there is one with a limit, otherwise the margin of which the least is left.
+/// The headline is the load factor if it has a limit, otherwise the margin that is nearest to its end.
 #[test]
 fn the_headline_is_the_margin_nearest_to_its_end() {
     for told in scenes() {
@@ -455,9 +457,9 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
     }
 }
 
-/// What a report says a structure needs to fall, or to stand, is beyond the end, or before it.
+/// A value at which a report says that a structure would fall, or stand, lies on the correct side of the end.
 #[test]
-fn what_it_would_take_lies_on_the_right_side_of_the_end() {
+fn factors_at_which_it_would_fall_or_stand_lie_on_the_right_side() {
     for (told, sentence) in scenes().iter().zip([
         "The structure would fall at 3.82 times its loads.",
         "The structure would stand at 1.34 times its loads.",
@@ -474,7 +476,7 @@ fn what_it_would_take_lies_on_the_right_side_of_the_end() {
             told.frame["margins"]["intervals"]
         );
     }
-    // The plank falls below its least factor, and is drawn so.
+    // The plank falls below its least load factor, and the drawing shows this.
     let plank = &scenes()[2];
     assert!(
         plank
@@ -483,14 +485,15 @@ fn what_it_would_take_lies_on_the_right_side_of_the_end() {
     );
 }
 
-/// What follows `start` in a page as a number.
+/// The number after `start` in a page.
 fn number_after(page: &str, start: &str) -> Option<f64> {
     let (_, rest) = page.split_once(start)?;
     let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.')?;
     rest[..end].parse().ok()
 }
 
-/// A friction said to be too small is no more than the least one, and a tilt said to be too large no less than the end.
+/// A friction coefficient reported as too small is at most the least one; a tilt reported as too large is at least
+/// the end.
 #[test]
 fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
     let (mut frictions, mut tilts) = (0, 0);

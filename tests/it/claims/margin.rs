@@ -1,4 +1,4 @@
-//! What is told of how far a structure is from the edge.
+//! The statements about the margins of a structure.
 
 use drystone::Analysis;
 use drystone::analysis::{MarginKind, MarginKinds, Options, Toward, Verdict};
@@ -10,13 +10,13 @@ use super::{list, number, told_with};
 use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
-/// Every margin of some scenes of ours, asked of changed files through the front door.
+/// Every margin of some scenes, checked by analysing changed scene files.
 #[test]
-fn margins_are_borne_out_by_verdicts_on_either_side() {
+fn margins_agree_with_verdicts_on_either_side() {
     let mut pushed = wall(3, 2);
     pushed["loads"] = json!([{ "block": "4", "force": [1.0, 0.0], "at": [1.0, 0.75] }]);
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
-    // With little vertical force the robot needs a horizontal one.
+    // With a vertical limit this small, the robot needs its horizontal force.
     held["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 0.1, "torque": 9 } }]);
     let mut asked = 0;
@@ -103,7 +103,7 @@ fn margins_are_borne_out_by_verdicts_on_either_side() {
     assert!(asked >= 20, "{asked}");
 }
 
-/// A margin is the end of its interval on its own side.
+/// A margin is the end of its interval on the same side.
 fn assert_margins_are_ends(margins: &Value) {
     let intervals = &margins["intervals"];
     let assert_is_end = |margin: &Value, interval: &Value, end: usize, sign: f64| {
@@ -127,13 +127,13 @@ fn assert_margins_are_ends(margins: &Value) {
     }
 }
 
-/// The words of `--kind margin` are those of the result's interval, whether the frame stands today or not.
+/// The words of `--kind margin` state the interval of the result, whether the frame stands today or not.
 #[test]
-fn the_figure_of_a_margin_tells_the_interval_of_the_result() {
+fn the_figure_of_a_margin_states_the_interval_of_the_result() {
     let options = Options::default()
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
-    // A plank overhangs its support; the load is a counterweight that has to be at least a third of what it is.
+    // A plank overhangs its support; the load is a counterweight of which at least a third is needed.
     let plank = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
         "blocks": [{ "id": "plank", "polygon": [[1, 0], [9, 0], [9, 1], [1, 1]], "weight": 6 }],
@@ -155,7 +155,7 @@ fn the_figure_of_a_margin_tells_the_interval_of_the_result() {
         let words: Vec<&str> = parts.filter_map(|n| n.text()).collect();
         let words = words.join(" ");
         let ends = [&interval[0], &interval[1]].map(Value::as_f64);
-        // Four digits are written.
+        // Numbers are written with four digits.
         let near = |exact: f64| {
             let told = words
                 .split([' ', ','])

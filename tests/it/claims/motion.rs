@@ -1,11 +1,11 @@
-//! What is told of how a structure falls.
+//! The statements about how a structure falls.
 
 use serde_json::Value;
 
 use super::{cross, dot, less, list, number, pair, structures};
 use crate::structure::scene;
 
-/// Speed of a point of a moving body; the ground's is 0.
+/// The velocity of a point of a moving body; that of the ground is 0.
 fn speed(frame: &Value, centroid: &dyn Fn(&str) -> [f64; 2], body: &str, at: [f64; 2]) -> [f64; 2] {
     let moves = list(&frame["mechanism"])
         .iter()
@@ -56,7 +56,7 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
                     speed(frame, &centroid, a, at),
                     speed(frame, &centroid, b, at),
                 );
-                // No admissible force (n, ±μ t) may take power from the motion.
+                // No admissible contact force n ± μ t may take power from the motion.
                 let power = dot(apart, normal) - mu * dot(apart, tangent).abs();
                 assert!(
                     power >= -1e-5 * (1.0 + mu),
@@ -69,15 +69,16 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
     assert!(seen > 5);
 }
 
-/// The numbers of a proof by a motion, from the motion, the weights and the interfaces of the same result: the loads' power, the
-/// worst speed against which a contact could act, and the sum of forces below which nothing balances.
+/// The numbers of a proof by a motion, recomputed from the motion, the weights and the interfaces of the same result:
+/// the power of the loads, the largest speed against which a contact could act, and the sum of forces below which no
+/// balance exists.
 #[test]
 fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
     let mut seen = 0;
     for told in structures() {
         let frame = &told.json["frames"][0];
         let proof = &frame["proof"];
-        // The proof of several groups is the worst of several motions.
+        // With several groups, the proof is the worst of several motions.
         if frame["verdict"] != "unstable" || frame["solve"]["groups"] != 1 {
             continue;
         }
@@ -121,7 +122,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
             loads += gross * speed;
             fastest = fastest.max(speed);
         }
-        // What limited robots can hold takes from the power; a robot without a limit on what moves would stop it.
+        // Limited robots can take power from the motion. A robot without a limit on a moving block would stop it.
         for robot in list(&frame["robots"]) {
             let id = robot["holds"].as_str().expect("a name");
             let Some(moving) = moves(id) else { continue };

@@ -1,4 +1,4 @@
-//! What a result says of how it was found: groups, programs, iterations, methods and times.
+//! The statements about how a result was found: groups, programs, iterations, methods and times.
 
 use std::time::Instant;
 
@@ -38,7 +38,7 @@ fn groups_of(told: &Told) -> u64 {
     group.len() as u64
 }
 
-/// A result counts the groups that its own interfaces make. Without a program there is no iteration.
+/// A result counts the groups formed by its own interfaces. Without a program there are no iterations.
 #[test]
 fn groups_are_those_of_the_listed_interfaces() {
     let (mut several, mut solved) = (0, 0);
@@ -56,7 +56,7 @@ fn groups_are_those_of_the_listed_interfaces() {
     assert!(several > 3 && solved > 10, "{several} {solved}");
 }
 
-/// An arch, moved to the right by some metres, with names of its own.
+/// Arches next to each other, each moved to the right and with block names of its own.
 fn arches(count: usize) -> Value {
     let mut file = arch(11, 0.3, 0.7);
     let moved = |body: &Value, metres: f64, name: Option<String>| {
@@ -71,7 +71,7 @@ fn arches(count: usize) -> Value {
     };
     let (ground, blocks) = (file["ground"].clone(), file["blocks"].clone());
     for copy in 1..count {
-        // A power of two keeps every digit of a difference of coordinates.
+        // Moving by a power of two keeps all digits of differences of coordinates.
         let metres = 16.0 * copy as f64;
         for body in list(&ground) {
             let body = moved(body, metres, None);
@@ -102,8 +102,8 @@ fn programs_and_iterations_are_those_of_the_solver() {
     assert_eq!(count(&solve["programs"]), 3 * effort.programs as u64);
 }
 
-/// The method is that of the group that was hardest to decide: a closed form for a block on a floor or on a slope and for a stack,
-/// a program for an arch, with and without such a block at its side.
+/// The method is that of the group that was hardest to decide: a closed form for a block on a floor, a block on a
+/// slope, and a stack; a program for an arch, with or without such a block next to it.
 #[test]
 fn the_method_is_that_of_the_hardest_group() {
     let stack = (0..3).map(|k| {
@@ -174,7 +174,7 @@ fn times_are_within_what_the_call_took() {
         let [assembly, solution, wedging, margins] = stages;
         assert!(assembly > 0.0 && solution > 0.0, "{solve}");
         assert_eq!([wedging > 0.0, margins > 0.0], [asked; 2], "{solve}");
-        // What is in no stage is next to nothing.
+        // The time outside all stages is small.
         assert!(stages.iter().sum::<f64>() > 0.5 * seconds, "{solve}");
     }
 }

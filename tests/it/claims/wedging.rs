@@ -1,4 +1,4 @@
-//! What is told of structures that stand only by wedging.
+//! The statements about structures that stand only by wedging.
 
 use drystone::analysis::Options;
 use serde_json::{Value, json};
@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 use super::{Told, list, number, told, told_with};
 use crate::structure::{block, harmonic, rectangle, wall};
 
-/// `only_by_wedging` is absent where nobody asked and where the frame falls, and says in its effect what shows it.
+/// `only_by_wedging` is absent if it was not requested or if the frame falls. Otherwise its effect gives the reason.
 #[test]
-fn wedging_is_told_with_what_shows_it() {
+fn wedging_is_reported_with_its_reason() {
     let asked = Options::default().wedging(true);
     let between = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }],
@@ -26,7 +26,7 @@ fn wedging_is_told_with_what_shows_it() {
     assert!(frame(&told(&between)).get("only_by_wedging").is_none());
     let wedged = frame(&told_with(&between, &asked));
     assert_eq!(wedged["only_by_wedging"], json!(true));
-    // Friction of 0.7 must carry 7 N, so both faces together press with 10 N at least.
+    // Friction of 0.7 must carry 7 N, so both faces together press with at least 10 N.
     assert!(why(&wedged).contains("1.000e1 N"), "{}", why(&wedged));
     assert!(
         why(&wedged).contains("bar moves and presses nothing"),
@@ -39,12 +39,13 @@ fn wedging_is_told_with_what_shows_it() {
     assert!(falls.get("only_by_wedging").is_none());
 }
 
-/// What shows that a frame stands only by wedging is checked from the result alone: its interfaces, their forces, two motions.
+/// The certificate that a frame stands only by wedging is checked with the result alone: its interfaces, their
+/// forces, two motions.
 #[test]
 fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
     let asked = Options::default().wedging(true);
     let walls = json!([{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }]);
-    // Friction of μ must carry the weight, so both faces together press with weight/μ at least.
+    // Friction of μ must carry the weight, so both faces together press with at least weight/μ.
     for (mu, weight) in [(0.7, 7.0), (0.25, 3.0)] {
         let least = weight / mu;
         let file = json!({ "drystone": 1, "friction": mu, "ground": walls,
@@ -71,7 +72,7 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
                 [u - spin * (at[1] - y), v + spin * (at[0] - x)]
             })
         };
-        // How fast a face opens and slides at an application point.
+        // The velocities at which a face opens and slides at an application point.
         let apart = |motion: &Value, face: &Value, point: usize| {
             let at = pair(&face["application_points"][point]);
             let [on, from] = [0, 1].map(|side| velocity(motion, &face["bodies"][side], at));
@@ -82,11 +83,12 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
         for (face, must) in interfaces.iter().zip(&must) {
             let normal = [0, 1].map(|k| number(&face["normal_forces"][k]));
             for (point, normal) in normal.into_iter().enumerate() {
-                // As springs give way only the faces named come apart, and none is pressed.
+                // When springs give way, only the named faces come apart, and no face is pressed.
                 let (opens, slides) = apart(&wedging["gives_way"], face, point);
                 assert!(opens > -1e-5, "{face}");
                 assert!(*must || opens.abs().max(slides.abs()) < 1e-5, "{face}");
-                // Along the bound no other face takes work, and these no more than 1 for each newton.
+                // Along the motion of the bound no other face takes work, and the named faces take at most 1 for each
+                // newton.
                 let (opens, slides) = apart(&wedging["bound"], face, point);
                 let taken = number(&face["mu"]) * slides.abs() - opens;
                 assert!(taken < f64::from(u8::from(*must)) + 1e-6, "{taken} {face}");
@@ -97,7 +99,8 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
             pressed += if *must { normal[0] + normal[1] } else { 0.0 };
         }
         assert_eq!(wedging["presses_nothing"], json!(true));
-        // What the loads give is what these forces take: in any balance the faces press with as much at least.
+        // The power of the loads is taken by these forces, so in any balance the faces press with at least this
+        // force.
         assert!(
             (power - at_least).abs() < 1e-5 * at_least,
             "{power} {at_least}"

@@ -1,5 +1,5 @@
-//! What people read, held against what programs read: the terminal's table, a report's sentences and tables, the titles
-//! in figures.
+//! The output for people is compared with the output for programs: the terminal's table, a report's sentences and
+//! tables, the titles in figures.
 
 use drystone::Analysis;
 use drystone::analysis::Options;
@@ -10,25 +10,25 @@ use serde_json::{Value, json};
 use super::{Told, dot, list, number, pair, structures};
 use crate::structure::scene;
 
-/// Numbers of a text, as they stand in it: a comma or a bracket after one is no part of it.
+/// The numbers of a text, without a comma or a bracket after them.
 fn numbers(text: &str) -> Vec<f64> {
     let marks = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ')' | ':' | ';');
     let words = text.split(marks).map(|word| word.replace('−', "-"));
     words.filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Whether a number that was written with four digits is this one.
+/// Whether a number written with four digits is this number.
 fn is_near(written: f64, exact: f64) -> bool {
     (written - exact).abs() <= 6e-4 * exact.abs() + 1e-12
 }
 
-/// The largest of some values of a list; 0 where there is none.
+/// The largest value of a key in a list; 0 for an empty list.
 fn largest(values: &Value, key: &str) -> f64 {
     let values = list(values).iter().map(|value| number(&value[key]));
     values.fold(0.0, f64::max)
 }
 
-/// The table of `drystone check` for some scenes, a run for all of them.
+/// The tables of `drystone check` for some scenes, from one run.
 fn tables(all: &[Told]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a folder");
     let mut names = Vec::new();
@@ -56,7 +56,7 @@ fn tables(all: &[Told]) -> Vec<String> {
     parts.collect()
 }
 
-/// Every number in the row of a frame, and every sentence below it, is one of the result.
+/// Every number in a frame's row, and every sentence below it, agrees with the result.
 #[test]
 fn the_terminals_table_says_what_the_result_says() {
     let all = structures();
@@ -97,7 +97,7 @@ fn the_terminals_table_says_what_the_result_says() {
             [written] => assert!(is_near(written, total), "{table}"),
             _ => assert!(sticking == "none" && total == 0.0, "{table}"),
         }
-        // Shares are written in tenths of a percent.
+        // Shares are written to a tenth of a percent.
         if word == " stands " {
             let share = 100.0 * largest(&frame["interfaces"], "friction_used");
             assert!(
@@ -142,7 +142,7 @@ fn the_terminals_table_says_what_the_result_says() {
     assert!(failures > 50 && unsupported > 0, "{failures} {unsupported}");
 }
 
-/// Rounded to one digit as `3e-12`.
+/// Whether a number is rounded to one digit, as in `3e-12`.
 fn is_rough(written: f64, exact: f64) -> bool {
     (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor())
         || written == exact
@@ -169,7 +169,7 @@ fn says_proof(words: &str, proof: &Value) {
     }
 }
 
-/// Whether a line of a text names the bodies, the place and the amount of a failure.
+/// Whether a line of a text states the bodies, the place and the amount of a failure.
 fn says_failure(text: &str, failure: &Value) -> bool {
     let name = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let says = |line: &str, words: &str, values: &[f64]| {
@@ -226,10 +226,10 @@ fn amount(text: &str) -> (f64, Option<f64>) {
     (value * factor, at)
 }
 
-/// Every title of an arrow in a figure of forces tells an amount and a direction that the result lists between these
-/// bodies.
+/// The title of every arrow in a figure of forces states an amount and a direction that the result lists between
+/// these bodies.
 #[test]
-fn titles_of_arrows_tell_the_forces_of_the_result() {
+fn titles_of_arrows_state_the_forces_of_the_result() {
     let (mut contacts, mut weights, mut robots) = (0, 0, 0);
     for told in structures().iter().step_by(2) {
         let scene = scene(&told.file);
@@ -298,10 +298,10 @@ fn titles_of_arrows_tell_the_forces_of_the_result() {
     );
 }
 
-/// Blocks that nothing carries, with the reason that is true: there is no way from them to the ground, or there is one
-/// and still nothing that sticks would stop them.
+/// Unsupported blocks are reported with the correct reason: no path leads from them to the ground, or there is one
+/// but adhesion could not hold them.
 #[test]
-fn what_nothing_carries_is_told_with_its_true_reason() {
+fn unsupported_blocks_are_reported_with_their_true_reason() {
     let ground = json!([{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }]);
     let tip = json!({ "id": "tip", "polygon": [[0, 0], [3, 1], [3, 3], [-1, 2]], "weight": 5 });
     let high = |id: &str, x: f64| {
