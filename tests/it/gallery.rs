@@ -253,8 +253,8 @@ fn amount(failure: &Failure) -> f64 {
     }
 }
 
-/// Figure 9a stands from a least friction on, which depends on corner contacts and the kernel. Figure 9b stands if its
-/// robot may exert a torque.
+/// Figure 9a stands from a least friction on, which depends on corner contacts and the kernel. Figure 9b stands if
+/// its robot may exert a torque.
 #[test]
 fn neglected_effects_carry_figure_9() {
     let read = |name: &str| -> Value {

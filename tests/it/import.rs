@@ -1,4 +1,4 @@
-//! Drawings as programs write them, from the file to a verdict; and our own figures, read back.
+//! Drawings as other programs write them, from the file to a verdict; and figures of this crate, read back.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -87,7 +87,7 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
         (crane.id.as_deref(), crane.holds.as_deref()),
         (Some("crane"), Some("load"))
     );
-    // Every brick of the left pier was off by some thousandths of a millimetre.
+    // Every brick of the left pier was drawn some thousandths of a millimetre off its place.
     assert!(imported.snapped.len() >= 7, "{:?}", imported.snapped);
     assert!(
         imported
@@ -119,7 +119,7 @@ fn an_arch_from_illustrator_stands_on_its_curves() {
     let mut alone = imported.scene.clone();
     alone.robots.clear();
     assert_eq!(verdict(&alone), Verdict::Stable);
-    // Without its keystone it falls.
+    // Without its keystone the arch falls.
     alone.blocks.remove(5);
     assert_eq!(verdict(&alone), Verdict::Unstable);
 }
@@ -276,7 +276,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             assert_eq!(ids(&imported), names, "{told}");
             assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{told}");
             assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{told}");
-            // A drawing holds no limits and no weights: the scene's own are put in.
+            // A drawing contains no limits and no weights, so those of the scene are added.
             for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
                 let own = &scene.robots()[hold.robot.0];
                 assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{told}");
@@ -311,7 +311,7 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
 }
 
 #[test]
-fn mangled_drawings_are_told_and_never_a_panic() {
+fn damaged_drawings_are_reported_and_never_panic() {
     let mut numbers = Random::new(1);
     let mut random = move |count: usize| numbers.below(count);
     let bits: [&[u8]; 10] = [

@@ -1,4 +1,4 @@
-//! Keys, pages and switches: what is told beside the pictures, and what can be left out.
+//! Keys, pages and switches: the text next to the pictures, and the parts that can be left out.
 
 use drystone::analysis::Analysis;
 use drystone::drawing::{Group, Text};
@@ -8,7 +8,7 @@ use crate::labels::{COLUMN, classes, texts};
 use crate::pictures::scene;
 
 #[test]
-fn a_load_tells_its_amount_and_a_key_what_it_is() {
+fn a_load_states_its_amount_and_the_key_explains_it() {
     let scene = scene("tests/scenes/loaded.json");
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let amounts: Vec<String> = classes(&drawing.items, &["amount"])
@@ -61,7 +61,7 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
     );
     let figure = drawn("assets/thesis/figure-4.json", Some(COLUMN));
     let high = figure.height / figure.width * 84.0;
-    // A4 less margins of 35 mm at the top and the bottom.
+    // A4 without margins of 35 mm at the top and at the bottom.
     assert!(high < 227.0, "{high} mm");
 }
 

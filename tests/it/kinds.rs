@@ -1,4 +1,4 @@
-//! Kinds of figure: mechanism, thrust, kernel, utilisation: that what they show is what was found.
+//! Kinds of figure: mechanism, thrust, kernel, utilisation. The drawings show the computed results.
 
 use drystone::analysis::Verdict;
 use drystone::drawing::{Drawing, Group, Item, Outline, Path, Theme};
@@ -56,7 +56,7 @@ fn outlines(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
     for item in items {
         match item {
             Item::Path(path) => visit(&path.outline),
-            // What is clipped may reach out of the page.
+            // Clipped parts may reach beyond the page.
             Item::Group(group) if group.clip.is_none() => outlines(&group.items, visit),
             _ => {}
         }
@@ -169,7 +169,7 @@ fn marks_of_all_friction_stand_exactly_where_all_of_it_is_used() {
         let scene = scene(name);
         let analysis = Analysis::new(&scene);
         let drawing = draw(&analysis, Kind::Utilisation);
-        // A rim, a line, and a bar across where all friction is used.
+        // A rim, a line, and a bar across where the friction is fully used.
         let bars = all(&drawing, "interface")
             .into_iter()
             .filter(|group| paths(group).count() == 3);
@@ -192,7 +192,7 @@ fn marks_of_all_friction_stand_exactly_where_all_of_it_is_used() {
 
 #[test]
 fn a_thousand_blocks_and_more_are_few_paths() {
-    // Shelves of single blocks: many, and quickly examined.
+    // Shelves of single blocks: there are many, but their analysis is quick.
     let blocks: Vec<_> = (0..1100)
         .map(|i| {
             let (x, y) = (2.0 * f64::from(i % 40), 3.0 * f64::from(i / 40));
@@ -207,7 +207,7 @@ fn a_thousand_blocks_and_more_are_few_paths() {
     let analysis = Analysis::new(&scene);
     for kind in KINDS {
         let svg = svg::write(&draw(&analysis, kind));
-        // The bar of colours in a key alone is more than a hundred.
+        // The colour bar of a key alone has more than a hundred paths.
         assert!(svg.matches("<path").count() < 300, "{kind:?}");
         assert!(svg.len() < 600_000, "{kind:?}: {} bytes", svg.len());
     }
@@ -226,7 +226,7 @@ fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
 
 #[test]
 fn what_changed_from_frame_to_frame_is_marked_and_what_did_not_is_not() {
-    // A second block on the first: the ground bears more, and nothing else was there before.
+    // A second block is placed on the first: the ground carries more, and nothing else changes.
     let ground = json!([{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }]);
     let blocks = json!([
         structure::block("low", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0),
@@ -271,7 +271,7 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
         least < central && central < greatest,
         "{least} {central} {greatest}"
     );
-    // The forces of the analysis, another balance of the same arch, lie between.
+    // The forces of the analysis are another balance of the same arch and lie in between.
     assert!(least <= family.present * (1.0 + 1e-6), "{}", family.present);
     assert!(family.present <= greatest * (1.0 + 1e-6));
     let drawing = draw(&analysis, Kind::Thrust);
@@ -289,14 +289,14 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
 }
 
 #[test]
-fn what_stands_without_thrust_has_no_family() {
+fn structures_without_thrust_have_no_family_of_lines() {
     let scene = scene("study/stack-harmonic-stands.json");
     let analysis = Analysis::new(&scene);
     assert!(analysis.thrust_states(0).least.is_none());
     assert_eq!(Kind::Thrust.stated_margins(&analysis), None);
 }
 
-/// The ends of a group's only line.
+/// The ends of the only line of a group.
 fn line(group: &Group) -> [(f64, f64); 2] {
     let points: Vec<_> = paths(group)
         .flat_map(|path| path.outline.points())
@@ -334,7 +334,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
             ray.title
         );
     }
-    // Weights and loads lead from the first ray's end to the last one's.
+    // Weights and loads lead from the end of the first ray to the end of the last one.
     let loads = all(&drawing, "load");
     let loads: Vec<&Group> = loads
         .into_iter()

@@ -1,4 +1,5 @@
-//! Laws: a scene moved, turned with its gravity, mirrored, rescaled or renumbered has the same answer, likewise.
+//! Laws: if a scene is moved, rotated with its gravity, mirrored, rescaled or renumbered, its results change in the
+//! same way.
 
 use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::internals::geometry::{Point, Vector};
@@ -7,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::structure::{arch, first, harmonic, on_slope, wall};
 
-/// A map of the plane: turned, perhaps mirrored first, stretched, moved; forces are multiplied by `force`.
+/// A map of the plane: mirrored or not, rotated, scaled, moved; forces are multiplied by `force`.
 #[derive(Clone, Copy, Debug)]
 struct Change {
     degrees: f64,
@@ -79,7 +80,7 @@ impl Change {
     }
 }
 
-/// Weights written out, so that changes of size leave them alone.
+/// Writes the weights into the file, so that a change of size does not change them.
 fn weighed(mut file: Value) -> Value {
     let scene = crate::structure::scene(&file);
     let bodies: Vec<(Vec<[f64; 2]>, f64)> = scene
@@ -115,7 +116,7 @@ fn weighed(mut file: Value) -> Value {
     file
 }
 
-/// Structures of every temper: standing, sliding, toppling, pushed, thrusting.
+/// Structures of many kinds: standing, sliding, toppling, pushed, with thrust.
 fn structures() -> Vec<(&'static str, Value)> {
     let mut list = vec![
         ("standing slope", on_slope(20.0, 2.0, 1.0, 0.6, 0.1)),
@@ -137,7 +138,7 @@ fn structures() -> Vec<(&'static str, Value)> {
         .collect()
 }
 
-/// An untidy heap of bricks, row on row with gaps, from a little generator.
+/// An irregular heap of bricks in rows with gaps, from a small generator.
 fn pile(seed: u64) -> Value {
     let mut numbers = crate::random::Random::new(seed);
     let mut random = move || numbers.share();
@@ -162,7 +163,7 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
     (a - b).abs() <= 2e-6 * scale
 }
 
-/// Holds the changed scene's answer against the answer, changed.
+/// Compares the result of the changed scene with the correspondingly changed result.
 fn same(
     name: &str,
     before: &FrameAnalysis,
@@ -180,7 +181,7 @@ fn same(
         after.proof,
         after.doubt()
     );
-    // A random pile may have a gap on which the verdict hinges; then it has it however it lies.
+    // In a random pile the verdict may depend on a narrow gap; then it does so in every position.
     if before.doubt().contains("narrow gaps") {
         assert!(
             after.doubt().contains("narrow gaps"),
@@ -291,7 +292,7 @@ fn with_feathers_and_with_mountains() {
     for force in [1e-6, 1e9] {
         let change = Change { force, ..SAME };
         for (name, mut file) in structures() {
-            // A robot's limits are forces too.
+            // The limits of robots are forces, too.
             let before = first(&file);
             if let Some(limit) = file.pointer_mut("/robots/0/limits/force") {
                 *limit = json!(2.0 * force);
@@ -311,7 +312,8 @@ fn mirrored() {
 
 #[test]
 fn turned_together_with_gravity() {
-    // Robots' limits are per component, so only quarter turns leave them alike; held scenes turn by those alone.
+    // The limits of robots hold for each component, so only quarter turns keep them: scenes with robots are rotated
+    // by those alone.
     for degrees in [90.0, 180.0, 270.0] {
         check(Change { degrees, ..SAME });
     }
@@ -381,7 +383,7 @@ fn with_the_noise_of_32_bit_floats() {
 }
 
 #[test]
-fn more_friction_never_loses_a_balance() {
+fn more_friction_never_makes_a_structure_fall() {
     for (name, file) in structures() {
         let mut stood = false;
         for friction in [0.05, 0.2, 0.4, 0.8, 1.6, 10.0] {
@@ -412,7 +414,7 @@ proptest! {
             degrees: 0.0, mirrored, stretch: libm::exp10(stretch), by: [by[0], by[1]], force: libm::exp10(force),
         };
         let file = pile(seed);
-        // Far from the origin coordinates lose digits: leave what is decided within them out.
+        // The shift grows with the size of the pile: farther from the origin its coordinates would lose digits.
         let change = Change { by: [change.by[0] * change.stretch, change.by[1] * change.stretch], ..change };
         same("pile", &first(&file), &first(&change.file(&file)), &change, |k| k);
     }

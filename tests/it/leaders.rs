@@ -1,4 +1,4 @@
-//! Names beside what they name, and names in lines: measured on the drawings.
+//! Names next to the blocks that they name, and names in several lines: measured on the drawings.
 
 use drystone::Analysis;
 use drystone::drawing::{Drawing, Group, Item, PagePoint};
@@ -31,12 +31,12 @@ fn crosses([a, b]: [PagePoint; 2], [c, d]: [PagePoint; 2]) -> bool {
     side(a, b, c) * side(a, b, d) < -1e-6 && side(c, d, a) * side(c, d, b) < -1e-6
 }
 
-/// A leader is drawn twice, first its seam.
+/// A leader is drawn twice; the first path is its seam.
 fn leader(label: &Group) -> Option<[PagePoint; 2]> {
     pieces(label).last().copied()
 }
 
-/// For want of another place a leader may cross: few do, and of those in frames with room none.
+/// If there is no other place, a leader may cross something. Few do in a crowded scene, and none elsewhere.
 #[test]
 fn leaders_cross_neither_each_other_nor_a_label() {
     let (mut count, mut complaints) = (0, Vec::new());
@@ -76,7 +76,7 @@ fn leaders_cross_neither_each_other_nor_a_label() {
     );
 }
 
-/// A name beside its block either is nearest to it by far or has a line to it.
+/// A name next to a block is either much nearer to it than to others, or has a leader to it.
 #[test]
 fn a_name_that_could_be_another_blocks_has_a_leader() {
     let (mut beside, mut led) = (0, 0);
@@ -117,7 +117,8 @@ fn a_name_that_could_be_another_blocks_has_a_leader() {
                 };
                 let others = frame.placed.iter().filter(|id| *id != own);
                 let nearest = others.map(far).fold(f64::INFINITY, f64::min);
-                // The boxes here are those of the ink, a little less than what the placing keeps clear.
+                // These boxes are those of the ink, which are a little smaller than the areas that the placement
+                // keeps free.
                 assert!(
                     nearest > 1.35 * far(own),
                     "{name}: {words} could be another block's: {nearest} and {}",

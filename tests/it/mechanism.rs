@@ -1,4 +1,4 @@
-//! Mechanisms: elementary ones, of bodies that do not pass through each other and slide along their joints.
+//! Elementary mechanisms: the bodies do not penetrate each other and slide along their joints.
 
 use drystone::Analysis;
 use drystone::analysis::{FrameAnalysis, Motion, Verdict};
@@ -88,7 +88,7 @@ fn polygon(group: &Group, camera: &Camera) -> Polygon {
 }
 
 #[test]
-fn nobody_passes_through_another_at_the_amplitude_drawn() {
+fn bodies_do_not_penetrate_at_the_drawn_amplitude() {
     let mut compared = 0;
     for (name, scene) in brought() {
         let analysis = Analysis::new(&scene);
@@ -118,7 +118,7 @@ fn nobody_passes_through_another_at_the_amplitude_drawn() {
 }
 
 #[test]
-fn what_slides_stays_on_its_joint() {
+fn sliding_bodies_stay_on_their_joints() {
     let scene = scene("tests/scenes/slide.json");
     let drawing = figure::draw(&Analysis::new(&scene), Kind::Mechanism, &Options::default());
     let picture = all(&drawing.items, "picture")[0];
@@ -184,7 +184,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     let [motion] = &motions[..] else {
         panic!("{motions:?}")
     };
-    // About the lower corner on the side to which gravity turns.
+    // About the lower corner on the side towards which gravity turns.
     let corner = Point::new(if turn > 0.0 { 1.0 } else { 0.0 }, 0.0);
     let arm = corner - scene.blocks()[0].centroid;
     let there = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
@@ -197,7 +197,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
         svg.contains("falls once gravity is turned by 14° to "),
         "{svg}"
     );
-    // Without margins there is nothing to show, and that is said.
+    // Without margins there is nothing to show, and the figure says so.
     let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
     assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
 }

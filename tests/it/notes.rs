@@ -11,7 +11,7 @@ fn notes(text: &str) -> Vec<Note> {
     Analysis::new(&scene).notes
 }
 
-/// A scene that calls for a note, the note's code and path, and the line where it stands.
+/// A scene that causes a note, the code and path of the note, and its line.
 fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
     let square = r#""polygon": [[0, 0], [1, 0], [1, 1], [0, 1]]"#;
     let scene = |rest: &str| format!("{{ \"drystone\": 1, {GROUND},\n{rest} }}");

@@ -1,4 +1,5 @@
-//! The README's picture of other programs beside drystone is that of the table that `tests/bench/peers/peers.py` wrote.
+//! The README's picture that compares drystone with other programs shows the table written by
+//! `tests/bench/peers/peers.py`.
 
 use std::fs;
 use std::path::Path;
@@ -34,7 +35,7 @@ fn row(line: &str) -> Row {
     )
 }
 
-/// What stands beside a line of the picture for a program's name in the table; `None` where it is left out.
+/// The label of a picture's line for a program's name in the table; `None` if the program is left out.
 fn name(program: &str) -> Option<String> {
     match program {
         "drystone" => return Some("drystone, everything found out".to_owned()),
@@ -48,7 +49,7 @@ fn name(program: &str) -> Option<String> {
 
 const MANY: &str = "drystone, one of many scenes";
 
-/// Standing walls: every program by its name without a version, in the order of the table.
+/// For standing walls: every program by its name without version, in the order of the table.
 fn walls() -> Vec<GrowthLine> {
     let mut lines: Vec<GrowthLine> = Vec::new();
     for (structure, blocks, stands, program, answer, milliseconds) in rows() {
@@ -87,7 +88,7 @@ fn drawn() -> String {
     growth(&chart).expect("drawn")
 }
 
-/// `UPDATE_SNAPSHOTS=1` draws it anew.
+/// `UPDATE_SNAPSHOTS=1` draws the picture again.
 #[test]
 fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
     let drawn = drawn();
@@ -102,7 +103,7 @@ fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
     );
 }
 
-/// What its words in the README say.
+/// The statement of the README about the picture.
 #[test]
 fn one_of_many_is_ahead_of_all_others_at_ten_blocks_and_at_a_thousand() {
     let lines = walls();

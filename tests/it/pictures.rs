@@ -1,4 +1,4 @@
-//! Pictures: the source's arrows and fills in numbers, and what every figure must hold to.
+//! Pictures: the arrows and fills of the thesis in numbers, and rules that every figure must keep.
 
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, Fill, ForceStyle, Normalisation, Options};
@@ -44,7 +44,7 @@ fn pair(value: &Value) -> (f64, f64) {
 }
 
 #[test]
-fn arrows_are_the_sources() {
+fn arrows_are_those_of_the_thesis() {
     let panels: Value =
         serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     let mut compared = 0;
@@ -54,7 +54,7 @@ fn arrows_are_the_sources() {
         let frame = panel["frame"].as_u64().expect("a frame") as usize;
         let mut ours = figure::arrows(&analysis, frame, &source());
         let expected = panel["expected"]["arrows"].as_array().expect("arrows");
-        // Which corner of an interface a red friction arrow sits on is no question: ours sits in the middle.
+        // The corner at which an interface has its red friction arrow is arbitrary: here the arrow is in the middle.
         let anywhere = |a: &figure::ForceArrow| matches!(a.kind, ArrowKind::MissingFriction(_));
         for arrow in expected {
             let (at, vector) = (pair(&arrow["at"]), pair(&arrow["vector"]));
@@ -107,7 +107,7 @@ fn groups(items: &[Item], visit: &mut dyn FnMut(&Group)) {
 }
 
 #[test]
-fn fills_are_the_sources() {
+fn fills_are_those_of_the_thesis() {
     let panels: Value =
         serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     for (name, panel) in panels.as_object().expect("panels") {
@@ -133,7 +133,7 @@ fn points(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
         match item {
             Item::Path(path) => visit(&path.outline),
             Item::Text(_) => {}
-            // What is clipped may reach out of the page.
+            // Clipped parts may reach beyond the page.
             Item::Group(group) if group.clip.is_some() => {}
             Item::Group(group) => points(&group.items, visit),
         }
@@ -262,7 +262,7 @@ fn drawn(scene: &Scene) -> String {
     svg::write(&figure::forces(&Analysis::new(scene), &Options::default()))
 }
 
-/// A 4 × 2 block of 8 N on wide ground, with more text put into the scene.
+/// A block of 4 m × 2 m and 8 N on wide ground, with more text inserted into the scene.
 fn slab(more: &str, block: &str) -> Scene {
     from_json(&format!(
         r#"{{ "drystone": 1, "title": "Slab", {more}
@@ -288,7 +288,7 @@ fn loads_and_robots_torques_have_their_arrows() {
         (load.at, load.force),
         (Point::new(3.0, 2.0), Vector::new(1.0, -2.0))
     );
-    // The unit edge is 0.6·√8 m here and tells 10 N.
+    // The unit edge is 0.6·√8 m here and stands for 10 N.
     assert!((load.vector - Vector::new(1.0, -2.0) * (0.06 * 8f64.sqrt())).norm() < 1e-12);
     assert_eq!(marks.turns.len(), 1);
     assert_eq!(
@@ -299,7 +299,7 @@ fn loads_and_robots_torques_have_their_arrows() {
     assert!(drawn(&scene).contains("Torque of a load on block s: 1.5 N·m clockwise"));
 }
 
-/// How high the arrow of a title is drawn, in each frame that has it.
+/// The height of the arrow with this title, in each frame that has it.
 fn heights(drawing: &Drawing, title: &str) -> Vec<f64> {
     let mut found = Vec::new();
     groups(&drawing.items, &mut |group| {
@@ -350,7 +350,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
         "\"ground\"",
         r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#,
     );
-    // A robot that holds nothing changes no colour but under the source's rule, which has its own key.
+    // A robot that holds nothing changes no colour, except under the rule of the thesis, which has its own key.
     let of_blocks = |text: &str, fill: &str| text.matches(&format!("fill=\"{fill}\"")).count();
     let with_robot = drawn(&from_json(&limited));
     assert!(!with_robot.contains("limit of"));

@@ -1,4 +1,4 @@
-//! What figures say of forces that are missing, and of loads: where it falls, nothing reads as a balance.
+//! Missing forces and loads in figures: the figure of a structure that falls must not look like a balance.
 
 use drystone::analysis::{Analysis, Options as Asked, Toward, Verdict};
 use drystone::drawing::{Drawing, Group, Item};
@@ -52,14 +52,14 @@ fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() 
         stands.contains("the force polygon is closed") && !dashed,
         "{stands}"
     );
-    // Three quarters of it overhang: the ground would have to pull.
+    // Three quarters of the block overhang, so the ground would have to pull.
     let (falls, dashed) = drawn(&block(-3.0, 0.0));
     assert!(
         falls.contains("closes only with the missing forces") && dashed,
         "{falls}"
     );
     assert!(!falls.contains("is closed"), "{falls}");
-    // What is missing inside is no side of the polygon, but the words name it.
+    // A missing force inside is not a side of the polygon, but the words name it.
     let thin = scene(include_str!("../scenes/archri4.55.json"));
     let (inside, _) = drawn(&thin);
     assert!(
@@ -89,7 +89,8 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
         1,
         "the load is shown"
     );
-    // What falls as it is has no ghost; the words say at which loads it would stand: up to 3 of its 4 N.
+    // A structure that falls as it is has no ghost. The words state the loads at which it would stand: up to 3 of its
+    // 4 N.
     let falls = block(1.0, 4.0);
     let analysis = Analysis::with(&falls, &asked);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
@@ -101,7 +102,7 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
 }
 
 #[test]
-fn a_small_turning_load_is_drawn_so_that_its_sense_is_read_and_its_amount_told() {
+fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
     let small = scene(
         r#"{ "drystone": 1, "ground": [{ "polygon": [[0,-1],[9,-1],[9,0],[0,0]] }],
         "blocks": [{ "id": "a", "polygon": [[1,0],[5,0],[5,2],[1,2]], "weight": 6000 }],

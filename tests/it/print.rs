@@ -1,4 +1,4 @@
-//! What leaves the house: sound SVG in every form, PDF in millimetres with words in it, PNG that says its size.
+//! Output files: valid SVG in every form, PDF in millimetres with searchable words, PNG that states its size.
 
 use drystone::drawing::{Colour, Drawing};
 use drystone::output::svg::{Options, Words};
@@ -28,7 +28,7 @@ fn figure(name: &str) -> Drawing {
     drawn(&read(name))
 }
 
-/// Names that try to break out of wherever they are put.
+/// Names that try to break out of the place where they are written.
 fn hostile() -> Drawing {
     let nasty = "a]]>&amp;\"'</text><!-- \u{7}石\u{fffe} x";
     let file = serde_json::json!({ "drystone": 1, "title": nasty, "blocks": [
@@ -41,7 +41,7 @@ fn written(drawing: &Drawing, words: Words) -> String {
     svg::write_with(drawing, &options).expect("written")
 }
 
-/// Parses a document, and finds each name in it once and each reference leading somewhere.
+/// Parses a document and checks that each id occurs once and each reference has a target.
 fn sound(svg: &str, what: &str) {
     let document = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{what}: {e}"));
     let mut names = std::collections::BTreeSet::new();
@@ -97,7 +97,7 @@ fn several_forms_of_a_figure_can_share_a_page() {
     sound(&format!("<div>{}</div>", all.concat()), "a page");
 }
 
-/// Pixels as bytes, and how many of them make one.
+/// The pixels as bytes, and the number of bytes per pixel.
 fn pixels(bytes: &[u8]) -> (Vec<u8>, usize) {
     let mut decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(::png::Transformations::EXPAND);
@@ -124,7 +124,8 @@ fn outlines_stand_where_the_words_stood() {
         let mean = apart.iter().map(|a| f64::from(*a)).sum::<f64>() / names.len() as f64;
         assert!(mean < 0.1, "{name}: {mean} of 255 on average");
         let most = apart.iter().copied().max();
-        // Edges of letters are smoothed in another way: a quarter of the range at single pixels, next to nothing on average.
+        // The edges of letters are smoothed differently: by up to a quarter of the range at single pixels, and little
+        // on average.
         assert!(most < Some(80), "{name}: {most:?}");
     }
 }
@@ -181,7 +182,7 @@ fn embedded_fonts_have_the_letters_and_their_widths() {
     assert!(fonts >= 3, "{fonts} fonts");
 }
 
-/// The streams of a PDF, unpacked.
+/// The uncompressed streams of a PDF.
 fn streams(pdf: &[u8]) -> Vec<Vec<u8>> {
     let find = |from: usize, what: &[u8]| {
         let at = pdf
@@ -240,7 +241,7 @@ fn a_pdf_has_its_size_its_fonts_and_its_words_and_no_clock() {
         assert!(!text.contains(clock), "it has a {clock}");
     }
     assert!(text.contains(&drawing.title), "no title");
-    // Every letter of these words is found again behind some glyph.
+    // Every letter of these words belongs to some glyph.
     let unicode: String = streams(&pdf)
         .iter()
         .map(|s| String::from_utf8_lossy(s).into_owned())

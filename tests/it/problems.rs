@@ -1,7 +1,7 @@
-//! Every way a scene is wrong, as a person is told it.
+//! Every kind of error in a scene, and its message.
 //!
-//! `tests/reference/problems.txt` holds the cases: a title, a scene, and all that is said of it. `UPDATE_SNAPSHOTS=1`
-//! writes what is said now in place of what was.
+//! `tests/reference/problems.txt` contains the cases: a title, a scene, and all its messages. `UPDATE_SNAPSHOTS=1`
+//! replaces them by the present messages.
 
 use drystone::scene::{Code, Scene, SceneError, starter};
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ fn refused(text: &str) -> SceneError {
 }
 
 #[test]
-fn every_case_is_said_as_agreed() {
+fn every_case_has_its_agreed_messages() {
     let cases = cases();
     assert!(cases.len() > 50);
     let mut updated = String::new();
@@ -86,8 +86,8 @@ fn every_code_of_a_problem_occurs() {
         let found = refused(&case.scene);
         missing.retain(|code| !found.list.iter().any(|p| p.code == *code));
     }
-    // What no text can show: a number that only code can hold, bytes, a mistake of our own, and what the command line finds
-    // (tests/it/program/check.rs); and lists too long for a case.
+    // Errors that no text can show: a number that only code can hold, bytes, a mistake of this crate, errors of the
+    // command line (tests/it/program/check.rs); and lists too long for a case.
     let elsewhere = [
         Code::NotReadable,
         Code::InternalFault,
@@ -120,7 +120,7 @@ fn every_code_of_a_problem_occurs() {
             .iter()
             .any(|p| p.code == Code::MoreProblems)
     );
-    // A block placed once and shown in 8 000 001 frames.
+    // A block that is placed once and shown in 8 000 001 frames.
     let text = format!(
         r#"{{ "drystone": 1, "blocks": [{}], "steps": [{{ "place": [{}] }}{}] }}"#,
         (0..4000)
@@ -173,7 +173,7 @@ fn a_file_with_one_byte_changed_never_panics() {
     }
 }
 
-/// Every way to put `other` in the place of one value of a scene.
+/// All ways to replace one value of a scene by `other`.
 fn with_one_replaced(value: &Value, other: &Value) -> Vec<Value> {
     let mut all = vec![other.clone()];
     match value {
@@ -248,7 +248,7 @@ fn nesting_without_end_is_refused() {
 }
 
 #[test]
-fn bytes_that_are_no_text_are_refused_where_they_stand() {
+fn bytes_that_are_not_text_are_refused_with_their_place() {
     let problems =
         Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
     assert_eq!(

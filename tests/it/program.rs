@@ -1,4 +1,4 @@
-//! The command line as a person runs it: exit codes, streams, files, and what is said.
+//! The command line as a user runs it: exit codes, streams, files and messages.
 
 mod accuracy;
 mod batch;
@@ -29,14 +29,14 @@ const WRONG: &str = r#"{ "drystone": 1,
     { "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "frction": 0.5 },
     { "id": "b", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": -3 } ] }"#;
 
-/// How a run ended, and what it said.
+/// The exit code and the output of a run.
 struct Ran {
     code: i32,
     out: String,
     err: String,
 }
 
-/// A folder of scenes, gone with the test.
+/// A folder of scenes that is removed at the end of the test.
 struct Bench {
     folder: TempDir,
 }
@@ -91,13 +91,13 @@ impl Bench {
             .spawn()
             .expect("starts");
         let mut pipe = child.stdin.take().expect("piped");
-        // A command line that is refused ends before it reads: that is no failure of the test.
+        // A rejected command line ends before it reads its input; then writing fails, but the test does not.
         let _ = pipe.write_all(input);
         drop(pipe);
         of(child.wait_with_output().expect("ends"))
     }
 
-    /// Everything in the folder beside the three scenes.
+    /// Everything in the folder except the three scenes.
     fn made(&self) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.folder.path())
             .expect("readable")

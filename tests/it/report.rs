@@ -1,4 +1,4 @@
-//! `report`: one page for a person, in four forms; what it says, and how it behaves in a real browser.
+//! `report`: one page for a reader, in four forms; its content, and its behaviour in a real browser.
 
 mod balance;
 mod browser;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 use crate::structure::{HALF_LINTEL as FALLS, LINTEL as STANDS};
 
-/// Text that would act if it were taken for anything but text.
+/// Text that would have an effect if it were not treated as text.
 const HOSTILE: &str = r#"{ "drystone": 1, "title": "<script>alert(1)</script> 𝔘🧱 שלום \u202egnihton",
   "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
   "blocks": [{ "id": "</noscript><img src=x onerror=alert(2)>", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] }] }"#;
@@ -22,10 +22,10 @@ const WRONG: &str = r#"{ "drystone": 1,
   "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1]], "weight": -3 },
              { "id": "b", "polygon": [[5, 0], [6, 0], [6, 1]], "friction": -0.25 }] }"#;
 
-/// A folder of scenes, gone with the test.
+/// A folder of scenes that is removed at the end of the test.
 struct Folder(TempDir);
 
-/// How a run ended, and what it said on standard error.
+/// The exit code of a run, and its output on standard error.
 struct Ran(i32, String);
 
 impl Folder {
@@ -39,7 +39,7 @@ impl Folder {
         folder
     }
 
-    /// Two that stand or fall, and one of hostile words.
+    /// Two scenes that stand or fall, and one with hostile text.
     fn three() -> Folder {
         Folder::new(&[
             ("in/a.json", STANDS),
@@ -68,7 +68,7 @@ impl Folder {
         Ran(output.status.code().expect("no signal"), said)
     }
 
-    /// Runs a line that must end well.
+    /// Runs a command line that must succeed.
     fn done(&self, line: &str) {
         let Ran(code, said) = self.run(line);
         assert_eq!(code, 0, "{line}: {said}");
@@ -154,7 +154,7 @@ fn the_same_scenes_give_the_same_bytes_and_times_only_where_asked_for() {
     assert!(!folder.text("a.json").contains("\"seconds\""));
     folder.done("report in -o t.json --timing");
     assert!(folder.text("t.json").contains("\"seconds\""));
-    // Effects share one program: time is reported stage by stage.
+    // Effects share one program, so time is reported for each stage.
     folder.done("report in/a.json -o t.md --timing --margins --full");
     let timed = folder.text("t.md");
     let row = |name: &str| {
@@ -193,7 +193,7 @@ fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
     };
     assert!(row(">Held<").contains(">40 N<"), "{}", row(">Held<"));
     assert_eq!(row(">Alone<").matches("none stands").count(), 2, "{table}");
-    // Its first step falls; the second, which is held, has forces of its own.
+    // Its first step falls. The second step, which is held, has forces of its own.
     let half = row("Half a lintel");
     assert!(
         half.contains(" N<") && !half.contains("none stands"),
@@ -227,10 +227,10 @@ fn markdown_has_its_figures_beside_it_and_its_words_do_nothing() {
         assert!(folder.text(name).starts_with("<svg"), "{name}");
         figures += 1;
     }
-    // Each scene has two pictures, or one where nothing shows how it would fall.
+    // Each scene has two pictures, or one if no picture shows how it would fall.
     assert!((4..=6).contains(&figures), "{figures}: {text}");
     for event in Parser::new_ext(&text, Options::all()) {
-        // The only markup is ours: what the names in the table of all scenes lead to.
+        // The only markup comes from the report: the targets of the names in the table of all scenes.
         let is_ours = |html: &str| html.starts_with("<a id=\"scene-") || html == "</a>";
         let (Event::Html(html) | Event::InlineHtml(html)) = &event else {
             continue;
@@ -314,7 +314,7 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
 }
 
 #[test]
-fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
+fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
     let heavier = STANDS.replace("\"weight\": 11", "\"weight\": 22");
     let shifted = heavier.replace(
         "[5, 0], [6, 0], [6, 3], [5, 3]",
@@ -341,7 +341,7 @@ fn a_comparison_tells_what_changed_and_marks_it_in_both_figures() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    // Two figures for each of two pairs; only the pair that differs bears marks, in both of its figures.
+    // Two figures for each of two pairs. Only the pair that differs has marks, in both of its figures.
     assert_eq!(page.matches("class=\"changed\"").count(), 2, "marks");
     assert_eq!(page.matches("<figure class=\"plate\"").count(), 4);
     folder.done("report --compare a/x.json b/x.json -o r.json");
@@ -380,7 +380,7 @@ fn a_comparison_tells_of_loads_and_robots_and_of_steps_that_one_scene_has() {
         "otherwise: safety kernel and load on a",
         "(0, -60) N at (1, 1) m",
         "(0, -30) N at (1, 1) m",
-        // Said once of both blocks.
+        // Stated once for both blocks.
         "friction coefficient 0.7 → 0.5",
         "a and b",
     ] {

@@ -1,4 +1,4 @@
-//! What a sound scene file means: defaults, precedence, places and steps.
+//! The meaning of a valid scene file: defaults, precedence, places and steps.
 
 use drystone::analysis::{Analysis, Verdict};
 use drystone::internals::geometry::{Point, Vector};
@@ -132,7 +132,8 @@ fn on_a_lattice_bodies_lie_at_lattice_points_and_grips_in_metres() {
     assert_eq!(scene.tolerance().gap, 0.0);
     near(scene.robots()[0].holds.expect("holds").at, 3.0, 1.0);
     near(scene.loads()[0].at, 3.0, 1.0);
-    // Turned by −60° the dart's cells lie about the edge from (0, 0) to (1, −1); its centroid is that edge's middle.
+    // Rotated by −60°, the dart's cells share the edge from (0, 0) to (1, −1); its centroid is the middle of that
+    // edge.
     let h = 3f64.sqrt();
     near(scene.blocks()[0].centroid, 7.0 + 0.5, h - h / 2.0);
     assert!((scene.blocks()[0].body.polygon.area() - 2.0 * h).abs() < 1e-12);

@@ -146,7 +146,7 @@ pub struct Tally {
     pub kinks: usize,
     pub one_sided: usize,
     pub skipped: usize,
-    /// One of so many derivatives is compared.
+    /// One of this many derivatives is compared.
     every: usize,
     asked: usize,
     pub worst: f64,
@@ -435,8 +435,8 @@ fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
     (sum, ends)
 }
 
-/// `DRYSTONE_SENSITIVITY_SCENES=200` looks at more scenes, and `DRYSTONE_SENSITIVITY_EVERY=1` at each derivative instead of
-/// one of five.
+/// `DRYSTONE_SENSITIVITY_SCENES=200` compares more scenes, and `DRYSTONE_SENSITIVITY_EVERY=1` compares every
+/// derivative instead of one of five.
 #[test]
 #[expect(
     clippy::print_stdout,

@@ -83,7 +83,7 @@ fn arrows_point_along_the_slopes_and_are_as_long() {
                 .corners
                 .iter()
                 .filter(|corner| distance(camera.place(corner.at), *tail) < 1e-6);
-            // Of corners that move together the first one has the arrow.
+            // Of corners that move together, only the first one has an arrow.
             let slopes: Vec<Vector> = here.filter_map(|corner| corner.moves.gradient()).collect();
             let shown = Vector::new(tip.x - tail.x, tail.y - tip.y);
             let along = |slope: &Vector| outward * slope.dot(&shown) / shown.norm();
@@ -101,7 +101,7 @@ fn arrows_point_along_the_slopes_and_are_as_long() {
                 .all(|other| distance(other[0], *tail) > 1e-6);
             assert!(once, "{path}: two arrows at {tail:?}");
         }
-        // A corner without an arrow has an effect too small to see, or no unique one.
+        // A corner without an arrow has an effect too small to show, or no unique effect.
         let drawn = |at: PagePoint| arrows.iter().any(|arrow| distance(arrow[0], at) < 1e-6);
         for corner in &end.corners {
             let Some(slope) = corner.moves.gradient() else {
@@ -137,7 +137,7 @@ fn outlines(items: &[Item], visit: &mut dyn FnMut(PagePoint)) {
     for item in items {
         match item {
             Item::Path(path) => path.outline.points().for_each(&mut *visit),
-            // What is clipped may reach out of the page.
+            // Clipped parts may reach beyond the page.
             Item::Group(group) if group.clip.is_none() => outlines(&group.items, visit),
             _ => {}
         }

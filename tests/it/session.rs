@@ -1,5 +1,5 @@
-//! A session says what a scene file of the same blocks and holds says, step by step; and verdicts alone are those of a whole
-//! analysis.
+//! A session gives the same results as a scene file with the same blocks and holds, step by step; and verdicts alone
+//! are those of a complete analysis.
 
 use drystone::analysis::{Accuracy, Options, Source, Verdict, verdicts};
 use drystone::scene::format::SceneFile;
@@ -15,7 +15,7 @@ fn file(value: &Value) -> SceneFile {
     serde_json::from_value(value.clone()).unwrap()
 }
 
-/// What stands beside the session, to be read from scratch.
+/// The state of the session as a scene file, to be read from scratch.
 struct Beside {
     file: Value,
 }
@@ -36,7 +36,7 @@ impl Beside {
     }
 }
 
-/// What a sequence came to.
+/// The counts of a sequence.
 #[derive(Default, Debug)]
 struct Tally {
     steps: usize,
@@ -46,7 +46,7 @@ struct Tally {
     refused: usize,
 }
 
-/// Plays a random sequence in a session and from scratch.
+/// Runs a random sequence in a session and from scratch.
 fn played(
     number: u64,
     base: Value,
@@ -61,7 +61,7 @@ fn played(
     for step in 0..24 {
         let what = chance.whole(0, 9);
         let told = match what {
-            // A builder takes back what does not stand, more often than not.
+            // A builder usually takes back a block that does not stand.
             _ if session.verdict() == Verdict::Unstable
                 && chance.percent(60)
                 && !standing.is_empty() =>
@@ -171,7 +171,7 @@ fn a_session_on_a_lattice_says_what_a_file_says() {
         };
         played(number, base, candidate, &mut tally);
     }
-    // Squares stand on squares, so that what stands is higher.
+    // Squares rest on squares, so higher structures stand.
     for number in 100..160 {
         let ground: Vec<Value> = (-5..=5).map(|x| json!({ "cells": [[x, -1]] })).collect();
         let base = json!({ "drystone": 1, "friction": 0.6, "grid": { "kind": "square", "side": 0.5 }, "ground": ground,
@@ -233,7 +233,7 @@ fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
     let stepped = json!({ "drystone": 1, "blocks": [{ "id": "a", "cells": [[0, 0]] }], "grid": { "kind": "square" },
         "steps": [{ "place": ["a"] }] });
     assert!(Session::new(file(&stepped)).is_err());
-    // Without an id a block has the least number that is free.
+    // A block without an id has the least free number.
     session
         .place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap())
         .unwrap();

@@ -1,4 +1,4 @@
-//! Snapshots: what is caught and by which layer, what is let pass, and what happens to files.
+//! Snapshots: which changes are found and by which layer, which are accepted, and how files change.
 
 mod assertion;
 mod disk;
@@ -27,20 +27,20 @@ pub(crate) fn lintel(title: &str, load: f64) -> String {
     .to_string()
 }
 
-/// How a run ended, and what it said.
+/// The exit code and the output of a run.
 struct Ran {
     code: i32,
     out: String,
     err: String,
 }
 
-/// A folder of scenes, gone with the test.
+/// A folder of scenes that is removed at the end of the test.
 struct Folder {
     folder: TempDir,
 }
 
 impl Folder {
-    /// A folder with these scenes, whose references are as wide as a stamp.
+    /// A folder with these scenes and very small reference pictures.
     fn with(scenes: &[(&str, String)]) -> Folder {
         let folder = Folder {
             folder: tempfile::tempdir().expect("a folder"),
@@ -106,8 +106,8 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) {
     }
 }
 
-/// Our own gallery, checked by the same means as anybody's scenes: every scene in `tests/scenes` and every scene of the source's
-/// figures, their facts, drawings and pictures in each theme.
+/// The gallery of this crate, checked like the scenes of any user: every scene in `tests/scenes` and every scene of
+/// the thesis's figures, with facts, drawings and pictures in each theme.
 #[test]
 fn the_gallery_is_as_its_references_say() {
     drystone::snapshot::assert_scenes!("tests/scenes");
@@ -120,7 +120,7 @@ fn the_plates_are_as_their_references_say() {
     for plate in &plates {
         drystone::snapshot::assert_figure!(plate.name, &plate.drawing);
     }
-    // A plate that is no more leaves no reference behind.
+    // A plate that no longer exists leaves no reference behind.
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots");
     for entry in fs::read_dir(folder).expect("readable") {
         let path = entry.expect("readable").path();

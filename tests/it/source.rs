@@ -1,4 +1,4 @@
-//! Source files read as text: all below a folder, without comments and strings, and what they name.
+//! Reads source files as text: all files below a folder, without comments and strings, and the names that they use.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -158,7 +158,7 @@ pub(crate) fn bare(text: &str) -> String {
             }
             i += 1;
         } else if c == '\'' && (at(i + 2) == '\'' || at(i + 1) == '\\') {
-            // A character; a lifetime has no quote behind its one letter.
+            // A character literal. A lifetime has no quote after its first letter.
             i += if at(i + 1) == '\\' { 3 } else { 2 };
             while i < bytes.len() && bytes[i] != '\'' {
                 i += 1;

@@ -1,4 +1,4 @@
-//! The starters: each valid, titled, written with sensible decimals, and standing or falling as it says.
+//! The starter scenes: each is valid, has a title and few decimals, and stands or falls as it states.
 
 use drystone::analysis::{Analysis, Verdict};
 use drystone::scene::Scene;

@@ -1,4 +1,4 @@
-//! Answers known by hand, asymmetric ones, so that no mirrored or swapped sign survives.
+//! Answers known by hand. They are asymmetric, so that a mirrored or exchanged sign is noticed.
 
 use drystone::analysis::{Failure, Verdict};
 use serde_json::json;
@@ -133,7 +133,7 @@ fn an_interlocking_wall_stands_without_thrust() {
         .map(|c| c.normal_forces[0] + c.normal_forces[1])
         .sum();
     assert!((floor - frame.weight).abs() < 1e-9 * frame.weight);
-    // Bricks side by side have no reason to push.
+    // Bricks side by side do not push each other.
     for contact in frame
         .contacts
         .iter()
@@ -148,7 +148,7 @@ fn a_leg_hangs_from_its_bar_only_where_they_are_one_piece() {
     let mut file = json!({ "drystone": 1, "friction": 0.4,
         "ground": [{ "polygon": rectangle(-3.0, 0.0, 1.5, 1.0) }, { "polygon": rectangle(1.5, 0.0, 1.5, 1.0) }],
         "blocks": [block("bar", rectangle(-2.0, 1.0, 4.0, 1.0), 3.0), block("leg", rectangle(-0.5, 0.0, 1.0, 1.0), 1.0)] });
-    // Nothing sticks: the leg falls, the bar stays.
+    // Without adhesion the leg falls and the bar stays.
     let cut = first(&file);
     assert_eq!(cut.verdict, FALLS);
     assert!(

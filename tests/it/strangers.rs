@@ -1,5 +1,5 @@
-//! Figures of structures as strangers bring them: words are whole, apart and legible, what is missing and loads are shown,
-//! and numbers name no block.
+//! Figures of structures by other authors: words are complete, separate and legible, missing forces and loads are
+//! shown, and numbers do not look like names of blocks.
 
 use drystone::Analysis;
 use drystone::analysis::Verdict;
@@ -10,8 +10,8 @@ use drystone::scene::Scene;
 
 use crate::labels::{classes, ink, texts};
 
-/// Structures of all sorts: measured coordinates, holes, loads, materials, many robots, a pebble on a boulder, names in
-/// other scripts, a wall that falls.
+/// Structures of many kinds: measured coordinates, holes, loads, materials, many robots, a pebble on a boulder, names
+/// in other scripts, a wall that falls.
 fn strangers() -> Vec<(String, Scene)> {
     let folder = format!("{}/tests/it/stranger", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(&folder)
@@ -28,7 +28,7 @@ fn strangers() -> Vec<(String, Scene)> {
     names.into_iter().map(read).collect()
 }
 
-/// Whether a point lies in an outline, curves as their control polygons.
+/// Whether a point lies in an outline; curves are replaced by their control polygons.
 fn holds(outline: &Outline, at: PagePoint) -> bool {
     let points: Vec<PagePoint> = outline.points().collect();
     let mut inside = false;
@@ -41,7 +41,7 @@ fn holds(outline: &Outline, at: PagePoint) -> bool {
     inside
 }
 
-/// The colour below a place: of the last filled path drawn over it before any label.
+/// The colour at a position: that of the last filled path drawn there before any label.
 fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colour) {
     let seen = clip.is_none_or(|c| {
         (c.at.x..=c.at.x + c.width).contains(&at.x) && (c.at.y..=c.at.y + c.height).contains(&at.y)
@@ -59,7 +59,7 @@ fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colo
     }
 }
 
-/// Everything that is wrong with the words of a drawing, and how many labels were looked at.
+/// All faults of the words of a drawing, and the number of labels that were checked.
 fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
     let page = Group {
         items: drawing.items.clone(),

@@ -4,7 +4,7 @@ use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-/// A scene file's text into a checked scene.
+/// Reads a checked scene from the text of a scene file.
 pub fn scene(file: &Value) -> Scene {
     Scene::from_json(&file.to_string()).unwrap_or_else(|problems| panic!("{problems}"))
 }
@@ -93,7 +93,7 @@ pub fn tower(n: usize, height: f64) -> Value {
     on_floor(0.5, (0..n).map(brick).collect())
 }
 
-/// A block of weight in newtons.
+/// A block with its weight in newtons.
 pub fn block(id: &str, polygon: Value, weight: f64) -> Value {
     json!({ "id": id, "polygon": polygon, "weight": weight })
 }
@@ -104,7 +104,7 @@ pub fn on_floor(friction: f64, blocks: Vec<Value>) -> Value {
         "blocks": blocks })
 }
 
-/// A block b wide and h high on a slope of `degrees`, rising to the right.
+/// A block of this width and height on a slope of `degrees`, which rises to the right.
 pub fn on_slope(degrees: f64, width: f64, height: f64, friction: f64, kernel: f64) -> Value {
     json!({ "drystone": 1, "friction": friction, "kernel": kernel,
         "shapes": { "slope": { "polygon": rectangle(-10.0, -1.0, 20.0, 1.0) },
@@ -113,7 +113,8 @@ pub fn on_slope(degrees: f64, width: f64, height: f64, friction: f64, kernel: f6
         "blocks": [{ "id": "a", "shape": "block", "angle": degrees, "weight": 5.0 }] })
 }
 
-/// n equal bricks of length 1, each reaching beyond the one below as the harmonic stack does, times `share`.
+/// n equal bricks of length 1. Each reaches beyond the brick below by `share` times the overhang of the harmonic
+/// stack.
 pub fn harmonic(n: usize, share: f64) -> Value {
     let mut left = vec![0.0; n];
     // From the top: brick k (from 1) reaches 1/(2k) beyond the next below, the lowest beyond the table's edge.

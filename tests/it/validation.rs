@@ -1,5 +1,6 @@
-//! The validation manual: published values beside ours. The tables and pictures of `src/doc/validation.md` are written
-//! here, with `UPDATE_SNAPSHOTS=1`; without it the test fails if the page differs from what is computed.
+//! The validation manual: published values next to those of this crate. The tables and pictures of
+//! `src/doc/validation.md` are written here with `UPDATE_SNAPSHOTS=1`; otherwise the test fails if the page differs
+//! from the computed values.
 
 mod arches;
 mod blocks;
@@ -19,7 +20,7 @@ use sources::SOURCES;
 
 const PAGE: &str = "src/doc/validation.md";
 
-/// Sources whose friction has no dilatancy: compared with them, our values are not safe.
+/// Sources whose friction has no dilatancy: compared with them, the values of this crate are not on the safe side.
 const UNSAFE: [&str; 3] = ["Ferris01", "Goodman76", "RS2"];
 
 fn path(name: &str) -> PathBuf {
@@ -30,7 +31,7 @@ fn update() -> bool {
     std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none()
 }
 
-/// Writes a file that a test makes, or fails where it differs.
+/// Writes a file that a test creates, or fails if the file differs.
 fn keep(name: &str, made: &str) {
     if update() {
         std::fs::write(path(name), made).expect("writable");
@@ -39,7 +40,7 @@ fn keep(name: &str, made: &str) {
     assert!(kept == made, "{name}: run once with UPDATE_SNAPSHOTS=1");
 }
 
-/// Puts text between the marks of the page.
+/// Inserts text between the marks of the page.
 fn put(page: &mut String, mark: &str, text: &str) {
     let (begin, end) = (
         format!("<!-- {mark} -->\n"),
@@ -50,7 +51,7 @@ fn put(page: &mut String, mark: &str, text: &str) {
     page.replace_range(from..to, &format!("\n{text}\n"));
 }
 
-/// Our values, each function called once, on two threads.
+/// The values of this crate; each function is called once, on two threads.
 fn computed() -> Vec<f64> {
     let mut found: BTreeMap<usize, f64> = BTreeMap::new();
     let mut first: BTreeMap<usize, usize> = BTreeMap::new();
@@ -71,14 +72,15 @@ fn computed() -> Vec<f64> {
     CASES.iter().map(value).collect()
 }
 
-/// Decimals of a published number.
+/// The number of decimals of a published number.
 fn decimals(published: &str) -> usize {
     published
         .split_once('.')
         .map_or(0, |(_, decimals)| decimals.len())
 }
 
-/// Ours with the decimals of the published value, one more if it has few, and at least four digits.
+/// The value of this crate with the decimals of the published value, one more if it has few, and at least four
+/// digits.
 fn ours(case: &Case, value: f64) -> String {
     if case.unit == Unit::Answer {
         return if value == 1.0 { "yes" } else { "no" }.to_owned();
@@ -108,7 +110,7 @@ fn percent(case: &Case, value: f64) -> f64 {
     100.0 * (value / published - 1.0)
 }
 
-/// A difference with two digits; what is below 0.001 % is not told apart.
+/// A difference with two digits; differences below 0.001 % are not distinguished.
 fn difference(percent: f64) -> String {
     let size = percent.abs();
     if size < 0.001 {
@@ -150,7 +152,7 @@ fn table(values: &[f64]) -> String {
     rows
 }
 
-/// How many values lie within which difference.
+/// The number of values within each difference.
 fn summary(values: &[f64]) -> String {
     let found: Vec<f64> = (CASES.iter().zip(values))
         .map(|(case, value)| percent(case, *value).abs())

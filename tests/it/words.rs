@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::source::{bare, collect, without_groups};
 
-/// Rooms whose types others build on: those of the public interface, and those whose types it gives out.
+/// Modules whose types other crates use: those of the public interface, and those whose types it returns.
 const PUBLIC: &[&str] = &[
     "scene",
     "geometry",
@@ -25,9 +25,10 @@ const PUBLIC: &[&str] = &[
     "snapshot",
 ];
 
-/// A name among the public types means one thing; only `Options` is always seen with its module.
+/// Each name of a public type means one thing. Only `Options` may occur in several modules, because it is always used
+/// with its module's name.
 #[test]
-fn a_name_of_a_public_type_is_given_once() {
+fn public_types_have_different_names() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut homes: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut files = Vec::new();
