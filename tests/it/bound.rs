@@ -182,7 +182,7 @@ fn unknown_names_and_keys() {
 }
 
 #[test]
-fn crossings_without_number() {
+fn very_many_crossings() {
     // A star whose every side crosses others.
     let n = 20_001;
     let corners: Vec<_> = (0..n)
@@ -225,7 +225,7 @@ fn a_picture_that_is_too_large() {
 }
 
 #[test]
-fn steps_without_number() {
+fn very_many_steps() {
     let blocks: Vec<_> = (0..500)
         .map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) }))
         .collect();

@@ -156,7 +156,7 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
                 .effects
                 .iter()
                 .find(|e| e.effect == EffectName::Sticking);
-            let effect = effect.expect("every effect is told");
+            let effect = effect.expect("every effect is listed");
             (effect.simulated, effect.why.contains("only the verdict"))
         };
         let falls = verdict == Verdict::Unstable;

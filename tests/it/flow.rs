@@ -155,7 +155,7 @@ fn the_largest_force_and_every_load_are_written() {
 }
 
 #[test]
-fn what_is_missing_is_red_and_has_its_amount() {
+fn missing_forces_are_red_and_have_their_amounts() {
     // A block whose centroid lies a quarter of a metre beyond its support.
     let blocks = vec![
         structure::block("low", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0),

@@ -96,7 +96,7 @@ fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
 }
 
 #[test]
-fn loads_what_is_missing_and_the_step_are_told() {
+fn loads_missing_forces_and_the_step_are_listed() {
     let loaded = crate::pictures::scene("tests/scenes/loaded.json");
     let beam = BlockId(2);
     let options = Options::default();
@@ -164,7 +164,7 @@ fn every_name_of_a_free_body_is_legible() {
 }
 
 #[test]
-fn the_free_body_of_the_slope_names_and_tells_every_force() {
+fn the_free_body_of_the_slope_names_and_lists_every_force() {
     let scene = scene("assets/thesis/figure-1.json");
     let analysis = Analysis::new(&scene);
     let all = Options::default().corners(figure::Corners::All);

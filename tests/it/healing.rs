@@ -352,7 +352,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
 }
 
 #[test]
-fn where_coordinates_come_from_is_told() {
+fn the_source_of_the_tolerance_is_reported() {
     let wall = bond(3, 3, 0.5);
     let source = |written| {
         let scene = Scene::from_json(&wall.file(17.3, written, None).to_string()).unwrap();

@@ -165,7 +165,8 @@ fn a_name_of_several_words_stands_in_lines_where_one_has_no_room() {
     );
     let scene = Scene::from_json(&text).expect("sound");
     let drawing = drawn(&scene, Kind::Kernel, COLUMN);
-    // Between code points, which stand for characters that no font has; not where somebody wrote that nothing may be broken.
+    // Lines break between code points, which stand for characters that no font has, but not at a no-break space of
+    // the author.
     let lines = lines_of(&drawing, &spelled.replace('\u{a0}', ""));
     assert!(lines.len() > 1, "{lines:?}");
     assert_eq!(lines_of(&drawing, "one\u{a0}name"), ["one\u{a0}name"]);

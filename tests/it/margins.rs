@@ -299,7 +299,7 @@ fn margins_are_an_effect_on_request() {
             .effects
             .iter()
             .find(|e| e.effect == EffectName::Margins);
-        let effect = effect.expect("every effect is told");
+        let effect = effect.expect("every effect is listed");
         (effect.simulated, effect.why.clone())
     };
     let plain = Analysis::new(&scene).frames.remove(0);
@@ -328,7 +328,7 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
             .effects
             .iter()
             .find(|e| e.effect == EffectName::Margins);
-        effect.expect("every effect is told").why.clone()
+        effect.expect("every effect is listed").why.clone()
     };
     assert!(!why(0).contains(" 0 changed"), "{}", why(0));
     assert!(why(2).contains(" 0 changed"), "{}", why(2));
@@ -412,7 +412,7 @@ fn judged(frame: &FrameAnalysis) -> usize {
         .effects
         .iter()
         .find(|e| e.effect == EffectName::Margins);
-    let why = &effect.expect("every effect is told").why;
+    let why = &effect.expect("every effect is listed").why;
     let mut words = why.split_whitespace();
     let number = words.find_map(|word| word.parse().ok());
     number.unwrap_or_else(|| panic!("{why} counts the changed frames"))

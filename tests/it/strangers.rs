@@ -143,7 +143,7 @@ fn said(drawing: &Drawing) -> String {
 }
 
 #[test]
-fn what_is_missing_and_what_loads_are_shown_however_small_they_are() {
+fn missing_forces_and_loads_are_shown_however_small_they_are() {
     for (name, scene) in strangers() {
         let analysis = Analysis::new(&scene);
         let drawing = figure::forces(&analysis, &Options::default());

@@ -55,7 +55,7 @@ fn the_a_model_stands_only_by_wedging() {
 }
 
 #[test]
-fn a_bar_that_wedges_itself_in_does_not() {
+fn a_bar_pressed_in_by_its_weight_does_not_stand_only_by_wedging() {
     // Walls that lean apart at the top: the weight of the bar presses it between them.
     assert!(!wedged(&bar_between_walls(-0.2, 0.7)));
     assert!(!wedged(&bar_between_walls(-0.5, 0.1)));
@@ -63,7 +63,7 @@ fn a_bar_that_wedges_itself_in_does_not() {
 }
 
 #[test]
-fn ordinary_structures_do_not() {
+fn ordinary_structures_do_not_stand_only_by_wedging() {
     assert!(!wedged(&arch(11, 0.3, 0.7)));
     assert!(!wedged(&arch(31, 0.2, 0.5)));
     assert!(!wedged(&wall(4, 5)));
@@ -72,7 +72,7 @@ fn ordinary_structures_do_not() {
 }
 
 #[test]
-fn a_feather_squeezed_in_a_mountain_is_found() {
+fn a_very_light_wedged_bar_is_found() {
     let mut file = h_model(0.7);
     file["blocks"][2]["weight"] = json!(0.006);
     assert!(wedged(&file));
@@ -80,7 +80,7 @@ fn a_feather_squeezed_in_a_mountain_is_found() {
 
 /// The stiffness of the springs cancels out, and so do the units.
 #[test]
-fn the_answer_does_not_depend_on_size() {
+fn wedging_does_not_depend_on_size() {
     for size in [1e-3, 1e3] {
         for (mut file, expected) in [(h_model(0.7), true), (wall(3, 3), false)] {
             for list in ["ground", "blocks"] {
@@ -101,13 +101,13 @@ fn the_answer_does_not_depend_on_size() {
 }
 
 #[test]
-fn it_is_an_effect_on_request() {
+fn wedging_is_an_effect_on_request() {
     let told = |frame: &FrameAnalysis| {
         let effect = frame
             .effects
             .iter()
             .find(|e| e.effect == EffectName::Wedging);
-        let effect = effect.expect("every effect is told");
+        let effect = effect.expect("every effect is listed");
         (effect.simulated, effect.why.clone())
     };
     let file = h_model(0.7);
@@ -126,7 +126,7 @@ fn it_is_an_effect_on_request() {
 }
 
 #[test]
-fn the_figure_says_so() {
+fn the_figure_states_that_a_frame_stands_only_by_wedging() {
     let scene = scene(&bar_between_walls(0.0, 0.7));
     let options = Options::default().wedging(true);
     let drawn = |options: &Options| {
@@ -294,7 +294,7 @@ fn springs_do_not_come_to_rest_in_wedged_structures() {
 }
 
 #[test]
-fn what_is_not_wedged_is_not_said_to_be() {
+fn structures_that_are_not_wedged_are_not_reported_as_wedged() {
     let shelf = on_floor(
         0.5,
         vec![
@@ -456,7 +456,7 @@ fn few_random_scenes_stay_open() {
                     .effects
                     .iter()
                     .find(|e| e.effect == EffectName::Wedging);
-                assert!(effect.expect("every effect is told").why.contains("open"));
+                assert!(effect.expect("every effect is listed").why.contains("open"));
                 open.push(number);
             }
         }

@@ -18,7 +18,7 @@ fn wedging_is_reported_with_its_reason() {
         let effect = list(&frame["effects"])
             .iter()
             .find(|e| e["effect"] == "wedging");
-        effect.expect("every effect is told")["why"]
+        effect.expect("every effect is listed")["why"]
             .as_str()
             .expect("words")
             .to_string()
