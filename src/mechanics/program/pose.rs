@@ -304,7 +304,8 @@ pub fn force_primal(
     problem
 }
 
-/// Returns the inner product of two unit forces, in the components (N1, N2, T) of a contact or (F_x, F_y, M) of a grip.
+/// Returns the inner product of two unit forces, in the components (N1, N2, T) of a contact or (F_x, F_y, M/L) of a
+/// grip.
 ///
 /// `None` if they belong to different contacts or grips, or to different kinds of columns.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
@@ -323,8 +324,8 @@ enum Site {
     GripAdhesion(usize),
 }
 
-/// Returns the contact or grip at which a unit force acts, and the components of the force: (N1, N2, T) for a contact,
-/// (F_x, F_y, M) for a grip.
+/// Returns where a unit force acts, and its components: (N1, N2, T) at a contact, (F_x, F_y, M/L) at a grip. The force
+/// of adhesion at a contact or grip has a site of its own.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

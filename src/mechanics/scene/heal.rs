@@ -385,7 +385,7 @@ impl Scene {
             ToleranceSource::Digits(n) => format!("coordinates with {n} digits"),
             ToleranceSource::Float32 => "coordinates of 32-bit floats".into(),
             ToleranceSource::Size | ToleranceSource::Noise => {
-                "many corners lie up to a millionth of the scene's extent off the edges that they touch".into()
+                "many corners lie off the edges that they should touch, by up to a millionth of the scene's extent".into()
             }
         };
         let Healed {

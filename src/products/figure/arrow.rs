@@ -160,7 +160,8 @@ impl Marks {
         // Torque arrows of loads have a minimum length, so they are always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // A torque is drawn as long as the force that has this torque about a point one unit edge away.
+        // The arrow of a torque is as long as the arrow of the force torque / unit: a force with this torque at a lever
+        // arm of `unit`, the length of a unit edge.
         let force = least / unit * self.newtons_per_unit;
         let parts = [
             ("force", forces, force, units.force()),

@@ -261,7 +261,8 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
     };
     let there = arrow(edge)?;
     let other = other_end(analysis, frame, edge, toward).and_then(arrow);
-    // If an arrow extends to the right, move its tail to the left, so that it does not touch the structure.
+    // All arrows share one tail. If one of them extends far to the right, move the tail to the left by the same
+    // distance, so that no arrow touches the structure.
     let beyond = other.map_or(there.x, |other| other.x.max(there.x));
     let beyond = down.x.max(beyond).max(0.0);
     let left = structure.min.x

@@ -132,8 +132,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
     axes
 }
 
-/// Solves for the forces along the axes. Returns the largest resultant, or `None` if the forces are not admissible, not
-/// optimal, or do not have the least sum of squares. `total` is the certified optimum of the sum of forces.
+/// Solves for the forces along the axes. Returns the largest resultant, or `None` if the forces do not balance the
+/// loads, are not admissible, are not optimal, or do not have the least sum of squares. `total` is the certified optimum of the sum of forces.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes

@@ -307,7 +307,8 @@ impl Front<'_> {
         }
     }
 
-    /// Returns column c of the front, indexed by local rows. It contains at least the rows from the diagonal down.
+    /// Returns column c of the front, indexed by local rows. A column of the update matrix has only the rows from the
+    /// diagonal down. A column of the supernode has all rows; those above the diagonal are not used.
     fn column(&mut self, c: usize) -> FrontColumn<'_> {
         match c.checked_sub(self.width) {
             None => FrontColumn {

@@ -1,5 +1,5 @@
-//! [`Ranking`]: the joints of a frame, sorted by how near they are to opening or sliding. [`robots`] lists the forces
-//! of robots.
+//! [`Ranking`]: the joints of a frame that carry force, those nearest to opening or sliding first. [`robots`] makes the
+//! table of the robots, with their forces and the largest share of a limit that each of them uses.
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};

@@ -194,12 +194,13 @@ fn arc(
     // Step 4: compute the angles.
     let begin = libm::atan2(start.y, start.x);
     let mut sweep = libm::atan2(cross(start, end), start.dot(&end));
+    // Correct the sign of the sweep. For a half circle, `atan2` may give +π or −π.
     if clockwise && sweep < 0.0 {
         sweep += TAU;
     } else if !clockwise && sweep > 0.0 {
         sweep -= TAU;
     }
-    // For a half circle, `atan2` may give +π or −π, and the correction has chosen the sign. A sweep of 0 is not an arc.
+    // A sweep of 0 is not an arc.
     if sweep == 0.0 || !(rx.is_finite() && ry.is_finite()) {
         return None;
     }
