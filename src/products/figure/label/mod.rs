@@ -149,7 +149,7 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     };
     let named = (0..frames.len()).any(|frame| !mentioned(context, frame).is_empty());
     let but = if named {
-        " but those the text names"
+        " except those in the text"
     } else {
         ""
     };
