@@ -1,7 +1,7 @@
-//! The balance of a frame as exact linear programs, in the source's own unknowns and straight from the scene's corners.
+//! The equilibrium of a frame as exact linear programs, with the unknowns of the source, built from the corners.
 //!
-//! A contact's normal is the stretch turned by a quarter, not brought to length 1, since a unit normal is irrational;
-//! pressing and friction are both counted in lengths of that normal, so |T| ≤ μ(N1 + N2) stays what it is.
+//! The normal of an interface is its segment turned by 90°. It is not scaled to length 1, because a unit normal is
+//! usually irrational. Normal forces and friction are both in units of that length, so |T| ≤ μ(N1 + N2) is unchanged.
 
 use std::collections::BTreeMap;
 
@@ -12,25 +12,25 @@ use drystone::scene::{Hold, Scene};
 use super::simplex::{LinearProgram, Row};
 use super::touch::{Pair, Touch, corners, cross, dot, exact, minus, pair};
 
-/// A group of blocks that no ground separates, with all that acts on it.
+/// Blocks that touch each other, directly or through other blocks, and the contacts and robots that act on them.
 pub struct Balance<'a> {
     scene: &'a Scene,
     pub blocks: Vec<usize>,
     touches: Vec<&'a Touch>,
     holds: Vec<Hold>,
-    /// Median length of all stretches, by which torques are weighed.
+    /// The median length of all interfaces; torques are divided by it.
     length: f64,
     centroids: Vec<Pair>,
 }
 
-/// Which sum is least.
+/// The sum to be minimised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sum {
     Forces,
     Sticking,
 }
 
-/// Number of the row of a block's force x; force y and moment follow.
+/// The number of a block's row for forces along x. The rows for forces along y and moments follow it.
 type First = usize;
 
 impl<'a> Balance<'a> {
@@ -84,22 +84,23 @@ impl<'a> Balance<'a> {
             .collect()
     }
 
-    /// Whether admissible forces balance every block.
+    /// Whether some admissible forces balance every block.
     pub fn stands(&self) -> bool {
         self.admissible().is_feasible()
     }
 
-    /// Least Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L) that balances, newtons.
+    /// The least Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L) in equilibrium, newtons.
     pub fn least_force(&self) -> Option<f64> {
         self.admissible().least().map(|v| v.to_f64_fast())
     }
 
-    /// Least such sum of forces that no contact and no robot may give, newtons; `None` where none helps.
+    /// The least sum of forces that exceed what contacts and robots can give, newtons. `None` if no such forces give
+    /// equilibrium.
     pub fn least_sticking(&self) -> Option<f64> {
         self.soft().least().map(|v| v.to_f64_fast())
     }
 
-    /// A least sum as a fraction: of admissible forces, or of what sticks.
+    /// The least sum as a fraction.
     pub fn least_exactly(&self, sum: Sum) -> Option<RBig> {
         self.program(sum).least()
     }
@@ -111,9 +112,11 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// The least and the most of a sum that acts on a block where the whole sum is no more than `least`.
+    /// The least and the largest part of a sum that acts on one block, among all forces whose total is at most
+    /// `least`.
     ///
-    /// The costs are lengths, rounded square roots: what ties is within their rounding.
+    /// The total may exceed `least` by a rounding error, because the costs are lengths, which are rounded square
+    /// roots.
     pub fn sum_on(&self, sum: Sum, block: usize, least: &RBig) -> [f64; 2] {
         let most = least * exact(1.0 + 4.0 * f64::EPSILON);
         let bounded = |counts: &dyn Fn(bool) -> bool| {
@@ -142,12 +145,12 @@ impl<'a> Balance<'a> {
         [low.to_f64_fast(), (&most - rest).to_f64_fast()]
     }
 
-    /// Whether no sticking helps, not even one that may leave the balance off by the band.
+    /// Whether no sticking gives equilibrium, even with an imbalance up to the tolerance.
     pub fn is_past_help(&self) -> bool {
         self.off(self.soft()) > Proof::IMBALANCE_TOL
     }
 
-    /// The source's soft program at the limit of its β: sticking has a cost and nothing else.
+    /// The soft program of the source in the limit of its β: only sticking has a cost.
     fn soft(&self) -> LinearProgram {
         let mut program = self.admissible();
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
@@ -174,7 +177,8 @@ impl<'a> Balance<'a> {
         program
     }
 
-    /// By how much the balance must be off somewhere, in parts of the heaviest load and of L: 0 where it stands.
+    /// The least possible largest imbalance of any block, relative to the heaviest load (times L for moments). It is
+    /// 0 if the group stands.
     pub fn distance(&self) -> f64 {
         self.off(self.admissible())
     }
@@ -198,7 +202,8 @@ impl<'a> Balance<'a> {
         program.least().map_or(f64::INFINITY, |v| v.to_f64_fast())
     }
 
-    /// Whether it stands and goes on standing when any block's load changes by `share` of itself, any way.
+    /// Whether the group stands, and still stands if one component of one block's load changes by `share` of that
+    /// load.
     pub fn stands_with_margin(&self, share: f64) -> bool {
         self.stands()
             && (0..3 * self.blocks.len()).all(|row| {
@@ -217,7 +222,7 @@ impl<'a> Balance<'a> {
             })
     }
 
-    /// Whether the verdict hangs on less than the stated band, either way.
+    /// Whether changes within the tolerance change the verdict.
     pub fn is_borderline(&self) -> bool {
         match self.stands() {
             true => !self.stands_with_margin(Proof::IMBALANCE_TOL),
@@ -225,16 +230,17 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// Whether it stands once each force on a block may change by `band` of its own amount, on one side of a contact and
-    /// not the other, and be moved by `band` of the block's radius.
+    /// Whether the group stands if each force on a block may change by `band` of its amount, and may move by `band`
+    /// of the block's radius. The two sides of a contact change independently.
     ///
-    /// All linear: a change z of a force x has |z| ≤ band · x, and moving forces gives a moment of band · R · Σ |F| at most.
+    /// All constraints are linear: a change z of a force x obeys |z| ≤ band · x, and moved forces give a moment of at
+    /// most band · R · Σ |F|.
     pub fn stands_within(&self, band: f64) -> bool {
         let mut program = self.admissible();
         let band = exact(band);
         for (place, block) in self.blocks.iter().enumerate() {
             let first = 3 * place;
-            // What acts on this block: its columns, unknown by unknown.
+            // For each unknown that acts on this block, its three entries.
             let mut columns: BTreeMap<usize, [RBig; 3]> = BTreeMap::new();
             for row in 0..3 {
                 for (unknown, value) in &program.rows[first + row].entries {
@@ -290,7 +296,7 @@ impl<'a> Balance<'a> {
         program.is_feasible()
     }
 
-    /// Distance of a block's farthest corner from its centroid.
+    /// The distance of a block's farthest corner from its centroid.
     fn radius(&self, block: usize) -> f64 {
         let corners = corners(&self.scene.blocks()[block].body);
         let reach = corners
@@ -299,7 +305,7 @@ impl<'a> Balance<'a> {
         reach.fold(0.0, f64::max)
     }
 
-    /// Sum of the sizes of all loads on a block, a moment over its radius.
+    /// The sum of the magnitudes of all loads on a block. A moment is divided by the block's radius.
     fn gross_load(&self, block: usize) -> f64 {
         let listed = self.scene.loads().iter().filter(|l| l.block.0 == block);
         let listed = listed.map(|l| {
@@ -310,7 +316,7 @@ impl<'a> Balance<'a> {
         self.scene.blocks()[block].weight + listed.sum::<f64>()
     }
 
-    /// What an imbalance in a row is measured by: the heaviest load, times L for moments.
+    /// The reference for the imbalance of a row: the heaviest load, times L for moments.
     fn size(&self, row: First) -> f64 {
         let load = |k: &usize| {
             let [x, y, m] = self.load(*k).map(|v| v.to_f64_fast());
@@ -327,7 +333,7 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// The source's hard program: three rows per block first, then friction and limits.
+    /// The hard program of the source: first three rows per block, then friction and limits.
     pub(super) fn admissible(&self) -> LinearProgram {
         let mut program = LinearProgram::default();
         for block in &self.blocks {
@@ -384,7 +390,7 @@ impl<'a> Balance<'a> {
         program
     }
 
-    /// Load on a block about its centroid: force x, force y, moment.
+    /// The load on a block: force along x, force along y, moment about the centroid.
     pub(super) fn load(&self, block: usize) -> [RBig; 3] {
         let mut load = self.weight(block);
         for listed in self.scene.loads().iter().filter(|l| l.block.0 == block) {
@@ -398,7 +404,7 @@ impl<'a> Balance<'a> {
         load
     }
 
-    /// A block's weight, along gravity.
+    /// A block's weight as a load.
     pub(super) fn weight(&self, block: usize) -> [RBig; 3] {
         let gravity = self.scene.gravity();
         let size = libm::hypot(gravity.x, gravity.y);
@@ -407,7 +413,7 @@ impl<'a> Balance<'a> {
         [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO]
     }
 
-    /// Both ends of the stretch, each moved inward by half the kernel's share.
+    /// Both ends of the interface, each moved inward by half of `kernel` times its length.
     fn application_points(&self, touch: &Touch) -> [Pair; 2] {
         let share = exact(self.scene.kernel()) / RBig::from(2);
         let along = minus(&touch.ends[1], &touch.ends[0]);
@@ -416,7 +422,7 @@ impl<'a> Balance<'a> {
         [[&a[0] + &inward[0], &a[1] + &inward[1]], minus(b, &inward)]
     }
 
-    /// Enters an unknown force of a contact: on the one body, and turned round on the other.
+    /// Adds an unknown force of a contact: on the first body, and reversed on the other.
     fn act(
         &self,
         program: &mut LinearProgram,
@@ -492,7 +498,7 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// A stretch's directions, both as long as the stretch.
+/// The normal and the tangent of an interface, both as long as the interface.
 struct Way {
     normal: Pair,
     tangent: Pair,

@@ -1,8 +1,8 @@
-//! Tolerances as large as blocks: healing may close gaps with them, but what it cannot heal makes no statement false.
+//! Contact tolerances as large as blocks: healing may close gaps, but no result may be false where healing fails.
 //!
-//! The bodies of these scenes touch to the last bit, so the exact program knows the verdict of the outlines. They are looked at as
-//! they are, and with every corner off by a thousandth of the smallest block.
-//! `DRYSTONE_ORACLE_COARSE=3000` looks at more of them, `DRYSTONE_ORACLE_FIRST` is the number of the first.
+//! The bodies of these scenes touch exactly, so the exact program gives the verdict of the outlines. Each scene is
+//! analysed as written, and with every corner moved by up to a thousandth of the size of the smallest block.
+//! `DRYSTONE_ORACLE_COARSE=3000` sets the number of scenes, `DRYSTONE_ORACLE_FIRST` the number of the first scene.
 
 use drystone::Analysis;
 use drystone::analysis::Verdict;
@@ -15,26 +15,26 @@ use super::balance::Balance;
 use super::{Standing, judged, number_of, random, touch};
 use crate::random::Random;
 
-/// Tolerances in parts of the smallest block, the square root of its area.
+/// Contact tolerances relative to the size of the smallest block, which is the square root of its area.
 const SHARES: [f64; 4] = [0.05, 0.3, 1.0, 3.0];
 
-/// How far corners are off, in parts of the smallest block.
+/// How far corners are moved, relative to the size of the smallest block.
 const OFF: f64 = 1e-3;
-/// By which share of its loads a structure must be clear of its limit for corners that are off to change nothing.
+/// Moved corners must not change the verdict if the structure is farther from its limit than this share of its loads.
 const CLEAR: f64 = 0.02;
 
-/// The exact programs of more blocks take long.
+/// The exact program is slow for more blocks.
 const MAX_BLOCKS: usize = 5;
 
-/// What one scene gave with one tolerance.
+/// The result of one scene with one contact tolerance.
 struct Found {
     number: u64,
     share: f64,
     is_off: bool,
-    /// Corners that moved, and bodies left as written.
+    /// The number of corners that healing moved.
     moved: usize,
     kept: usize,
-    /// Interfaces beyond those of the outlines as written.
+    /// The number of interfaces minus that of the outlines as written.
     more: i64,
     is_wrong: bool,
     text: String,
@@ -115,7 +115,7 @@ fn jitter(file: &mut Value, off: f64, number: u64) {
     }
 }
 
-/// A verdict that differs from that of the outlines as written needs corners that moved or gaps that were closed.
+/// A verdict may differ from that of the outlines as written only if corners moved or gaps were closed.
 #[test]
 #[expect(
     clippy::print_stdout,
@@ -151,8 +151,8 @@ fn tolerances_as_large_as_blocks_change_no_verdict_without_closing_a_gap() {
     assert!(bad.is_empty(), "{bad:?}");
 }
 
-/// Three stones of nine corners, two of them on ground of their own below their lowest side. A tolerance of 0.05 m would
-/// push the corners of some of them into others.
+/// Three stones. Two have nine corners and stand on separate ground below their lowest edges. With a tolerance of
+/// 0.05 m, healing would push corners of some stones into other stones.
 fn stones(number: u64) -> Value {
     let mut chance = Random::new(number ^ 0x0057_0e35);
     let mut near = |at: [f64; 2]| at.map(|v| v + 0.02 * (2.0 * chance.share() - 1.0));
@@ -191,10 +191,10 @@ fn stones(number: u64) -> Value {
     ]
     .map(&mut near)
     .into();
-    // The ground below a side ends at the same corners.
+    // The ground below an edge ends at the corners of the edge.
     let below = |from: [f64; 2], to: [f64; 2]| json!({ "polygon": [from, [from[0], -2.0], [to[0], -2.0], to] });
     let friction = chance.one_of(&[0.1, 0.3, 0.7, 1.5]);
-    // Nothing carries the third stone unless a robot holds it.
+    // In some scenes a robot holds the third stone.
     let robots = match chance.percent(60) {
         true => json!([{ "id": "r", "holds": "c" }]),
         false => json!([]),
@@ -224,15 +224,15 @@ fn distance(scene: &Scene, body: BodyId, at: Point) -> f64 {
     away.fold(f64::INFINITY, f64::min)
 }
 
-/// A body that cannot be healed stays as written. Every statement is about the outlines that the result uses: the exact
-/// program over the contacts found has the same verdict and sums, and bodies touch only within the stated tolerance.
-/// `DRYSTONE_ORACLE_KEPT=2000` looks at more of them.
+/// A body that cannot be healed stays as written. The results are true of the outlines that the analysis uses: the
+/// exact program over the contacts found has the same verdict and sums, and bodies touch only within the stated
+/// tolerance. `DRYSTONE_ORACLE_KEPT=2000` sets the number of scenes.
 #[test]
 #[expect(
     clippy::print_stdout,
     reason = "the counts are the result of a long run"
 )]
-fn what_is_stated_of_bodies_left_as_written_is_true_of_their_outlines() {
+fn results_are_true_of_the_outlines_of_bodies_that_healing_left_as_written() {
     let wanted = number_of("DRYSTONE_ORACLE_KEPT", 60);
     let (mut kept, mut touching) = (0, 0);
     let mut verdicts = [0; 3];

@@ -1,4 +1,4 @@
-//! The exact interval of a parameter in which the loads are linear: two programs, no search.
+//! The exact interval of a parameter on which the loads depend linearly: two linear programs, no search.
 
 use dashu_ratio::RBig;
 
@@ -6,20 +6,21 @@ use super::balance::Balance;
 use super::simplex::{LinearProgram, Row};
 use super::touch::{exact, pair};
 
-/// What grows with the parameter.
+/// The loads that grow with the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growing {
-    /// The listed loads; the parameter is at least 0.
+    /// The loads that the scene lists; the parameter is not negative.
     ListedLoads,
-    /// A force across gravity on each block, positive to the right.
+    /// A force perpendicular to gravity on each block, positive to the right.
     AcrossGravity,
 }
 
-/// Values beyond this count as no end.
+/// An interval that reaches this value counts as unbounded.
 pub const ENDLESS: i64 = 10_000_000_000_000;
 
 impl Balance<'_> {
-    /// The least and the largest value at which the group stands, each within ±[`ENDLESS`]; `None` where it stands at none.
+    /// The least and the largest value at which the group stands, within ±[`ENDLESS`]; `None` if it stands at no
+    /// value.
     pub fn interval(&self, growing: Growing) -> Option<[RBig; 2]> {
         let least = match growing {
             Growing::ListedLoads => RBig::ZERO,
@@ -28,12 +29,12 @@ impl Balance<'_> {
         let most = RBig::from(ENDLESS);
         let low = &least + self.along(growing, &least, RBig::ONE).least()?;
         let high = &most - self.along(growing, &most, -RBig::ONE).least()?;
-        // Beyond the other bound there is nothing to find.
+        // The values must stay within the bounds.
         Some([low.min(most), high.max(least)])
     }
 
-    /// The largest component of a force at a point of a block along each direction, such that the group stands; the inner
-    /// `None` where it has no end, the outer one where no force is carried.
+    /// For each direction, the largest component of a force at a point of a block with which the group stands. The
+    /// inner `None` means that the component is unbounded, the outer `None` that the group stands with no force.
     pub fn farthest_forces(
         &self,
         block: usize,
@@ -58,12 +59,13 @@ impl Balance<'_> {
         Some(along.collect())
     }
 
-    /// Whether the group stands with some force at a point of a block, if its other forces may be off by the band.
+    /// Whether the group stands with some force at a point of a block, with an imbalance of up to 10⁻⁶ allowed.
     pub fn holds_within_band(&self, block: usize, at: [f64; 2]) -> bool {
         self.off(self.with_force(block, at).0) <= 1e-6
     }
 
-    /// The balance with one more force at a point of a block, of at most [`ENDLESS`]: its unknowns are x, −x, y and −y.
+    /// The program with one more force at a point of a block. Its unknowns are x, −x, y and −y; their sum is at most
+    /// [`ENDLESS`].
     fn with_force(&self, block: usize, at: [f64; 2]) -> (LinearProgram, [usize; 4]) {
         let mut program = self.admissible();
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
@@ -81,10 +83,9 @@ impl Balance<'_> {
         (program, force)
     }
 
-    /// Balance at a value of `from` plus `sign` times an unknown of cost 1.
+    /// The program at the value `from` + `sign` · step, where the unknown step has cost 1 and forces cost nothing.
     fn along(&self, growing: Growing, from: &RBig, sign: RBig) -> LinearProgram {
         let mut program = self.admissible();
-        // Forces cost nothing here.
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
         let step = program.unknown(RBig::ONE);
         for (place, block) in self.blocks.iter().enumerate() {
@@ -99,7 +100,7 @@ impl Balance<'_> {
         program
     }
 
-    /// A block's load at a value of 0, and what it gains per unit of the value.
+    /// A block's load at the value 0, and its increase per unit of the value.
     fn parts(&self, growing: Growing, block: usize) -> ([RBig; 3], [RBig; 3]) {
         let all = self.load(block);
         match growing {
@@ -110,7 +111,7 @@ impl Balance<'_> {
             }
             Growing::AcrossGravity => {
                 let [x, y, _] = self.weight(block);
-                // Right of gravity, seen with gravity pointing down the page.
+                // To the right when gravity points down the page.
                 (all, [-y, x, RBig::ZERO])
             }
         }

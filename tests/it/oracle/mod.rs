@@ -1,9 +1,11 @@
-//! The verdicts against an exact cross-check of our own: whole-number simplex over the balance built from the corners.
+//! Compares verdicts with an exact linear program: a simplex in integers over the equilibrium equations of the scene.
 //!
-//! Every floating-point number is a fraction, so whether a scene as written stands has an exact answer. What is built
-//! here shares nothing with `program` and `solve`: contacts, balance and simplex are this directory's own.
-//! `DRYSTONE_ORACLE_SCENES=10000` looks at more scenes than the few hundred of an everyday run; `DRYSTONE_ORACLE_FIRST`
-//! is the number of the first.
+//! Every floating-point number is a fraction, so whether a scene as written stands has an exact answer. This
+//! directory finds contacts, builds the equilibrium equations and solves them on its own. It shares no code with
+//! `program` and `solve`.
+//!
+//! `DRYSTONE_ORACLE_SCENES=10000` sets the number of scenes (300 by default), `DRYSTONE_ORACLE_FIRST` the number of
+//! the first scene.
 
 pub mod balance;
 mod coarse;
@@ -30,27 +32,30 @@ use simplex::{LinearProgram, Row};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     Agrees(Verdict),
-    /// It differs, or is undecided, and the scene lies within the band in which it may.
+    /// The verdict differs or is undecided, but the scene is within the tolerance of the limit, where this is
+    /// allowed.
     WithinBand(Verdict),
-    /// It is undecided outside the band.
+    /// The verdict is undecided although the scene is not within the tolerance of the limit.
     Undecided,
-    /// It differs outside the band.
+    /// The verdict differs although the scene is not within the tolerance of the limit.
     Wrong,
-    /// The file is no sound scene.
+    /// The scene file is invalid, or bodies overlap.
     Refused,
-    /// It does not touch where it ought to.
+    /// The analysis found another number of contacts than the exact program.
     TouchesElsewhere,
 }
 
-/// What one scene gave.
+/// The result of one scene.
 struct Finding {
     number: u64,
     kind: usize,
     file: Value,
     standing: Standing,
-    /// Worst relative error of the total force, its bound or the sticking, where it was looked at.
+    /// The largest relative error of the total force, of its lower bound or of the total sticking, if it was
+    /// computed.
     error: Option<f64>,
-    /// Below which sum of forces the motion of a falling one rules out every balance, in heaviest loads.
+    /// For an unstable scene: its motion rules out every equilibrium whose sum of forces is below this multiple of
+    /// the heaviest load.
     ruled_out: Option<f64>,
 }
 
@@ -58,7 +63,7 @@ fn looked_at(number: u64) -> Finding {
     let (kind, file) = random::scene(number);
     let exact = random::KINDS[kind].1;
     let (standing, error, ruled_out) = match Scene::from_json(&file.to_string()) {
-        // What overlaps is judged both ways, which is another question.
+        // Overlapping bodies are judged with and without the overlap. Other tests cover this.
         Ok(scene) if !scene.penetrations().is_empty() => (Standing::Refused, None, None),
         Ok(scene) => compared(&scene, exact, number % 4 < 2),
         Err(_) => (Standing::Refused, None, None),
@@ -125,7 +130,8 @@ fn judged(
     let error = with_forces.then(|| {
         if !falls {
             let least = groups.iter().filter_map(Balance::least_force).sum();
-            // No forces have less than the bound, and those said to be the least have no more than it.
+            // The lower bound must not exceed the exact least sum. If the forces are reported as the least, the bound
+            // must equal that sum, to a tolerance ten times as large.
             let bound = frame.force_bound.unwrap_or(0.0);
             let above = off(bound.max(least), least, frame.weight);
             let short = match frame.least_force {
@@ -140,7 +146,8 @@ fn judged(
             match group.least_sticking() {
                 Some(least) => sum += least,
                 None if group.is_past_help() => lost.extend(group.blocks.iter().copied()),
-                // Corners rounded to the last bit leave it off by a hair: there is no exact sum to compare with.
+                // No sticking gives an exact equilibrium, but one exists within the tolerance, because corners are
+                // rounded. There is no exact sum to compare with.
                 None => return None,
             }
         }
@@ -157,7 +164,7 @@ fn judged(
     (Standing::Agrees(frame.verdict), error.flatten())
 }
 
-/// The difference of two sums of force, in parts of the exact one or, where that is less, of the weights.
+/// The difference of two sums of force, relative to the exact sum or to the total weight, whichever is larger.
 fn off(told: f64, exact: f64, weight: f64) -> f64 {
     let size = exact.max(weight);
     if size > 0.0 {
@@ -174,10 +181,10 @@ pub fn number_of(variable: &str, otherwise: u64) -> u64 {
         .unwrap_or(otherwise)
 }
 
-/// Three sums that were once 27, 158 and 647 % too large: a push of 10⁻⁸ of the weight needs a robot's force, or a contact's, that
-/// has no part in the balance of the rest.
+/// Three sums that were once 27, 158 and 647 % too large. A push of 10⁻⁸ of the weight needs a force of a robot or of
+/// a contact that plays no other part in the equilibrium.
 #[test]
-fn what_a_slight_push_needs_is_no_more_than_the_least() {
+fn the_total_force_is_the_least_under_a_very_small_push() {
     for number in [18849, 21741, 19792] {
         let found = looked_at(number);
         assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
@@ -188,9 +195,10 @@ fn what_a_slight_push_needs_is_no_more_than_the_least() {
     }
 }
 
-/// A block without weight under a robot that holds nearly all: the sum that was found is 39 % above the least, and no bound shows less.
+/// A block without weight, held by a robot that carries nearly everything. The sum that was found is 39 % above the
+/// least sum, and no better bound was found.
 #[test]
-fn a_sum_above_the_least_is_not_called_the_least() {
+fn a_total_force_above_the_least_is_not_reported_as_the_least() {
     let found = looked_at(800_676);
     assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
     let scene = Scene::from_json(&found.file.to_string()).expect("a sound scene");
@@ -204,10 +212,10 @@ fn a_sum_above_the_least_is_not_called_the_least() {
     assert_eq!(is_said, !is_least, "{:?}", frame.notices);
 }
 
-/// A push of 8·10⁻⁹ N on a frictionless block whose robot may not push back, and a brick at the foot of a wall whose exact
-/// corner healing once moved.
+/// A push of 8·10⁻⁹ N on a frictionless block whose robot may not push back; and a brick at the foot of a wall with
+/// an exact corner, which healing once moved.
 #[test]
-fn a_slight_push_and_an_exact_corner_are_judged_as_they_are() {
+fn a_very_small_push_and_an_exact_corner_are_judged_correctly() {
     for number in [51974, 51566] {
         let found = looked_at(number);
         assert_eq!(
@@ -219,16 +227,17 @@ fn a_slight_push_and_an_exact_corner_are_judged_as_they_are() {
     }
 }
 
-/// Weights from 1 N to 9 kN. The forces of least sum among those of least sticking once took 0.2 % more sticking.
+/// Weights from 1 N to 9 kN. Among all forces with the least sticking, those with the least sum are reported. Their
+/// sticking was once 0.2 % above the least.
 #[test]
-fn the_least_force_takes_no_more_sticking() {
+fn the_sticking_of_the_least_forces_is_the_least() {
     let found = looked_at(2812);
     assert_eq!(found.standing, Standing::Agrees(Verdict::Unstable));
-    // In parts of the weights, which are 800 times what sticks.
+    // The error is relative to the weight, which is 800 times the sticking.
     assert!(found.error.is_some_and(|e| e < 1e-9), "{:?}", found.error);
 }
 
-/// Thousands of small scenes, and not one wrong verdict.
+/// The verdicts of random small scenes, outside the tolerance, equal those of the exact program.
 #[test]
 #[expect(
     clippy::print_stdout,
@@ -283,8 +292,8 @@ fn verdicts_are_those_of_an_exact_program() {
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
-/// Towers and walls with stones of any size and weight on and in them, and no band but the local one.
-/// `DRYSTONE_ORACLE_SMALL=5000` looks at more of them.
+/// Towers and walls with stones of any size and weight on them and in them. The only tolerance is that of each block.
+/// `DRYSTONE_ORACLE_SMALL=5000` sets the number of scenes.
 #[test]
 #[expect(
     clippy::print_stdout,
@@ -339,9 +348,9 @@ fn the_smallest_stone_is_judged_as_an_exact_program_does() {
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
-/// What the cross-check rests on: optima of random programs equal those of their duals, to the last bit.
+/// The optimum of the exact simplex equals that of the dual program, for random programs.
 #[test]
-fn the_exact_simplex_meets_its_dual() {
+fn the_optimum_of_the_exact_simplex_equals_that_of_the_dual() {
     for seed in 0..200 {
         let mut chance = crate::random::Random::new(seed);
         let (n, m) = (chance.whole(1, 6) as usize, chance.whole(1, 5) as usize);
@@ -351,8 +360,9 @@ fn the_exact_simplex_meets_its_dual() {
             .iter()
             .map(|_| (0..n).map(|_| chance.whole(-3, 3)).collect())
             .collect();
-        // min c·x, Ax = b, x ≥ 0 against max b·y, Aᵀy + s = c, s ≥ 0: at the optima both are the same, so one program
-        // that asks for both balances and for c·x ≤ b·y has a solution exactly where the first has one.
+        // The primal is min c·x with Ax = b, x ≥ 0; the dual is max b·y with Aᵀy + s = c, s ≥ 0. Their optima are
+        // equal. So a program with both sets of constraints and c·x ≤ b·y is feasible exactly if the primal is
+        // feasible.
         let mut primal = LinearProgram {
             costs: costs.iter().map(|c| RBig::from(*c)).collect(),
             rows: Vec::new(),
@@ -387,7 +397,7 @@ fn the_exact_simplex_meets_its_dual() {
         let least = primal.least();
         assert_eq!(least.is_some(), both.is_feasible(), "program {seed}");
         if let Some(least) = least {
-            // A hair below the optimum nothing fits any more.
+            // A cost slightly below the optimum is not feasible.
             let mut better = primal.clone();
             let entries = primal.costs.iter().cloned().enumerate().collect();
             let below = &least - RBig::from_parts(1.into(), 1_000_000_007u64.into());
@@ -403,12 +413,12 @@ fn the_exact_simplex_meets_its_dual() {
     }
 }
 
-/// What excuses a difference is measured exactly too: a block with its centre of gravity d beyond the edge of a floor.
+/// The distance from equilibrium is exact. The centre of gravity of a block lies d beyond the edge of a floor.
 ///
-/// In parts of W and WL, a force off by t and a moment off by t leave N = (1 − t)W with the arm d, friction tW with the
-/// arm ½ and tWL to balance: (1 − t)d = t/2 + tL. L, the stretch that is left, is ½ − d: so t = d.
+/// Let the force be in error by t·W and the moment by t·WL. Then N = (1 − t)W with arm d, friction tW with arm ½ and
+/// the moment tWL balance: (1 − t)d = t/2 + tL. L, the length of the interface, is ½ − d, so t = d.
 #[test]
-fn the_distance_from_the_edge_is_exact() {
+fn the_distance_from_equilibrium_is_exact() {
     let two_to = |power: i32| libm::exp2(f64::from(power));
     for (beyond, borderline) in [
         (two_to(-20), false),

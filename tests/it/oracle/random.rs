@@ -1,14 +1,14 @@
-//! Random small scenes, the same for the same number: piles, cut walls, stacks on slopes and arches.
+//! Random small scenes: piles, cut walls, stacks on slopes and arches. Each number always gives the same scene.
 //!
-//! Coordinates are coarse fractions wherever they can be, so that bodies touch to the last bit and many a scene lies
-//! exactly on the edge of standing; a nudge of 1e-4 to 1e-9 of a weight then puts it a known way to either side.
+//! Coordinates are coarse fractions where possible, so that bodies touch exactly and many scenes are exactly at their
+//! limit. A load of 1e-4 to 1e-9 of a weight then moves a scene slightly to one side of the limit.
 
 use serde_json::{Value, json};
 
 use super::shape;
 use crate::random::Random;
 
-/// Every kind of scene, and whether a floating-point number holds its corners to the last bit.
+/// Every kind of scene, and whether floating-point numbers represent its corners exactly.
 pub const KINDS: [(&str, bool); 6] = [
     ("square lattice", true),
     ("triangular lattice", false),
@@ -18,7 +18,7 @@ pub const KINDS: [(&str, bool); 6] = [
     ("arch", true),
 ];
 
-/// The scene of a number: a file, and the kind it is of.
+/// The scene of a number: its kind and its file.
 pub fn scene(number: u64) -> (usize, Value) {
     let mut chance = Random::new(number);
     let kind = (number % KINDS.len() as u64) as usize;
@@ -37,7 +37,7 @@ pub fn scene(number: u64) -> (usize, Value) {
     (kind, file)
 }
 
-/// Friction, kernel, weights, robots and loads.
+/// Adds friction, kernel, weights, robots and loads.
 fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
     file["drystone"] = json!(1);
     let mut friction = chance.one_of(&[0.0, 0.0, 0.05, 0.25, 0.5, 0.577, 0.7, 1.0, 3.0, 1000.0]);

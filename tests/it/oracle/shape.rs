@@ -1,4 +1,4 @@
-//! The bodies of random scenes: where blocks and ground lie, and nothing of what they weigh.
+//! The outlines of blocks and ground in random scenes, without weights.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::random::Random;
 
 type Cell = (i64, i64);
 
-/// Pieces of up to four squares, let fall one after the other.
+/// Pieces of up to four squares, dropped one after the other.
 pub fn square_pile(chance: &mut Random) -> Value {
     let mut taken = BTreeSet::new();
     let mut ground = Vec::new();
@@ -47,7 +47,7 @@ pub fn square_pile(chance: &mut Random) -> Value {
 /// A triangle of the lattice: column, row, and whether it points up.
 type Triangle = (i64, i64, bool);
 
-/// Blocks of one to six triangles, each grown from a place that touches what is there.
+/// Blocks of one to six triangles. Each grows from a free place next to the blocks already there.
 pub fn triangular_pile(chance: &mut Random) -> Value {
     let beside = |(x, y, up): Triangle| match up {
         true => [(x, y, false), (x - 1, y + 1, false), (x, y + 1, false)],
@@ -98,9 +98,9 @@ pub fn triangular_pile(chance: &mut Random) -> Value {
     json!({ "grid": { "kind": "triangular" }, "ground": ground, "blocks": blocks })
 }
 
-/// Courses of bricks of any width at any place, in a frame turned so that `along` is its first axis.
+/// Courses of bricks of random widths at random places, in axes turned so that `along` is the first axis.
 ///
-/// The axis is of whole numbers with a whole length, so the turned corners are fractions to the last bit.
+/// The components of the axis and its length are integers, so the turned corners are exact.
 pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     let place = |x: i64, y: i64| {
         let (c, s) = (along[0] as f64 / 8.0, along[1] as f64 / 8.0);
@@ -143,7 +143,7 @@ pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     json!({ "ground": ground, "blocks": blocks })
 }
 
-/// A rectangle cut by straight lines from side to side, on a floor, perhaps between walls, perhaps with pieces missing.
+/// A rectangle cut by straight lines, on a floor, perhaps between walls, perhaps with some pieces missing.
 pub fn cut_wall(chance: &mut Random) -> Value {
     loop {
         let (width, height) = (
@@ -191,7 +191,7 @@ pub fn cut_wall(chance: &mut Random) -> Value {
     }
 }
 
-/// The two parts of a convex piece. Neighbours that share an edge get the same new corner on it, to the last bit.
+/// The two parts of a convex piece. Neighbours that share an edge get exactly the same new corner on it.
 fn cut(piece: &[[f64; 2]], through: [f64; 2], normal: [f64; 2]) -> [Vec<[f64; 2]>; 2] {
     let side = |p: [f64; 2]| normal[0] * (p[0] - through[0]) + normal[1] * (p[1] - through[1]);
     let (mut above, mut below) = (Vec::new(), Vec::new());

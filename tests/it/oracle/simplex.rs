@@ -1,26 +1,27 @@
-//! An exact linear program: whole numbers only, so that an answer is a fact and not a status.
+//! A linear program solved exactly, in integers.
 //!
-//! Edmonds' integer pivoting: the table holds minors of the data over one common denominator, the last pivot, and every
-//! division comes out even. The dearest column enters; where that goes round without gain, Bland's rule does, which
-//! cannot cycle. Slow and small on purpose, and nothing of it comes from the solver it is held against.
+//! The method is Edmonds' integer pivoting. The entries of the tableau are minors of the data over one common
+//! denominator, the last pivot, so every division has no remainder. The column with the most negative reduced cost
+//! enters. After a number of pivots without progress Bland's rule is used, which cannot cycle. The code is small and
+//! slow, and it shares nothing with the solver that it checks.
 
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-/// Pivots without gain after which Bland's rule takes over.
+/// Bland's rule is used after this many pivots without progress.
 const PATIENCE: usize = 12;
 
-/// One row: Σ entries · x = or ≤ `bound`.
+/// One constraint: Σ entries · x = `bound`, or ≤ `bound`.
 #[derive(Clone, Debug)]
 pub struct Row {
     pub entries: Vec<(usize, RBig)>,
-    /// At least 0 where the row is an inequality.
+    /// Not negative if the row is an inequality.
     pub bound: RBig,
     pub equality: bool,
 }
 
-/// min `costs`·x over x ≥ 0 and the rows.
+/// Minimise `costs`·x subject to x ≥ 0 and the rows.
 #[derive(Clone, Debug, Default)]
 pub struct LinearProgram {
     pub costs: Vec<RBig>,
@@ -28,18 +29,18 @@ pub struct LinearProgram {
 }
 
 impl LinearProgram {
-    /// A new unknown of this cost.
+    /// Adds an unknown with this cost.
     pub fn unknown(&mut self, cost: RBig) -> usize {
         self.costs.push(cost);
         self.costs.len() - 1
     }
 
-    /// Whether any x fits.
+    /// Whether the program is feasible.
     pub fn is_feasible(&self) -> bool {
         Table::new(self).reach_feasible()
     }
 
-    /// The least cost, `None` where nothing fits. Costs are not negative, so that there is a least.
+    /// The least cost; `None` if the program is infeasible. Costs must not be negative, so that the cost is bounded.
     pub fn least(&self) -> Option<RBig> {
         assert!(
             self.costs.iter().all(|c| *c >= RBig::ZERO),
@@ -50,7 +51,7 @@ impl LinearProgram {
             return None;
         }
         let x = table.optimum(&self.costs);
-        // The table could be wrong; what comes out of it is put into the program again.
+        // Check the solution against the program, in case the tableau is wrong.
         for row in &self.rows {
             let sum = row
                 .entries
@@ -74,13 +75,14 @@ impl LinearProgram {
         )
     }
 
-    /// The unknowns at the optimum of each objective, which the rows must bound; `None` where nothing fits.
+    /// The unknowns at the optimum of each objective; `None` if the program is infeasible. The rows must bound the
+    /// objectives.
     pub fn optima(&self, objectives: &[Vec<RBig>]) -> Option<Vec<Vec<RBig>>> {
         let mut table = Table::new(self);
         if !table.reach_feasible() {
             return None;
         }
-        // Each search goes on from the last optimum.
+        // Each search starts from the last optimum.
         Some(
             objectives
                 .iter()
@@ -91,11 +93,12 @@ impl LinearProgram {
 }
 
 struct Table {
-    /// One row per row of the program, the bound last; entries over `denominator`.
+    /// One row per row of the program, with the bound as the last entry. All entries are divided by `denominator`.
     rows: Vec<Vec<IBig>>,
-    /// What each row is solved for.
+    /// The basic unknown of each row.
     basis: Vec<Basic>,
-    /// What to lessen: reduced costs over `denominator`, minus the value last.
+    /// The objective to minimise: reduced costs, and last its value with the sign changed, all divided by
+    /// `denominator`.
     objective: Vec<IBig>,
     denominator: IBig,
     width: usize,
@@ -103,7 +106,7 @@ struct Table {
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Basic {
-    /// Leaves first where several could, and never comes back.
+    /// Leaves first if several unknowns could leave, and never enters again.
     Artificial,
     Unknown(usize),
 }
@@ -160,7 +163,7 @@ impl Table {
         }
     }
 
-    /// Drives the artificial unknowns to 0, if that can be.
+    /// Drives the artificial unknowns to 0; false if this is impossible.
     fn reach_feasible(&mut self) -> bool {
         self.objective = vec![IBig::ZERO; self.width];
         for (row, basic) in self.rows.iter().zip(&self.basis) {
@@ -178,7 +181,7 @@ impl Table {
         true
     }
 
-    /// Goes on from a feasible basis to the best one; the unknowns there.
+    /// The unknowns at the optimum, found from a feasible basis.
     fn optimum(&mut self, costs: &[RBig]) -> Vec<RBig> {
         self.drop_artificials();
         let common = costs.iter().fold(UBig::ONE, |c, v| lcm(c, v.denominator()));
@@ -206,7 +209,7 @@ impl Table {
         x
     }
 
-    /// Puts unknowns in the place of artificials that stand at 0, and drops rows that say nothing new.
+    /// Replaces artificial unknowns in the basis, all of which are 0, and removes redundant rows.
     fn drop_artificials(&mut self) {
         let mut r = 0;
         while r < self.rows.len() {
@@ -229,7 +232,7 @@ impl Table {
         }
     }
 
-    /// One step of the simplex method with gain, after as many without as it takes. False at the optimum.
+    /// Pivots until the objective improves. False at the optimum.
     fn step(&mut self) -> bool {
         for idle in 0.. {
             let dear = |k: &usize| self.objective[*k] < IBig::ZERO;
@@ -255,7 +258,7 @@ impl Table {
         true
     }
 
-    /// The row that first reaches 0 as unknown `k` grows.
+    /// The row whose basic unknown first reaches 0 as unknown `k` grows.
     fn leaving(&self, k: usize) -> Option<usize> {
         let bound = |r: usize| &self.rows[r][self.width - 1];
         (0..self.rows.len())
@@ -270,7 +273,7 @@ impl Table {
     fn pivot(&mut self, r: usize, k: usize) {
         let line = std::mem::take(&mut self.rows[r]);
         let pivot = line[k].clone();
-        // The pivot's own row was taken out and is empty.
+        // The pivot row was taken out and is empty.
         let others = self.rows.iter_mut().chain([&mut self.objective]);
         for row in others.filter(|row| !row.is_empty()) {
             let factor = std::mem::take(&mut row[k]);

@@ -1,12 +1,13 @@
-//! Random towers and walls with small stones on, beside and in them, the same for the same number.
+//! Random towers and walls with small stones on them, next to them and in them. Each number always gives the same
+//! scene.
 //!
-//! All corners are binary fractions in a frame turned by a Pythagorean angle, so that bodies touch to the last bit.
+//! All corners are binary fractions, in axes that may be turned by a Pythagorean angle, so bodies touch exactly.
 
 use serde_json::{Value, json};
 
 use crate::random::Random;
 
-/// Axes of whole length over 8; the last one is turned and not level.
+/// First axes of the piles: level (twice as often), and a slope of 3 in 4, which has length 5/8.
 const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
 
 struct Pile {
@@ -34,7 +35,7 @@ impl Pile {
     }
 }
 
-/// A scene file.
+/// The scene file of a number.
 pub fn scene(number: u64) -> Value {
     let mut chance = Random::new(number ^ 0x5a11);
     let along = chance.one_of(&AXES);
@@ -43,12 +44,12 @@ pub fn scene(number: u64) -> Value {
         blocks: Vec::new(),
     };
     let weight = |chance: &mut Random| chance.whole(1, 9) as f64;
-    // The lightest come to 10⁻¹² of the others.
+    // The lightest stones weigh 10⁻¹² times as much as bricks.
     let light = |chance: &mut Random| {
         let exponent = chance.one_of(&[0, 1, 2, 3, 4, 6, 8, 10, 12]);
         chance.whole(1, 9) as f64 * libm::exp10(-f64::from(exponent))
     };
-    // To a millionth of a brick.
+    // Sizes from 1 down to about a millionth.
     let binary = |chance: &mut Random| libm::exp2(-(chance.whole(0, 20) as f64));
     let courses = chance.whole(1, 6);
     let mut x = 0.0;
@@ -62,16 +63,16 @@ pub fn scene(number: u64) -> Value {
         pile.add(x, k as f64, 2.0, 1.0, own);
     }
     let top = courses as f64;
-    // Shares of a stone that lie beyond the edge.
+    // The part of a stone that lies beyond the edge.
     let shares = [0.25, 0.484375, 0.5, 0.515625, 0.5625, 0.75, 0.984375];
     for stone in 0..chance.whole(1, 2) {
         let (size, beyond) = (binary(&mut chance), chance.one_of(&shares));
         let own = light(&mut chance);
         match chance.whole(0, 4) {
-            // On the right edge of the top, or on the left for the second.
+            // The first stone on the right edge of the top, the second on the left edge.
             0 | 1 if stone == 0 => pile.add(x + 2.0 - size * (1.0 - beyond), top, size, size, own),
             0 | 1 => pile.add(x - size * beyond, top, size, size, own),
-            // In a joint between two bricks on the top course, resting or lifted, perhaps with a brick above.
+            // In a joint between two bricks on the top course, resting on it or lifted, perhaps with a brick above.
             2 if stone == 0 => {
                 let gap = size.min(0.25);
                 pile.add(x, top, 0.75, 0.5, weight(&mut chance));
@@ -83,7 +84,7 @@ pub fn scene(number: u64) -> Value {
                 }
                 break;
             }
-            // Under a brick as one of its supports.
+            // One of two supports of a brick.
             3 if stone == 0 => {
                 let height = size.min(0.5);
                 pile.add(x + 0.125, top, height, height, own);
@@ -93,7 +94,7 @@ pub fn scene(number: u64) -> Value {
                 pile.add(x + reach - 0.5, top + height, 2.0, 1.0, weight(&mut chance));
                 break;
             }
-            // Beside a post of the ground, touching its side and nothing else, or standing on the floor as well.
+            // Next to a post of ground. The stone touches only the side of the post, or stands on the floor as well.
             _ => {
                 let y = chance.one_of(&[0.0, 0.25, 0.5]);
                 pile.add(-8.0 - size, y, size, size, own);
@@ -101,7 +102,7 @@ pub fn scene(number: u64) -> Value {
         }
     }
     let mut ground = vec![json!({ "polygon": pile.outline(-16.0, -1.0, 32.0, 1.0) })];
-    // What stones beside are laid against.
+    // The post.
     ground.push(json!({ "polygon": pile.outline(-8.0, 0.0, 1.0, 2.0) }));
     let friction = chance.one_of(&[0.0, 0.25, 0.5, 0.75, 0.7499, 0.7501, 1.0, 3.0]);
     let kernel = chance.one_of(&[0.0, 0.0, 0.2]);

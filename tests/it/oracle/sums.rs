@@ -1,6 +1,7 @@
-//! What sticks, in scenes whose weights span twelve decades: the sums of every component and of every block against exact ones.
+//! Compares the sums of force and of sticking of each component and each block with exact sums.
 //!
-//! A scene has one to three piles that do not touch each other. Each stone weighs 10⁻⁶ to 10⁶ N, whatever lies below it.
+//! The weights span thirteen orders of magnitude: each stone weighs about 10⁻⁶ to 10⁷ N, whatever lies below it. Half
+//! of the scenes have one to three piles that do not touch each other; the others are those of `random`.
 
 use drystone::Analysis;
 use drystone::analysis::{Failure, FrameAnalysis, Verdict};
@@ -12,24 +13,24 @@ use super::balance::{Balance, Sum};
 use super::{number_of, random, touch};
 use crate::random::Random;
 
-/// What is allowed between a sum and the exact one, in parts of the exact one.
+/// The allowed error of a sum, relative to the exact sum.
 const SUM: f64 = 1e-6;
 
-/// What is allowed in parts of the heaviest weight besides: forces as large are rounded to this.
+/// An additional allowed error, relative to the heaviest weight: the rounding error of forces of that size.
 const ROUNDED: f64 = f64::EPSILON;
 
-/// What is allowed between the sum on a block and the exact ones, in parts of its weight.
+/// The allowed error of the sum on a block, relative to the weight of the block.
 const BLOCK: f64 = 1e-6;
 
-/// Axes of whole length over 8: level, and a slope of 3 in 4.
+/// First axes of the piles: level (twice as often), and a slope of 3 in 4, which has length 5/8.
 const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
 
-/// A scene file, and whether a floating-point number holds its corners to the last bit.
+/// A scene file, and whether floating-point numbers represent its corners exactly.
 fn scene(number: u64) -> (Value, bool) {
     if number.is_multiple_of(2) {
         return (piles(number), true);
     }
-    // Every other scene is one of the everyday kinds with other weights.
+    // The scenes with odd numbers are those of `random` with other weights.
     let (kind, mut file) = random::scene(number / 2);
     let mut chance = Random::new(number ^ 0x00c0_ffee);
     for block in file["blocks"].as_array_mut().into_iter().flatten() {
@@ -58,7 +59,7 @@ fn piles(number: u64) -> Value {
     let mut ground = vec![json!({ "polygon": outline(-16.0, -1.0, 112.0, 1.0) })];
     for pile in 0..chance.whole(1, 3) {
         let mut x = 32.0 * pile as f64;
-        // Some piles are of one size, some of all sizes.
+        // In some piles all weights have one exponent, in others each stone has its own.
         let own = chance.whole(-6, 6);
         let mixed = chance.percent(70);
         let mut add = |x: f64, y: f64, width: f64, height: f64, chance: &mut Random| {
@@ -82,12 +83,12 @@ fn piles(number: u64) -> Value {
             }
         }
         match chance.whole(0, 3) {
-            // A post of the ground beside the lowest brick, with a stone in between.
+            // A post of ground next to the lowest brick, with a stone between them.
             0 => {
                 ground.push(json!({ "polygon": outline(foot - 2.0, 0.0, 1.0, 2.0) }));
                 add(foot - 1.0, 0.25, 1.0, 0.5, &mut chance);
             }
-            // A stone on the edge of the top.
+            // A stone on the edge of the top brick.
             1 => add(x + 1.75, courses as f64, 0.5, 0.5, &mut chance),
             _ => {}
         }
@@ -104,7 +105,7 @@ fn blocks_of(bodies: &[BodyId]) -> Vec<usize> {
     blocks.collect()
 }
 
-/// The size of a failure, and the blocks it acts on.
+/// The magnitude of a failure, and the blocks on which it acts.
 fn size(failure: &Failure, length: f64) -> (f64, Vec<usize>) {
     match failure {
         Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
@@ -116,7 +117,7 @@ fn size(failure: &Failure, length: f64) -> (f64, Vec<usize>) {
     }
 }
 
-/// What is wrong with the sums of a scene, and the worst relative error of a component's sum.
+/// The errors in the sums of a scene, and the largest relative error of a component's sum.
 fn compared(scene: &Scene, exact: bool, closely: bool) -> (Vec<String>, f64) {
     let touches = match exact {
         true => touch::touches(scene),
@@ -147,7 +148,7 @@ fn compared(scene: &Scene, exact: bool, closely: bool) -> (Vec<String>, f64) {
     (wrong, worst)
 }
 
-/// Forces beyond the limits with which they are compared, to the last bit.
+/// Forces that exceed their limits, compared without a tolerance.
 fn beyond_limits(scene: &Scene, frame: &FrameAnalysis) -> Vec<String> {
     let mut beyond = Vec::new();
     for contact in &frame.contacts {
@@ -209,7 +210,7 @@ fn compare_group(
         true => (Sum::Forces, forces(frame)),
         false => (Sum::Sticking, failures),
     };
-    // Within the band of the proofs it may stand and be said to fall, or fall and be said to stand.
+    // Within the tolerance of the proofs the verdict may differ from the exact one.
     if stands != (stuck == 0.0) && group.is_borderline() {
         return;
     }
@@ -250,16 +251,16 @@ fn compare_group(
     }
 }
 
-/// Number and file of a scene, what is wrong with its sums, and the worst relative error.
+/// Number and file of a scene, the errors in its sums, and the largest relative error.
 type Comparison = (u64, Value, Vec<String>, f64);
 
-/// `DRYSTONE_ORACLE_SUMS=3000` looks at more of them, `DRYSTONE_ORACLE_FIRST` is the number of the first.
+/// `DRYSTONE_ORACLE_SUMS=3000` sets the number of scenes, `DRYSTONE_ORACLE_FIRST` the number of the first scene.
 #[test]
 #[expect(
     clippy::print_stdout,
     reason = "the counts are the result of a long run"
 )]
-fn what_sticks_is_exact_for_every_component_and_block_whatever_the_others_weigh() {
+fn force_and_sticking_of_each_component_and_block_are_exact_for_any_weights() {
     let wanted = number_of("DRYSTONE_ORACLE_SUMS", 100);
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
     let found: Vec<Option<Comparison>> = (first..first + wanted)
@@ -290,24 +291,24 @@ fn what_sticks_is_exact_for_every_component_and_block_whatever_the_others_weigh(
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
-/// What is wrong with a scene that was once summed wrongly, and its analysis.
+/// The errors in the sums of a scene, and its analysis.
 fn file(text: &str) -> (Vec<String>, Analysis) {
     let scene = Scene::from_json(text).expect("a sound scene");
     let (wrong, _) = compared(&scene, false, true);
     (wrong, Analysis::new(&scene))
 }
 
-/// Weights from 10⁻⁶ to 10⁵ N: the sum was once half of what it must be.
+/// Weights from 10⁻⁶ to 10⁵ N. The sum was once half of the exact sum.
 #[test]
 fn the_least_adhesion_of_eight_stones_of_eight_sizes_is_exact() {
     let (wrong, analysis) = file(include_str!("sticking-102485.json"));
     assert!(wrong.is_empty(), "{wrong:?}");
-    // The exact sum of the file is 0.0112868 N; corners moved by up to 6·10⁻⁷ m change it by less than a thousandth.
+    // The exact sum of the file is 0.0112868 N. Corners moved by up to 6·10⁻⁷ m change it by less than a thousandth.
     let told = analysis.frames[0].total_sticking;
     assert!((told - 0.0112868).abs() < 1e-3 * told, "{told}");
 }
 
-/// A stone of 1 N slides off one of 10⁶ N, which slides off a wall: both are listed.
+/// A stone of 1 N slides off a stone of 10⁶ N, which slides off a wall. Failures of both are listed.
 #[test]
 fn a_light_stone_that_slides_off_a_heavy_one_is_listed() {
     let (wrong, analysis) = file(include_str!("light-not-named.json"));
@@ -318,18 +319,18 @@ fn a_light_stone_that_slides_off_a_heavy_one_is_listed() {
         .filter(|(_, on)| on.contains(&1))
         .map(|(size, _)| size)
         .sum();
-    // By hand: a pull of 0.625 N and friction of 0.6875 N beyond half the pressure of 0.625 N.
+    // By hand: tension of 0.625 N, and 0.6875 N of friction beyond the limit.
     assert!((light - 1.3125).abs() < 1e-6, "{light}");
 }
 
-/// Robots whose torque was once a rounding above its limit.
+/// The torque of a robot was once above its limit by a rounding error.
 #[test]
-fn forces_stay_within_the_limits_with_which_they_are_compared() {
+fn reported_forces_never_exceed_their_limits() {
     let (wrong, _) = file(include_str!("limit-used-100031.json"));
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// A slope steeper than friction by a millionth: what lies below the two topmost blocks slides as well.
+/// The blocks below the two topmost blocks slide as well.
 #[test]
 fn on_a_slope_steeper_than_friction_by_a_millionth_all_that_slides_is_listed() {
     let (kind, file) = random::scene(140_829);
@@ -338,8 +339,8 @@ fn on_a_slope_steeper_than_friction_by_a_millionth_all_that_slides_is_listed() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// Pushes of 2·10⁻¹¹ and 4·10⁻¹¹ of the heaviest weight, on stones without friction. The first passes through two contacts, and one of
-/// them was missing: its force is far below the tolerance of the solver.
+/// Pushes of 2·10⁻¹¹ and 4·10⁻¹¹ of the heaviest weight, on stones without friction. The first push passes through
+/// two contacts. One of them was once missing, because its force is far below the tolerance of the solver.
 #[test]
 fn a_push_far_below_the_tolerance_of_the_solver_is_summed_at_every_contact_it_passes() {
     for number in [700_347, 701_523] {

@@ -1,24 +1,24 @@
-//! Where bodies touch, found with no tolerance at all: edges on one line to the last bit, facing, with a stretch in common.
+//! Finds contacts without any tolerance: edges that lie exactly on one line, face each other and overlap.
 
 use dashu_ratio::RBig;
 use drystone::internals::interface::Interfaces;
 use drystone::scene::{BlockId, Body, BodyId, Scene};
 
-/// A place or a direction, exactly.
+/// An exact point or vector.
 pub type Pair = [RBig; 2];
 
-/// A stretch of edge between a block and another body.
+/// A straight contact between a block and another body.
 #[derive(Clone, Debug)]
 pub struct Touch {
     pub on: usize,
-    /// The partner's number, `None` for the ground.
+    /// The number of the other block; `None` for the ground.
     pub from: Option<usize>,
-    /// The first body lies to the left of the way from the second end to the first.
+    /// The block `on` lies to the left of the direction from the second end to the first.
     pub ends: [Pair; 2],
     pub friction: f64,
 }
 
-/// A floating-point number as the fraction it is.
+/// A floating-point number as an exact fraction.
 pub fn exact(value: f64) -> RBig {
     RBig::try_from(value).expect("scenes hold finite numbers")
 }
@@ -39,7 +39,7 @@ pub fn dot(a: &Pair, b: &Pair) -> RBig {
     &a[0] * &b[0] + &a[1] * &b[1]
 }
 
-/// Corners of a body's outline, anticlockwise by its own area.
+/// The corners of a body's outline, anticlockwise by their signed area.
 pub fn corners(body: &Body) -> Vec<Pair> {
     let mut corners: Vec<Pair> = body
         .polygon
@@ -56,7 +56,7 @@ pub fn corners(body: &Body) -> Vec<Pair> {
     corners
 }
 
-/// Everything that touches exactly.
+/// All exact contacts.
 pub fn touches(scene: &Scene) -> Vec<Touch> {
     let blocks: Vec<Vec<Pair>> = scene.blocks().iter().map(|b| corners(&b.body)).collect();
     let ground: Vec<Vec<Pair>> = scene.ground().iter().map(|g| corners(&g.body)).collect();
@@ -92,7 +92,7 @@ pub fn touches(scene: &Scene) -> Vec<Touch> {
     found
 }
 
-/// Everything that touches as drystone found it, for lattices whose corners no floating-point number holds.
+/// The contacts that drystone found, for scenes whose corners are not exact in floating-point numbers.
 pub fn as_found(scene: &Scene) -> Vec<Touch> {
     let number = |body: BodyId| match body {
         BodyId::Block(BlockId(k)) => Some(k),
@@ -109,7 +109,7 @@ pub fn as_found(scene: &Scene) -> Vec<Touch> {
         .collect()
 }
 
-/// Common stretches of the edges of two outlines.
+/// The segments that the edges of two outlines have in common.
 fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
     let mut found = Vec::new();
     for i in 0..one.len() {
@@ -133,7 +133,7 @@ fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
     found
 }
 
-/// Stretches that continue each other along one line made one: a corner set into a straight edge changes nothing.
+/// Joins segments that continue each other on one line. A corner inside a straight edge changes nothing.
 fn joined(mut list: Vec<[Pair; 2]>) -> Vec<[Pair; 2]> {
     let follows = |a: &[Pair; 2], b: &[Pair; 2]| {
         let (u, v) = (minus(&a[1], &a[0]), minus(&b[1], &b[0]));

@@ -1,5 +1,6 @@
-//! What is said to stand only by wedging: every case that was ruled out has no solution in fractions either, and the cases
-//! leave nothing out. The rows are made here, from outlines and the law of the springs, and solved by the exact simplex.
+//! Checks the certificate that a structure stands only by wedging. The exact simplex finds every ruled-out case
+//! infeasible, and the cases together cover all patterns. The rows are built here from the contacts found and the law
+//! of the springs.
 
 use dashu_ratio::RBig;
 use drystone::analysis::{FrameAnalysis, Options, RuledOut, Slide};
@@ -11,14 +12,15 @@ use super::touch::exact;
 use crate::structure::scene;
 use crate::wedging::{bar_between_walls, h_model};
 
-/// Forces of more than so many times the weight of all are no rest of springs.
+/// The normal forces may sum to at most this many times the total weight.
 const FAR: i64 = 1_000_000;
 
-/// Entries of a row: unknowns and their factors.
+/// Entries of a row: unknowns and their coefficients.
 type Entries = Vec<(usize, RBig)>;
 
-/// A frame's springs as a linear program in the making: three velocities a block, forward and backward, then the normal
-/// force of every point, then every interface's friction, forward and backward.
+/// The linear program of a frame's springs. Its unknowns are the three velocities of each block, then the normal
+/// force at each point, then the friction of each interface. Velocities and friction have a positive and a negative
+/// part.
 struct Springs<'a> {
     scene: &'a Scene,
     frame: &'a FrameAnalysis,
@@ -49,7 +51,7 @@ impl<'a> Springs<'a> {
         vec![(first, by.clone()), (first + 1, -by.clone())]
     }
 
-    /// A unit force along a direction at a point of a contact, as (row of the balance, factor).
+    /// A unit force at a point of a contact, along its normal or its face, as (equilibrium row, coefficient).
     fn column(&self, contact: usize, point: usize, along_face: bool) -> Vec<(usize, RBig)> {
         let contact = &self.frame.contacts[contact];
         let normal = contact.interface.normal;
@@ -96,7 +98,7 @@ impl<'a> Springs<'a> {
         });
     }
 
-    /// The balance, the work of the loads, and forces of any size that matters.
+    /// The rows of all cases: equilibrium, work of the loads, and the bound on the normal forces.
     fn common(&mut self) {
         let mut balance: Vec<Entries> = vec![Vec::new(); 3 * self.scene.blocks().len()];
         for contact in 0..self.frame.contacts.len() {
@@ -136,7 +138,7 @@ impl<'a> Springs<'a> {
         self.row(sum, all, false);
     }
 
-    /// The law of the springs in one case.
+    /// The rows of the law of the springs in one case.
     fn law(&mut self, case: &RuledOut) {
         for contact in 0..self.frame.contacts.len() {
             let said = |point: usize| {
@@ -182,7 +184,8 @@ impl<'a> Springs<'a> {
                     self.row(entries, RBig::ZERO, true);
                 }
                 Some(slides) => {
-                    // Friction against the slip, and the slip at least what that would stretch its spring by.
+                    // Friction acts at its limit against the slip, and the slip is at least the friction force
+                    // divided by the stiffness 1.
                     let along = if slides == Slide::Forth { 1 } else { -1 };
                     let mut limit = self.friction(contact, &way(along));
                     limit.extend(whole.clone());
@@ -196,7 +199,7 @@ impl<'a> Springs<'a> {
     }
 }
 
-/// Which share of all patterns a case holds: half for each point, a third for each face.
+/// The share of all patterns that a case covers: a factor ½ for each point, ⅓ for each face.
 fn share(case: &RuledOut) -> RBig {
     let half = RBig::from_parts(1.into(), 2_u8.into());
     let third = RBig::from_parts(1.into(), 3_u8.into());
@@ -204,7 +207,7 @@ fn share(case: &RuledOut) -> RBig {
     case.faces.iter().fold(points, |s, _| s * &third)
 }
 
-/// Whether two cases say different things of a point or a face.
+/// Whether two cases exclude each other: they differ at some point or face.
 fn apart(one: &RuledOut, other: &RuledOut) -> bool {
     let points = one.points.iter().any(|a| {
         let same = |b: &&_| ends(a) == ends(b);
@@ -226,7 +229,7 @@ fn ends(point: &drystone::analysis::PointCase) -> (usize, usize) {
 }
 
 #[test]
-fn every_case_of_a_wedge_is_ruled_out_in_fractions_too() {
+fn the_exact_program_confirms_every_ruled_out_case_of_wedging() {
     let mut cases = 0;
     for file in [
         bar_between_walls(0.0, 0.7),
@@ -253,7 +256,7 @@ fn every_case_of_a_wedge_is_ruled_out_in_fractions_too() {
             assert!(!springs.program.is_feasible(), "{case:?}");
             cases += 1;
         }
-        // Without what the case says there is an answer: it is the case that is ruled out, not the balance.
+        // Without the rows of a case the program is feasible, so the cases are the reason for infeasibility.
         let mut springs = Springs::of(&scene, frame);
         springs.common();
         assert!(springs.program.is_feasible());
