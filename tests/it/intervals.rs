@@ -105,7 +105,7 @@ fn parts_whose_intervals_do_not_meet_stand_at_no_value() {
 
 /// About the edge of the pier, the moment of the counterweight must be at least that of the overhanging part.
 #[test]
-fn a_counterweight_is_needed_from_three_tenths() {
+fn a_plank_needs_three_tenths_of_its_counterweight() {
     let (file, margins) = known("plank");
     let exact = exact_interval(&file, Growing::ListedLoads).expect("it stands at some factor");
     assert!(exact[0] > 0.29 && exact[0] < 0.31, "{exact:?}");
@@ -128,7 +128,7 @@ fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
 
 /// Large polygons and a robot: the reported least friction used to be 0.3 % too high.
 #[test]
-fn the_least_friction_beside_robots_is_the_least() {
+fn the_least_friction_of_scenes_with_robots_is_exact() {
     for name in ["friction-margin-300084", "friction-margin-300297"] {
         let (file, margins) = known(name);
         let mut problems = Problems::default();
@@ -186,9 +186,9 @@ fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
     problems.of(number, file)
 }
 
-/// Parts that are independent, loads of both signs, counterweights, limited robots, and frames that fall as they are.
+/// Scenes with independent parts, loads of both signs, counterweights and limited robots; some of them are unstable.
 #[test]
-fn both_ends_are_those_of_an_exact_program() {
+fn both_ends_of_each_interval_agree_with_the_exact_program() {
     let first = number_of("DRYSTONE_INTERVAL_FIRST", 0);
     let wanted = number_of("DRYSTONE_INTERVAL_SCENES", 100);
     let found: Vec<String> = (first..first + wanted)
@@ -224,7 +224,7 @@ fn a_tilt_beyond_half_a_turn_is_as_exact_as_a_small_one() {
 /// and the verdicts used instead are true only to 10⁻⁷ of the forces. Three friction coefficients were up to 2·10⁻⁶
 /// too low, and two kernels 7·10⁻⁷ too high.
 #[test]
-fn friction_and_kernel_are_as_exact_as_the_program_where_roots_lie_beyond_the_end() {
+fn friction_and_kernel_are_exact_where_newtons_method_finds_no_root() {
     for number in [10711, 11445, 11776, 10944, 12008] {
         let found = problems(number);
         assert!(found.is_empty(), "{found:?}");

@@ -8,7 +8,7 @@ use drystone::scene::BlockId;
 use crate::lines::brought;
 use crate::pictures::{gallery, scene};
 
-/// An upright box: left, top, right, bottom.
+/// An axis-parallel box: left, top, right, bottom.
 pub(crate) type Box4 = [f64; 4];
 
 /// The inked area of a text: from the height of capitals to the baseline, and down to its descenders if it has any.
@@ -158,7 +158,7 @@ fn panels(drawing: &Drawing) -> Vec<&[Item]> {
 }
 
 #[test]
-fn names_and_amounts_lie_on_nothing_in_the_whole_gallery() {
+fn names_and_amounts_cover_nothing_in_the_gallery() {
     let mut count = 0;
     for amounts in [false, true] {
         let options = Options::default().amounts(amounts);
@@ -331,7 +331,7 @@ fn names(text: &str, name: &str) -> bool {
 }
 
 #[test]
-fn what_the_words_below_a_frame_name_is_labelled_and_what_is_not_is_counted() {
+fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
     let (mut named, mut counted) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::new(&scene);
@@ -428,7 +428,7 @@ fn around_a_block_its_neighbours_are_drawn_and_named() {
 }
 
 #[test]
-fn a_hidden_label_is_found() {
+fn the_measurement_finds_a_hidden_label() {
     let scene = scene("assets/thesis/figure-4.json");
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let mut items = panels(&drawing)[0].to_vec();

@@ -1,8 +1,8 @@
-//! The layers of the crate: each `crate::` path points to a module that the layer may use, and each foreign crate is used
-//! in one place only.
+//! The layers of the crate: each module uses only the modules that its layer may use, and each foreign crate is used
+//! only in its own places.
 //!
-//! The order of the layers is not written here. It is the order of the modules in each group's `mod.rs`, together with the
-//! order of the groups in [`GROUP_RULES`]. Source files are read as text without comments and strings, tests included.
+//! The order of the layers follows from the order of the modules in each group's `mod.rs` and from [`GROUP_RULES`].
+//! Source files, including their tests, are read as text without comments and strings.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -43,13 +43,14 @@ const GROUP_RULES: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Modules that a module may not use although they are listed before it: a proof must not trust what it proves.
+/// Modules that a module may not use although they are listed before it. A proof must not use the code that it
+/// checks.
 const FORBIDDEN: &[(&str, &[&str])] = &[("proof", &["program", "solve"])];
 
-/// Names that may be used everywhere: pages of documentation, and macros, which the language puts at the root.
+/// Names that may be used everywhere: the documentation pages, and macros, which Rust puts at the crate root.
 const EVERYWHERE: &[&str] = &["doc", "assert_scene", "assert_scenes", "assert_figure"];
 
-/// For each module of the crate the modules that it may use.
+/// For each module of the crate, the modules that it may use.
 struct Layers {
     allowed: BTreeMap<String, Vec<String>>,
 }
@@ -101,7 +102,7 @@ fn members_of(root: &Path, group: &str) -> Vec<String> {
         .collect()
 }
 
-/// Where a foreign crate may be named: files, or a whole module if the path ends in a slash.
+/// Where a foreign crate may be named: files, or a module with all its files if the path ends in a slash.
 const DOORS: &[(&str, &[&str])] = &[
     (
         "serde",

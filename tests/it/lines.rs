@@ -198,7 +198,7 @@ fn a_loaded_beam_has_no_line_along_its_soffit_and_shows_its_loads() {
     );
 }
 
-/// An amount with its unit as it is printed, in newtons.
+/// A printed amount with its unit, converted to newtons.
 fn newtons(words: &str) -> Option<f64> {
     let words = words.replace('\u{a0}', " ").replace('−', "-");
     let mut parts = words.split(' ');
@@ -227,7 +227,7 @@ fn long(outline: &Outline) -> f64 {
     let far = |p: &PagePoint| libm::hypot(p.x - tail.x, p.y - tail.y);
     let farthest = points.iter().map(far).fold(0.0, f64::max);
     let tip = far(&points[3]);
-    // No corner lies farther along than the tip.
+    // No corner lies clearly farther than the tip.
     assert!(farthest <= tip * 1.06, "{points:?}");
     tip
 }
@@ -308,7 +308,7 @@ fn all_text(group: &Group) -> Vec<&str> {
 }
 
 #[test]
-fn what_is_too_small_to_be_drawn_is_counted() {
+fn forces_too_small_to_be_drawn_are_counted() {
     for (name, scene) in gallery().into_iter().chain(brought()) {
         let analysis = Analysis::new(&scene);
         let options = Options::default();

@@ -1,4 +1,4 @@
-//! Margins: values known by hand or from the literature, and what every margin must obey.
+//! Margins: values known by hand or from the literature, and properties that every margin must have.
 
 use drystone::analysis::{
     EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
@@ -48,7 +48,7 @@ fn near(margin: &Margin, expected: f64, within: f64) {
     }
 }
 
-/// A right-angled wedge, tip down, in a notch whose faces rise at 60° to the left and at 30° to the right.
+/// A right-angled wedge, tip down, in a notch. The left face of the notch rises at 60°, the right one at 30°.
 fn wedge(friction: f64) -> Value {
     let (left, right) = (-1.0 / libm::sqrt(3.0), libm::sqrt(3.0));
     json!({ "drystone": 1, "friction": friction,
@@ -59,7 +59,7 @@ fn wedge(friction: f64) -> Value {
 /// Tilted to the right, the wedge leaves the left face and slides up the right one. This begins at a tilt of the
 /// slope of that face plus the friction angle.
 #[test]
-fn a_wedge_leaves_its_notch_at_the_slope_of_a_face_and_the_angle_of_friction() {
+fn a_wedge_leaves_its_notch_at_the_slope_of_a_face_plus_the_friction_angle() {
     for friction in [0.2, 0.5, 0.7] {
         let found = margins(&wedge(friction));
         let angle = libm::atan(friction).to_degrees();
@@ -129,7 +129,7 @@ fn a_load_grows_until_the_block_topples() {
     let found = margins(&file);
     // Moments about the left foot: 6·1 + λ·0.5·2 = λ·1·3.
     near(&found.load_factor, 3.0, 1e-7);
-    // 6·1 + 0.5·2 − 1·3 = h·6·1.5 to the left; to the right, about the right foot, 6·1 + 1·3 = h·6·1.5.
+    // To the left 6·1 + 0.5·2 − 1·3 = h·6·1.5. To the right, about the lower right corner, 6·1 + 1·3 = h·6·1.5.
     near(&found.horizontal_load.left, 4.0 / 9.0, 1e-7);
     near(&found.horizontal_load.right, 1.0, 1e-7);
     // Moments about the left foot: the turned weight gives 6 cos θ − 9 sin θ, and the loads need 1·3 − 0.5·2 = 2.
@@ -183,7 +183,7 @@ fn a_robot_needs_only_the_force_and_torque_of_its_block() {
 /// needed, and each margin is 0. The robots are split into two halves; each half holds the block without the other.
 /// So three verdicts settle all 120 limits.
 #[test]
-fn robots_that_do_not_matter_are_settled_in_groups() {
+fn robot_limits_that_may_be_zero_are_found_in_groups() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     let robot = |limit: f64| json!({ "holds": "a", "at": [0.5, 3.5], "limits": { "force": limit, "torque": 1 } });
     let asked = Options::default()
@@ -230,7 +230,7 @@ fn a_limited_robot_holds_up_to_the_tilt_of_its_first_limit() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     file["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
-    // sin θ · 8 = 4.
+    // 8 sin θ = 4.
     near(&margins(&file).tilt.right, 30.0, 1e-5);
     near(&margins(&file).tilt.left, 30.0, 1e-5);
     file["robots"][0]["limits"] = json!({ "force": 8 });
@@ -276,7 +276,7 @@ fn a_squeezed_block_needs_almost_no_friction() {
 }
 
 #[test]
-fn a_frame_is_as_good_as_its_worst_group() {
+fn the_margin_of_a_frame_is_that_of_its_worst_group() {
     let tower = |height: f64| {
         on_floor(
             0.9,
@@ -337,7 +337,7 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
 /// On a slope steeper than its friction angle the block falls as it is. With gravity turned towards the slope it
 /// would stand.
 #[test]
-fn a_block_that_falls_unturned_has_no_tilt_though_it_would_stand_turned() {
+fn a_block_that_falls_has_no_tilt_margin_even_if_it_would_stand_tilted() {
     let file = on_slope(30.0, 4.0, 0.5, 0.3, 0.0);
     let found = margins(&file);
     assert_eq!(found.tilt.left, Margin::None);
@@ -350,7 +350,7 @@ fn a_block_that_falls_unturned_has_no_tilt_though_it_would_stand_turned() {
 
 /// Margins of the scenes of the thesis, checked by analysing changed scene files.
 #[test]
-fn just_inside_it_stands_and_just_beyond_it_falls() {
+fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
     let mut asked = 0;
     for name in [
@@ -421,7 +421,7 @@ fn judged(frame: &FrameAnalysis) -> usize {
 /// A result of one program is confirmed by its own forces and motion, and a search takes about one step for each one
 /// or two digits. So few changed frames are analysed.
 #[test]
-fn few_changed_frames_are_judged_for_a_margin() {
+fn a_margin_needs_few_verdicts_of_changed_frames() {
     for (file, most) in [(wall(8, 8), 6), (arch(31, 0.3, 0.7), 60)] {
         let frame = frames(&scene(&file)).remove(0);
         let judged = judged(&frame);

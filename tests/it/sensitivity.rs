@@ -1,4 +1,4 @@
-//! Derivatives of margins against central differences of scenes that are changed and analysed again.
+//! Compares derivatives of margins with central differences, for which scenes are changed and analysed again.
 
 use drystone::analysis::{
     CornerMoves, EndSensitivity, MarginKind, NoSensitivity, Options, Sensitivity, Slope,
@@ -27,7 +27,7 @@ fn end(file: &Value, kind: MarginKind, is_high: bool) -> Result<EndSensitivity, 
     if is_high { found.high } else { found.low }
 }
 
-/// A number in a scene file that is changed: `None` if the margin is absent in the changed file.
+/// A number in a scene file that is changed. Its methods return `None` if the changed file has no such margin.
 #[derive(Clone, Copy)]
 struct Change<'a> {
     file: &'a Value,
@@ -80,7 +80,7 @@ fn polygons(file: &Value) -> Vec<(&'static str, usize, Vec<[f64; 2]>)> {
     all
 }
 
-/// Moves the corners at a place, and those that lie on an edge which turns with it, found by relaxation.
+/// Moves the corners at a point, and by iteration the corners that lie on edges which turn with it.
 fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
     let all = polygons(file);
     let points: Vec<[f64; 2]> = all.iter().flat_map(|p| p.2.clone()).collect();
@@ -89,7 +89,8 @@ fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
         .iter()
         .map(|p| if near(*p, at) { by } else { [0.0; 2] })
         .collect();
-    // Each corner inside an edge of another body: the corner, the edge's ends, its share and its normal.
+    // For each corner inside an edge of another body: the corner, the ends of the edge, the position along it and its
+    // normal.
     let mut guides = Vec::new();
     let mut first = 0;
     for (.., ring) in &all {
@@ -139,7 +140,7 @@ fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
     }
 }
 
-/// How the comparison of one scene went.
+/// The counts of the comparison of one scene.
 #[derive(Default, Debug)]
 pub struct Tally {
     pub slopes: usize,
@@ -184,7 +185,7 @@ impl Tally {
                 }
             }
             Slope::OneSided { backward, forward } => {
-                // Very close to a kink the state at the end may not be computed.
+                // Very close to a kink, the state at the end may be unavailable.
                 let fine = Change {
                     step: change.step / 16.0,
                     ..*change
@@ -338,15 +339,15 @@ fn loaded_arch(count: usize, thickness: f64, friction: f64, loaded: usize, weigh
         "loads": [{ "block": format!("v{loaded}"), "force": [0, -1], "at": middle }] })
 }
 
-/// The arch that was computed before this program had derivatives: 15 voussoirs, thickness 0.2, friction 0.6, a load
-/// on voussoir 4 (from 0) in the middle of its outer side. Its load factor is 0.4692019.
+/// An arch of 15 voussoirs, thickness 0.2 and friction 0.6. The load is in the middle of the outer side of voussoir 4
+/// (counted from 0). Its load factor, 0.4692019, was known before this program computed derivatives.
 #[test]
-fn the_slopes_of_a_loaded_arch_are_those_of_central_differences() {
+fn the_derivatives_of_a_loaded_arch_equal_central_differences() {
     let file = loaded_arch(15, 0.2, 0.6, 4, &json!({ "density": 1 }));
     let found = end(&file, MarginKind::LoadFactor, true).expect("a largest factor");
     assert!((found.value - 0.469_201_9).abs() < 5e-8, "{}", found.value);
     let tally = compared(&file, MarginKind::LoadFactor, true, 1).expect("it has an end");
-    // 28 corners of 14 joints, and the four of the springings, along x and y.
+    // The corners of 14 joints and of the two springings: 32 corners, each along x and y.
     assert!(tally.wrong.is_empty(), "{:?}", tally.wrong);
     assert_eq!((tally.kinks, tally.one_sided, tally.skipped), (0, 0, 0));
     assert_eq!(tally.slopes, 64 + 15 + 2 + 1);
@@ -442,7 +443,7 @@ fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
     clippy::print_stdout,
     reason = "the counts are the result of a long run"
 )]
-fn slopes_of_random_scenes_are_those_of_differences() {
+fn the_derivatives_of_random_scenes_equal_central_differences() {
     let first = number_of("DRYSTONE_SENSITIVITY_FIRST", 1);
     let wanted = number_of("DRYSTONE_SENSITIVITY_SCENES", 30);
     let every = number_of("DRYSTONE_SENSITIVITY_EVERY", 5) as usize;

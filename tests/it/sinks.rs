@@ -409,9 +409,9 @@ const WRITERS: &[(&str, &[&str])] = &[
             "output/svg.rs",
             // Inserts the name space into a finished chart.
             "report/entry/part.rs",
-            // Refuses a script that would end its own element; writes nothing.
+            // Refuses a script that would close its own element; it writes nothing.
             "cli/report/interactive.rs",
-            // Draws the bar of a margin into a cell of a table.
+            // Draws the bar of a margin in a table cell.
             "report/print/table.rs",
             "output/svg/",
             "output/tree.rs",
@@ -424,7 +424,7 @@ const WRITERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("fs::write", &[]),
-    // A batch grows line by line, so that an interrupted run can go on.
+    // The output of `batch` grows line by line, so that an interrupted run can be resumed.
     (
         "File::create",
         &["cli/batch/output.rs", "cli/batch/resume.rs"],
@@ -438,7 +438,7 @@ const WRITERS: &[(&str, &[&str])] = &[
 ];
 
 #[test]
-fn nothing_is_written_but_by_the_writers_of_this_table() {
+fn only_the_listed_files_write_output() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     collect(&root, &mut files);

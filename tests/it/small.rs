@@ -19,7 +19,7 @@ const FALLS: Verdict = Verdict::Unstable;
 /// Ten scene files whose verdicts were found by hand. A pebble falls if its centre of gravity lies beyond its
 /// support, if the slope is steeper than its friction coefficient, or if it only touches the side of a wall.
 #[test]
-fn ten_cases_with_answers_by_hand() {
+fn ten_small_stones_have_the_verdicts_known_by_hand() {
     let cases = [
         (include_str!("small/beside-0.json"), FALLS),
         (include_str!("small/light-10.json"), FALLS),
@@ -56,7 +56,7 @@ fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
 /// Stones from 1 m to 10⁻⁶ m, weights down to about 10⁻¹² of a brick's, towers of 1 to 30 bricks, upright and rotated
 /// by odd angles. The verdict depends only on which side of the edge the stone's centre of gravity lies.
 #[test]
-fn stones_on_towers() {
+fn a_stone_on_a_tower_falls_where_its_centre_of_gravity_is_beyond_the_edge() {
     for bricks in [1, 2, 3, 5, 10, 20, 30] {
         for size in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for (beyond, expected) in [
@@ -295,7 +295,7 @@ fn light_stones_on_slopes() {
 /// Pinning stones in the gaps of a wall stand as long as they rest on the course below. A stone that only touches the
 /// sides of two bricks falls, however small it is.
 #[test]
-fn pinning_stones_in_the_joints_of_a_wall() {
+fn small_stones_in_the_joints_of_a_wall_stand_unless_they_are_lifted() {
     for size in [0.1, 0.01, 0.001] {
         for courses in [2, 6] {
             let mut blocks = Vec::new();
@@ -344,7 +344,7 @@ fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
     };
     let ([ax, ay], [bx, by]) = (corner(edge)?, corner(edge + 1)?);
     let (along, out) = ([bx - ax, by - ay], [by - ay, ax - bx]);
-    // Outlines here run anticlockwise: outward is to the right.
+    // Outlines run anticlockwise here, so the outside is on the right.
     if out[1] > 0.0 {
         return None;
     }
@@ -362,7 +362,7 @@ fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
     ]))
 }
 
-/// Adding a falling pebble of any size anywhere makes any standing structure fall.
+/// A stable structure becomes unstable if an unsupported pebble of any size is added anywhere.
 #[test]
 fn a_falling_pebble_makes_any_structure_fall() {
     let mut chance = Random::new(2024);

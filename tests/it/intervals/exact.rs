@@ -1,4 +1,4 @@
-//! Computed intervals against an exact program.
+//! Compares computed intervals with an exact program.
 
 use dashu_ratio::RBig;
 use drystone::Scene;
@@ -15,7 +15,7 @@ fn exact_scene(file: &Value) -> Scene {
     Scene::from_json(&file.to_string()).expect("a changed scene is sound")
 }
 
-/// Whether a changed file stands, exactly.
+/// Whether a changed file stands, by the exact program.
 fn stands(file: &Value) -> bool {
     let scene = exact_scene(file);
     let touches = touches(&scene);
@@ -24,7 +24,7 @@ fn stands(file: &Value) -> bool {
         .all(Balance::stands)
 }
 
-/// The exact interval of a whole scene.
+/// The exact interval of a scene, with all its groups.
 pub(super) fn exact_interval(file: &Value, growing: Growing) -> Option<[f64; 2]> {
     let scene = exact_scene(file);
     let touches = touches(&scene);
@@ -65,7 +65,7 @@ fn turned(file: &Value, degrees: f64) -> Value {
     changed
 }
 
-/// An interval of a parameter in which the loads are linear, against the exact one.
+/// Compares the interval of a parameter on which the loads depend linearly with the exact interval.
 pub(super) fn check_linear(
     name: &str,
     file: &Value,
@@ -76,10 +76,10 @@ pub(super) fn check_linear(
     compare(name, found, exact_interval(file, growing), NONE, problems);
 }
 
-/// Up to which an end counts as 0: the band within which verdicts are true.
+/// An end up to this value counts as 0. It is the tolerance of the verdicts.
 pub(super) const NONE: f64 = 1e-7;
 
-/// An interval against the exact one. `none` is the size up to which an end counts as 0.
+/// Compares an interval with the exact interval. An end up to `none` counts as 0.
 pub(super) fn compare(
     name: &str,
     found: &Option<Interval>,
@@ -104,18 +104,18 @@ pub(super) fn compare(
                 }
             }
         }
-        // Within the band of the proofs a point that is left over is one or none.
+        // Within the tolerance of the proofs, an interval of one point may also be empty.
         (Ok(Some([low, high])), None) if high - low <= (1e-6 * high.abs()).max(none) => {}
         (Ok(None), Some([low, high])) if high - low <= (1e-6 * high.abs()).max(none) => {}
         (found, exact) => problems.push(format!("{name} {found:?}, exactly {exact:?}")),
     }
 }
 
-/// What is wrong with the intervals of a scene.
+/// The errors in the intervals of a scene.
 #[derive(Default)]
 pub(super) struct Problems {
     pub(super) list: Vec<String>,
-    /// Whether verdicts are true within their band only, as where a load is as slight as the band.
+    /// Whether the tolerance of the verdicts is allowed, for example because a load is as small as this tolerance.
     pub(super) has_band: bool,
 }
 
@@ -124,7 +124,7 @@ impl Problems {
         self.list.push(problem);
     }
 
-    /// All of them with the number of the scene, and the scene.
+    /// All errors with the number of the scene, followed by the scene.
     pub(super) fn of(mut self, number: u64, file: &Value) -> Vec<String> {
         if !self.list.is_empty() {
             self.push(file.to_string());
@@ -134,7 +134,7 @@ impl Problems {
     }
 }
 
-/// Whether a changed file stands or falls by less than the band of the verdicts.
+/// Whether a changed file is within the tolerance of its limit.
 pub(super) fn is_borderline(file: &Value) -> bool {
     let scene = exact_scene(file);
     let touches = touches(&scene);
@@ -142,7 +142,7 @@ pub(super) fn is_borderline(file: &Value) -> bool {
     groups.iter().any(Balance::is_borderline)
 }
 
-/// What must stand or fall, and does not.
+/// Adds a problem if a changed file does not stand or fall as expected.
 fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
     if stands(file) != standing && !(problems.has_band && is_borderline(file)) {
         let word = if standing { "falls" } else { "stands" };
@@ -152,8 +152,8 @@ fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
 
 /// The tolerance of an end of friction, kernel or limit, relative to the end.
 const RELATIVE_TOL: f64 = 1e-6;
-/// The absolute tolerance of such an end: friction and kernel change the forces by shares of the loads, and verdicts are
-/// true to this share of the loads.
+/// The absolute tolerance of such an end. Friction and kernel change the forces in proportion to the loads, and
+/// verdicts are true to this share of the loads.
 const ABSOLUTE_TOL: f64 = 1e-7;
 
 pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {
@@ -266,7 +266,7 @@ pub(super) fn check_tilt(
                     );
                 }
             }
-            // Nothing nearer to 0 stands where 0 does not.
+            // If the interval excludes 0, the scene must fall at every tilt smaller than its nearer end.
             let nearest = if low > 0.0 { low } else { -high };
             for _ in 0..4 {
                 let turn = (nearest - OFF) * (2.0 * chance.share() - 1.0);

@@ -1,11 +1,11 @@
-//! Random scenes of one to three parts, each on ground of its own.
+//! Random scenes of one to three parts, each on separate ground.
 
 use serde_json::{Value, json};
 
 use crate::random::Random;
 use crate::structure::{block, rectangle};
 
-/// A scene of one to three parts, each on ground of its own.
+/// A scene of one to three parts, each on separate ground.
 pub(super) fn random_scene(number: u64) -> Value {
     let mut chance = Random::new(0x1a7e_0000 + number);
     let mut file = json!({ "drystone": 1, "ground": [], "blocks": [], "robots": [], "loads": [] });

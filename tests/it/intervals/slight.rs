@@ -1,7 +1,7 @@
-//! Intervals where the loads are far smaller or far larger than the weights.
+//! Intervals of scenes whose loads are far smaller or far larger than the weights.
 //!
-//! A factor on loads that are a millionth as large is a million times as large: the exact interval of the scene with its
-//! ordinary loads gives that of the changed one.
+//! If the loads of a scene are a million times smaller, the ends of its load factor are a million times larger. So
+//! the exact interval of the original scene gives that of the changed scene.
 
 use drystone::Scene;
 use drystone::analysis::{End, Interval};
@@ -17,7 +17,7 @@ use crate::oracle::factor::Growing;
 use crate::oracle::number_of;
 use crate::random::Random;
 
-/// The file with all its loads times a factor.
+/// The file with all its loads multiplied by a factor.
 fn scaled(file: &Value, by: f64) -> Value {
     let mut changed = file.clone();
     for load in changed["loads"].as_array_mut().into_iter().flatten() {
@@ -31,11 +31,12 @@ fn scaled(file: &Value, by: f64) -> Value {
     changed
 }
 
-/// What rounding may do to an end, in parts of the loads.
+/// The rounding error of an end, relative to the loads.
 const ROUNDING: f64 = 1e-12;
 
-/// An interval against the exact one. Within the band of the verdicts (`none`, in units of the parameter) an end may be
-/// off to the safe side only, or withheld between two values with the exact end in between.
+/// Compares an interval with the exact interval. An end may lie inside the exact interval by up to `none`, the
+/// tolerance of the verdicts in units of the parameter. Or it may be unconfirmed between two values that enclose the
+/// exact end.
 fn compare_safely(
     name: &str,
     file: &Value,
@@ -48,7 +49,7 @@ fn compare_safely(
         let is_right = match (found, exact) {
             (Some(Interval::Empty(_)), None) => true,
             (Some(Interval::Empty(_)), Some([low, high])) => high - low <= none,
-            // Within the band of the verdicts it stands, or whether it does is not stated.
+            // The scene is within the tolerance of its limit.
             (Some(_), _) => is_borderline(file),
             (None, _) => false,
         };
@@ -73,7 +74,7 @@ fn compare_safely(
     if both { None } else { wrong() }
 }
 
-/// What is wrong with the intervals of a scene whose loads are multiplied by a power of two.
+/// The errors in the intervals of a scene whose loads are multiplied by a power of two.
 fn problems(number: u64) -> Vec<String> {
     let given = random_scene(number);
     let power = [-24, -20, -17, -12, 12, 20][number as usize % 6];
@@ -86,17 +87,17 @@ fn problems(number: u64) -> Vec<String> {
         ..Problems::default()
     };
     if !scene.loads().is_empty() {
-        // In units of the ordinary loads.
+        // The exact ends of the changed scene.
         let ordinary = |end: f64| end / by;
         let exact = exact_interval(&given, Growing::ListedLoads);
         let exact = exact.map(|ends| ends.map(ordinary));
-        // The weights are up to 36 times the ordinary loads.
+        // The weights are up to 36 times the original loads.
         let band = [36.0 * NONE / by, ROUNDING / by];
         let wrong = compare_safely("load factor", &file, &found.load_factor, exact, band);
         problems.list.extend(wrong);
     }
     let (across, share) = (Growing::AcrossGravity, &found.horizontal_load);
-    // Weights far below the loads are balanced to the digits of the loads.
+    // If the weights are far below the loads, the error is relative to the loads.
     let exact = exact_interval(&file, across);
     let band = match by > 1.0 {
         true => [NONE * by, ROUNDING * by],
@@ -111,9 +112,9 @@ fn problems(number: u64) -> Vec<String> {
     problems.of(number, &file)
 }
 
-/// `DRYSTONE_INTERVAL_SLIGHT=600` looks at more of them.
+/// `DRYSTONE_INTERVAL_SLIGHT=600` sets the number of scenes.
 #[test]
-fn loads_far_smaller_and_larger_than_weights_have_exact_intervals() {
+fn intervals_are_exact_if_loads_are_far_smaller_or_larger_than_weights() {
     let first = number_of("DRYSTONE_INTERVAL_FIRST", 0);
     let wanted = number_of("DRYSTONE_INTERVAL_SLIGHT", 36);
     let numbers = (first..first + wanted).into_par_iter();
@@ -126,17 +127,17 @@ fn loads_far_smaller_and_larger_than_weights_have_exact_intervals() {
     );
 }
 
-/// A factor that must be 0 was 10⁻⁶ or withheld, since a verdict may be stable just beyond it. The exact program knew no end beyond
-/// 10⁷, and no band.
+/// A load factor that must be 0 was once 10⁻⁶ or withheld, because a verdict may be stable just beyond 0. The exact
+/// program had then a limit of 10⁷ and no tolerance.
 #[test]
-fn slight_loads_that_nothing_may_carry_have_a_factor_of_zero() {
+fn very_small_loads_that_cannot_be_carried_have_a_load_factor_of_zero() {
     for number in [50069, 50118, 50214, 50274, 50293, 50297] {
         let found = problems(number);
         assert!(found.is_empty(), "{found:?}");
     }
 }
 
-/// The counterweight of the plank in units of a micronewton: a factor of 9·10⁹ once counted as none.
+/// The counterweight of the plank is divided by up to 10¹². A load factor of 9·10⁹ once counted as unbounded.
 #[test]
 fn a_counterweight_given_as_a_tiny_load_is_found() {
     let (file, margins) = known("plank");
