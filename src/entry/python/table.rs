@@ -1,4 +1,4 @@
-//! [`Table`]: results as a table for Python, which gets the columns as bytes for numpy, or the table as an Arrow C
+//! [`Table`]: results as a table for Python: either columns for numpy (numbers as bytes, texts as a list), or an Arrow C
 //! stream.
 
 use std::sync::Arc;

@@ -162,7 +162,7 @@ fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
         .collect()
 }
 
-/// Returns the mean of the smallest and the largest of the coordinates, metres.
+/// Returns the mean of the smallest and the largest coordinate, in metres.
 fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
     let least = places.clone().fold(f64::INFINITY, f64::min);
     0.5 * (least + places.fold(f64::NEG_INFINITY, f64::max))

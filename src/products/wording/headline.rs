@@ -64,6 +64,10 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
 /// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and horizontal
 /// load, it describes the end of the interval that is nearest to 0.
 fn reserve(margin: &StatedMargin<'_>) -> String {
+    if matches!(margin.interval, Interval::Undecided) {
+        return format!("It stands; {}: {}", margin.name, margin.stands());
+    }
+    let is_open = |end: Option<&End>| matches!(end, Some(End::Unconfirmed { .. }));
     let nearest = || {
         let ends = [
             (margin.interval.low(), "left"),
@@ -71,22 +75,22 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         ];
         let known = ends
             .into_iter()
-            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side)));
+            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side, at_least(is_open(end)))));
         known.min_by(|a, b| a.0.total_cmp(&b.0))
     };
     match margin.parameter {
         Parameter::Tilt => match nearest() {
-            Some((angle, side)) => {
+            Some((angle, side, at_least)) => {
                 format!(
-                    "It stands until gravity turns {}° to the {side}",
+                    "It stands{at_least} until gravity turns {}° to the {side}",
                     three_down(angle)
                 )
             }
             None => "It stands however far gravity turns".to_owned(),
         },
         Parameter::HorizontalLoad => match nearest() {
-            Some((share, side)) => format!(
-                "It stands until a horizontal force of {} times its weight pushes it to the {side}",
+            Some((share, side, at_least)) => format!(
+                "It stands{at_least} until a horizontal force of {} times its weight pushes it to the {side}",
                 three_down(share)
             ),
             None => "It stands under a horizontal force of any multiple of its weight".to_owned(),
@@ -94,7 +98,8 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         Parameter::Friction => match margin.interval.low().and_then(confirmed) {
             Some(least) if least > 0.0 => {
                 format!(
-                    "It stands down to a friction coefficient of {}",
+                    "It stands{} down to a friction coefficient of {}",
+                    at_least(is_open(margin.interval.low())),
                     three_up(least)
                 )
             }
@@ -108,6 +113,11 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
     }
 }
 
+/// Returns ` at least` for an end that is not confirmed: the structure may stand beyond it.
+fn at_least(is_open: bool) -> &'static str {
+    if is_open { " at least" } else { "" }
+}
+
 fn falls(margin: &StatedMargin<'_>) -> String {
     let low = margin.interval.low().and_then(confirmed);
     match (margin.parameter, low) {
@@ -119,5 +129,36 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             "It falls whatever the friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wording::margin::Position;
+
+    /// An interval that no verdict shows is not an interval without end.
+    #[test]
+    fn the_headline_of_an_undecided_margin_states_no_limit_and_no_lack_of_limits() {
+        let parameters = [
+            Parameter::Tilt,
+            Parameter::HorizontalLoad,
+            Parameter::Friction,
+            Parameter::Kernel,
+        ];
+        for parameter in parameters {
+            let margin = StatedMargin {
+                parameter,
+                name: "parameter".to_owned(),
+                interval: &Interval::Undecided,
+                present: Some((0.0, 0.0)),
+                position: Position::Inside,
+            };
+            assert_eq!(
+                headline(&margin, Verdict::Stable, 0),
+                "It stands; parameter: no verdict shows at which values it stands"
+            );
+            assert_eq!(margin.reserve(), 1.0, "another margin comes first");
+        }
     }
 }

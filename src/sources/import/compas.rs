@@ -108,7 +108,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Returns a message that names the first block that is not a prism across any coordinate plane. If there is no such
+/// Returns a message that names the first block that is not a prism perpendicular to any coordinate plane. If there is no such
 /// block, the message says that the blocks are prisms across different planes.
 fn not_prismatic(solids: &[AssemblyBlock]) -> String {
     let odd = solids
@@ -116,8 +116,8 @@ fn not_prismatic(solids: &[AssemblyBlock]) -> String {
         .find(|s| PLANES.iter().all(|plane| prism(s, plane.1).is_none()));
     match odd {
         Some(solid) => format!(
-            "block {} is not a prism across one of the planes xz, yz and xy: no two of its faces lie in such a plane and have \
-             the same outline",
+            "block {} is not a prism perpendicular to one of the planes xz, yz and xy: exactly two of its faces must be \
+             parallel to this plane and have the same outline",
             crate::text::line(&solid.name)
         ),
         None => "its blocks are prisms, but across different planes".into(),

@@ -202,8 +202,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the derivatives for the corners of all placed blocks. `largest` is the largest derivative for any
-    /// corner.
+    /// Returns the derivatives of the margin with respect to the positions of the corners of all placed blocks. `largest`
+    /// is the largest absolute value of these derivatives.
     fn corners(&self, slope: &SlopeOf<'_>, largest: f64) -> Vec<CornerSlope> {
         let corners = self.corners;
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); corners.count];

@@ -64,7 +64,7 @@ impl Slope {
     }
 }
 
-/// Derivatives count as equal if they differ by less than this fraction of the largest derivative of the same kind.
+/// Derivatives count as equal if they differ by at most this fraction of the largest derivative of the same kind.
 const EQUAL_SLOPE_TOL: f64 = 1e-7;
 
 /// The derivatives of one component at one end, for every state there.
@@ -75,8 +75,9 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Returns the slope of one derivative, which `read` takes from [`Rates`]. `largest` is the largest derivative of
-    /// the same kind; the tolerance is relative to it.
+    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` takes the derivative
+    /// from the [`Rates`] of a state. Derivatives that differ by at most `EQUAL_SLOPE_TOL · largest` count as equal;
+    /// `largest` is the largest absolute derivative of the same kind.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
             return Slope::AtKink;

@@ -21,7 +21,8 @@ impl Resolution<'_> {
         !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
     }
 
-    /// Returns the valid contacts of those that the file lists. Reports the problems of all others.
+    /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A contact
+    /// with an invalid friction coefficient is reported and gets the friction coefficient of the scene.
     pub(super) fn contacts(
         &self,
         findings: &mut Findings,

@@ -1,4 +1,5 @@
-//! A primal-dual interior-point method for linear programs, on the homogeneous self-dual form.
+//! A primal-dual interior-point method for linear programs and for the program of least residual, on the homogeneous
+//! self-dual form.
 //!
 //! Unknowns are amounts f ≥ 0, velocities y, slacks z ≥ 0 and the pair τ, κ ≥ 0:
 //!

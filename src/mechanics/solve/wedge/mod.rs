@@ -1,5 +1,5 @@
-//! Checks whether forces that balance the loads build up from rest, or need a self-stress that the loads do not produce
-//! (wedging).
+//! Checks whether the loads alone, on a structure without initial stress, produce forces that balance them. If they do
+//! not, the structure stands only by a self-stress that the loads do not produce (wedging).
 //!
 //! Every application point gets a unilateral spring along the normal, and every interface a spring along its face. All
 //! springs are unstressed before the loads act; friction is Coulomb's. Robots may exert any force within their limits.

@@ -50,7 +50,8 @@ impl Palette {
         all.flatten().collect()
     }
 
-    /// Returns the palette index of each pixel of a patch, row by row.
+    /// Returns an index for each pixel of a patch, row by row: that of its colour in the palette, or [`UNCHANGED_INDEX`]
+    /// if the pixel does not change.
     pub fn indices(&self, patch: &Patch) -> Vec<u8> {
         let mut known = ([0; 3], None);
         let number = |(colour, changed): &([u8; 4], bool)| {

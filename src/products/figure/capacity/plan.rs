@@ -127,7 +127,7 @@ impl<'a> Plan<'a> {
             (MAX_POLYGON_SHARE * size / farthest, point)
         };
         let place = |force: &Vector| zero + force * scale;
-        let numbers = numbers(analysis, capacity);
+        let numbers = edges_with_pictures(analysis, capacity);
         let sides = sides(capacity, cut, &numbers, &place);
         let mut plan = Plan {
             capacity,
@@ -334,9 +334,9 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 /// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
 const UNBOUNDED_RATIO: f64 = 1e3;
 
-/// Returns the indices of the longest edges, which get small pictures, in ascending order. The list is empty if the
-/// analysis has several frames or many blocks.
-fn numbers(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
+/// Returns the indices of the polygon's edges that get a small picture: the longest edges, in ascending order. Unbounded
+/// edges count as the longest. The list is empty if the analysis has several frames or many blocks.
+fn edges_with_pictures(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
     let frames = analysis.scene.frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);
     if analysis.frames.len() > 1 || most > MAX_BLOCKS_WITH_PICTURES {

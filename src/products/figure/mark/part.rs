@@ -1,4 +1,5 @@
-//! [`parts`]: divides the force of an interface into the forces that are drawn as arrows.
+//! [`parts`]: the forces of an interface that are drawn as arrows: the resultant, or its normal and its friction
+//! component.
 
 use super::super::arrow::ArrowKind;
 use super::super::option::ForceStyle;

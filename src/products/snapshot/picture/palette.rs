@@ -132,8 +132,8 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Divides colours into at most `max` boxes of similar colours. The widest box is repeatedly cut in the middle of its
-/// widest channel.
+/// Divides colours into at most `max` boxes of similar colours. The box with the widest range of values in one channel
+/// is repeatedly cut at the middle of this range.
 fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];

@@ -135,13 +135,17 @@ impl StatedMargin<'_> {
     }
 
     /// Returns the relative distance of the present value from the nearest end of the interval, from 0 to 1. It is 0 if
-    /// the frame does not stand at the present value, and 1 if the interval has no end.
+    /// the frame does not stand at the present value, and 1 if the interval has no end or is
+    /// undecided.
     ///
     /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the present
     /// value. The distance of a tilt is divided by 90°. A horizontal force is already a fraction of the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
             return 0.0;
+        }
+        if matches!(self.interval, Interval::Undecided) {
+            return 1.0;
         }
         let (Some(low), Some(high)) = (self.interval.low(), self.interval.high()) else {
             return 0.0;

@@ -196,8 +196,9 @@ impl Strategy {
         matches!(self, Strategy::Force(_))
     }
 
-    /// True if an attempt shows that no forces balance the loads, given that its own forces have no proof. Only
-    /// programs that have an optimum whether the component stands or falls can show this.
+    /// True if an attempt whose forces failed the proof shows that no forces balance the loads. Only the programs of any
+    /// balance, least residual and least adhesion can show this. They always have an optimum, and this optimum balances
+    /// the loads if any forces do.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
