@@ -108,8 +108,8 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Returns a message that names the first block that is not a prism perpendicular to any coordinate plane. If there is no such
-/// block, the message says that the blocks are prisms across different planes.
+/// Returns a message that names the first block that is not a prism perpendicular to any coordinate plane. If there is
+/// no such block, the message says that the blocks are prisms perpendicular to different planes.
 fn not_prismatic(solids: &[AssemblyBlock]) -> String {
     let odd = solids
         .iter()
