@@ -1,6 +1,7 @@
-//! How long the forces that a block can carry take, in parts of one check of the same arch.
+//! The time to compute the forces that a block can carry, relative to one check of the same arch.
 //!
-//! `cargo bench --bench capacity` prints the medians. A goal: at most 20 checks for a block of an arch of 100 blocks.
+//! `cargo bench --bench capacity` prints the medians. The goal for a block of an arch of 100 blocks is at most the
+//! time of 20 checks.
 
 #![allow(
     clippy::print_stdout,
@@ -13,7 +14,7 @@ use drystone::analysis::CapacityRequest;
 use drystone::starter::Arch;
 use drystone::{Analysis, Scene};
 
-/// How often each is measured.
+/// The number of measurements of each case.
 const ROUNDS: usize = 5;
 
 fn main() {

@@ -1,8 +1,8 @@
-//! What each effect costs: the same wall with effects switched on one by one, the unknowns each adds as the result counts
-//! them, and the time in parts of that of the wall with weight and contact alone.
+//! The cost of each effect. The effects are switched on one by one for the same wall. The table has the unknowns that
+//! each effect adds, as counted in the result, and the time relative to the wall with only weight and contact.
 //!
-//! `cargo bench --bench effects` prints the table of `src/doc/performance.md`. All walls take turns, so that they see the same
-//! machine; each time is a median.
+//! `cargo bench --bench effects` prints the table of `src/doc/performance.md`. The measurements of all walls
+//! alternate; each time is a median.
 
 #![allow(
     clippy::print_stdout,
@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use turn::Turns;
 use turn::structure::{scene, wall};
 
-/// How often each wall is timed.
+/// The number of measurements of each wall.
 const TURNS: Turns = Turns {
     least: 15,
     most: 15,
@@ -91,7 +91,7 @@ fn main() {
     }
 }
 
-/// A wall without friction: weight and contact are all that it calls for.
+/// A wall without friction. Its only effects are weight and contact.
 fn smooth() -> Value {
     let mut file = wall(10, 10);
     file["friction"] = json!(0.0);

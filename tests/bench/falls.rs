@@ -1,9 +1,10 @@
-//! What falls beside what stands: the same stacks, arches and walls upright and with gravity turned, and beside both the
-//! solver given the source's hard program, which says no more than "solved" or "infeasible".
+//! Compares the times of structures that fall and that stand: the same stacks, arches and walls with gravity tilted
+//! and upright. Both are also compared with the solver alone on the hard program of the source, which only answers
+//! "solved" or "infeasible".
 //!
-//! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`; a word after `--` keeps the rows that have it
-//! in their name, such as `-- "wall 915"`, and `BLOCKS=10000` takes in those of more than 2 100 blocks. All of a row take turns, so
-//! that other work on the machine slows them alike; told is the median. Walls are in running bond, μ is 0.7.
+//! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`. An argument after `--`, such as `-- "wall
+//! 915"`, keeps the rows whose name contains it. `BLOCKS=10000` includes structures of more than 2 100 blocks. The
+//! measurements of a row alternate, and each value is a median. Walls are in running bond, μ is 0.7.
 
 #![allow(
     clippy::print_stdout,
@@ -26,14 +27,14 @@ use serde_json::{Value, json};
 use turn::Turns;
 use turn::structure::{arch, block, on_floor, rectangle, scene, wall};
 
-/// How often each of a row is timed, and for about how long.
+/// The number of measurements of a row, and their approximate duration.
 const TURNS: Turns = Turns {
     least: 1,
     most: 7,
     seconds: 3.0,
 };
 
-/// Turns of gravity, degrees.
+/// Angles by which gravity is turned, degrees.
 const ANGLES: [f64; 4] = [26.0, 30.0, 40.0, 60.0];
 
 fn main() {
@@ -108,7 +109,7 @@ fn posed(conic: &QuadraticProgram) {
     black_box(solve(black_box(conic), TOLERANCE, Conditioning::Full));
 }
 
-/// The program of a structure that hangs together.
+/// The program of a structure with a single component.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
@@ -121,7 +122,8 @@ fn program(scene: &Scene) -> Program {
     Program::new(&component, Scale::from_assembly(&component))
 }
 
-/// The source's hard program: its soft one without the twins of its unknowns, which stand last in columns and rows.
+/// The hard program of the source: its soft program without the last half of its unknowns and their rows, which stand
+/// for sticking.
 fn hard(program: &Program) -> QuadraticProgram {
     let soft = vallat_program(program, 1.0);
     let (unknowns, rows) = (soft.unknowns / 2, soft.bound.len() - soft.unknowns / 2);

@@ -1,7 +1,7 @@
-//! What hard cases cost beside easy ones: verdict, proof and time of each as a table, the time also in parts of that of a
-//! sibling of as many blocks whose verdict is plain.
+//! The cost of hard cases: a table with the verdict, the proof and the time of each case. The time is also given
+//! relative to that of an easy case with the same number of blocks.
 //!
-//! `cargo bench --bench hard` prints it. Case and sibling take turns, so that both see the same machine; told is the median.
+//! `cargo bench --bench hard` prints the table. The measurements of the two cases alternate; each value is a median.
 
 #![allow(
     clippy::print_stdout,
@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 use turn::Turns;
 use turn::structure::{arch, block, on_floor, on_slope, rectangle, scene, wall};
 
-/// How often a case and its sibling are timed, and for about how long.
+/// The number of measurements of a hard case and its easy case, and their approximate duration.
 const TURNS: Turns = Turns {
     least: 3,
     most: 15,
@@ -76,7 +76,7 @@ fn told(proof: &Proof) -> String {
     }
 }
 
-/// A scene whose weights act by a share across gravity as well.
+/// The scene with an additional horizontal load, a share of the weights.
 fn pushed(mut file: Value, share: f64) -> Value {
     file["gravity"] = json!([10.0 * share, -10.0]);
     for block in file["blocks"].as_array_mut().unwrap() {
@@ -168,7 +168,7 @@ fn feather(mountain: f64, x: f64) -> Value {
     )
 }
 
-/// Each hard case with its sibling: the same blocks, far from any edge.
+/// Each hard case with its easy case, which has the same blocks but is far from its limit.
 fn cases() -> Vec<(String, Value, Value)> {
     let slope = |friction| on_slope(30.0, 4.0, 0.5, friction, 0.0);
     let mut heavy = [6.0; 3];
@@ -281,5 +281,5 @@ fn cases() -> Vec<(String, Value, Value)> {
     cases
 }
 
-/// Least thickness over radius by number of voussoirs, as in `tests/it/edge.rs`.
+/// The least thickness over radius for numbers of voussoirs, as in `tests/it/edge.rs`.
 const THINNEST: [(usize, f64); 2] = [(27, 0.106_720_9), (181, 0.107_462_3)];

@@ -1,8 +1,9 @@
-//! How each stage grows with the number of blocks: reading, contacts, assembling, solving, proving, drawing, and the whole.
+//! How the time of each stage grows with the number of blocks: reading, contacts, assembly, solving, proof, drawing,
+//! and all of them together.
 //!
-//! `cargo bench --bench large` prints the time of each and the most memory it held at once (`max alloc`). Walls in running
-//! bond, arches, and separate towers of ten, of 100 and 1 000 blocks; `BLOCKS=10000 cargo bench --bench large` takes that
-//! size in place of them.
+//! `cargo bench --bench large` prints the time of each stage and its peak memory (`max alloc`). The structures are
+//! walls in running bond, arches, and separate towers of ten blocks each, with 100 and 1 000 blocks. `BLOCKS=10000
+//! cargo bench --bench large` uses that number of blocks instead.
 
 use divan::{AllocProfiler, Bencher, black_box};
 use drystone::internals::assembly::Assembly;
@@ -21,7 +22,7 @@ fn main() {
     divan::main();
 }
 
-/// A kind of structure of so many blocks.
+/// A kind of structure and its number of blocks.
 #[derive(Clone, Copy, Debug)]
 struct Case(&'static str, usize);
 
@@ -111,7 +112,7 @@ fn programs(parts: &[Assembly]) -> Vec<Program> {
     parts.iter().map(of).collect()
 }
 
-/// The forces that an analysis found, as a proof wants them.
+/// The forces that an analysis found, in the form that a proof needs.
 fn forces(analysis: &Analysis) -> Forces {
     let frame = &analysis.frames[0];
     let pressed = frame.contacts.iter().map(|contact| ContactForces {

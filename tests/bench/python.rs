@@ -1,8 +1,9 @@
-//! What the Python package adds to a step of a session and to a small check, over the same calls in Rust.
+//! The time that the Python package adds to a step of a session and to a small check, compared with the same calls in
+//! Rust.
 //!
-//! `PYTHON=.venv/bin/python cargo bench --bench python` needs an interpreter in which the package is installed, compiled
-//! with as much optimisation. Rust and Python take turns, so that other work on the machine slows both alike. A round's
-//! time is the median of its calls, and the table has the medians of the rounds, in microseconds.
+//! `PYTHON=.venv/bin/python cargo bench --bench python` needs an interpreter with the package, compiled with the same
+//! optimisation. The measurements of Rust and Python alternate. The time of a round is the median of its calls, and
+//! the table has the medians of the rounds, in microseconds.
 
 #![allow(
     clippy::print_stdout,
@@ -18,7 +19,7 @@ use drystone::scene::format::{BlockEntry, CellEntry, GridKind, GroundEntry, Robo
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 
-/// How many rounds there are, and how many calls of each kind in one.
+/// The number of rounds, and the number of calls of each kind in a round.
 const ROUNDS: usize = 21;
 const CALLS: usize = 200;
 
@@ -142,7 +143,7 @@ fn cells(id: &str, x: f64, y: f64) -> BlockEntry {
     BlockEntry::new(id).cells([cell(0.0), cell(1.0), cell(2.0)])
 }
 
-/// The microseconds that a call takes.
+/// The time of a call, microseconds.
 fn timed<T>(call: impl FnOnce() -> T) -> f64 {
     let start = Instant::now();
     black_box(call());

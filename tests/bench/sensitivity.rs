@@ -1,6 +1,6 @@
-//! What the derivatives of a margin cost, in parts of a check of the same arch with all margins.
+//! The time to compute the derivatives of a margin, relative to a check of the same arch with all margins.
 //!
-//! `cargo bench --bench sensitivity` prints a table. All cases take turns, so that they see the same machine.
+//! `cargo bench --bench sensitivity` prints a table. The measurements of all cases alternate.
 
 #![allow(clippy::print_stdout, reason = "the table is the result")]
 
@@ -15,7 +15,7 @@ use serde_json::json;
 use turn::Turns;
 use turn::structure::{arch, scene};
 
-/// How often each case is timed.
+/// The number of measurements of each case.
 const TURNS: Turns = Turns {
     least: 5,
     most: 15,

@@ -1,8 +1,8 @@
-//! How fast a step of a session is: walls laid brick by brick on a square lattice, and what is done to them then.
+//! The time of a step of a session: walls are built brick by brick on a square lattice and then changed.
 //!
-//! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered by what was known. From
-//! scratch means a scene file of the same blocks, in Rust, read and examined. `BLOCKS=20 cargo bench --bench session` lays walls
-//! of 20 alone.
+//! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered from the warm
+//! start. "From scratch" means that a scene file of the same blocks is read and analysed, in Rust. `BLOCKS=20 cargo
+//! bench --bench session` uses only walls of 20 blocks.
 
 #![allow(
     clippy::print_stdout,
@@ -18,7 +18,7 @@ use drystone::scene::format::{
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 
-/// How often each wall is laid.
+/// The number of times each wall is built.
 const ROUNDS: usize = 41;
 
 fn main() {
@@ -81,7 +81,7 @@ impl Steps {
     }
 }
 
-/// Lays a wall and does a few things to it.
+/// Builds a wall and changes it in a few ways.
 fn lay(blocks: usize, steps: &mut Steps) {
     let mut session = Session::new(empty(blocks)).expect("sound");
     for k in 0..blocks {

@@ -1,7 +1,8 @@
-//! The normal equations beside clarabel, on the same programs of the same walls, upright, beside their edge and falling.
+//! Compares our solver, which uses the normal equations, with clarabel. Both solve the same programs of walls that
+//! are upright, near their limit or falling.
 //!
-//! `cargo bench --bench solvers` prints the rows of `src/doc/performance.md`: iterations and milliseconds of each, and the
-//! ratio. `BLOCKS=10000` takes in the wall of that size.
+//! `cargo bench --bench solvers` prints the rows of `src/doc/performance.md`: iterations and milliseconds of each
+//! solver, and their ratio. `BLOCKS=10000` includes the wall of that size.
 
 #![allow(
     clippy::print_stdout,
@@ -95,7 +96,7 @@ fn word(status: Status) -> &'static str {
     }
 }
 
-/// The programs that a check poses, each with its name.
+/// The programs that a check solves, each with its name.
 fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     let all = columns(program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));

@@ -1,7 +1,7 @@
-//! How fast: reading, checking and drawing, and our program beside the source's, posed to the same solver in one run.
+//! The times of reading, checking and drawing; and of our program and that of the source, solved by the same solver.
 //!
-//! `cargo bench` prints the least, the median and the mean time of each. The walls are running bonds of bricks under
-//! their own weight, half bricks at the ends of every other row.
+//! `cargo bench` prints the least, the median and the mean time of each. The walls are in running bond with half
+//! bricks at the ends of every second row. Their only load is their weight.
 
 use std::fs;
 use std::process::Command;
@@ -17,10 +17,10 @@ use drystone::{Analysis, Scene, figure, output};
 
 const FIGURE_4: &str = include_str!("../../assets/thesis/figure-4.json");
 
-/// What one newton of sticking costs in the source's soft program.
+/// The cost of one newton of sticking in the soft program of the source.
 const BETA: f64 = 1e6;
 
-/// Walls by their number of blocks.
+/// The numbers of blocks of the walls.
 const WALLS: [usize; 3] = [10, 100, 1000];
 
 fn main() {
@@ -39,7 +39,7 @@ fn our_program(bencher: Bencher, blocks: usize) {
     bencher.bench_local(|| balance(black_box(&program), Conditioning::Plain));
 }
 
-/// With the solver's own settings.
+/// The solver has its default settings.
 #[divan::bench(args = WALLS)]
 fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
@@ -97,7 +97,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
     });
 }
 
-/// The whole wall hangs together, so it is one component and one program.
+/// The program of a wall, which is a single component.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
@@ -118,7 +118,7 @@ fn wall(blocks: usize) -> Scene {
     scene
 }
 
-/// Rows and bricks per row such that `rows · bricks + rows / 2` blocks come out.
+/// A wall of `rows · bricks + rows / 2` blocks: 10, 100 or 1 000, and 10 050 for any other number.
 fn wall_file(blocks: usize) -> SceneFile {
     let (rows, bricks) = match blocks {
         10 => (3, 3),

@@ -1,5 +1,5 @@
-//! What the benchmarks that print a table have in common: they time by turns, so that other work on the machine slows all
-//! of a row alike, and tell medians.
+//! Shared by the benchmarks that print a table. Measurements alternate, so that other load on the machine affects all
+//! values of a row in the same way. The values are medians.
 
 #![allow(
     clippy::panic,
@@ -13,18 +13,18 @@ pub mod structure;
 
 use std::time::Instant;
 
-/// How often work is timed.
+/// The number of measurements.
 pub struct Turns {
     /// At least.
     pub least: usize,
     /// At most.
     pub most: usize,
-    /// No turn begins after so many seconds, once each was timed often enough.
+    /// After this many seconds no new round begins, if `least` is reached.
     pub seconds: f64,
 }
 
 impl Turns {
-    /// Median times of some work in milliseconds, each in its turn.
+    /// The median times of several pieces of work, measured alternately, milliseconds.
     pub fn medians<W: Fn()>(&self, work: &[W]) -> Vec<f64> {
         let start = Instant::now();
         let mut times = vec![Vec::new(); work.len()];

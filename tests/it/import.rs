@@ -95,7 +95,8 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
             .iter()
             .all(|s| s.distance < 5e-6 && !s.to.is_empty())
     );
-    // In each pier 2 with the ground, 4 in courses and 8 between them; the lintel on both, and two that stand alone.
+    // Each pier has 2 pairs with the ground, 4 within courses and 8 between courses. The lintel lies on both piers,
+    // and two blocks stand alone.
     assert_eq!(touching(&imported.scene), 2 * (2 + 4 + 8) + 2 + 2);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     let unsnapped = Options::default().gap(0.0);
@@ -173,7 +174,7 @@ fn an_arch_from_a_cad_program_stands() {
     assert_eq!((blocks.len(), imported.scene.ground.len()), (12, 2));
     assert_eq!(imported.scene.robots.len(), 1);
     assert_eq!(&ids(&imported)[8..10], ["FINIAL", "FINIAL-2"]);
-    // Each voussoir touches two neighbours, the finials and the hatched stone stand on the ground.
+    // 8 pairs of voussoirs, 2 springings, 2 finials and the hatched stone on the ground.
     assert_eq!(touching(&imported.scene), 8 + 2 + 2 + 1);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     let warned: Vec<&str> = remarks(&imported).iter().map(|r| r.1).collect();

@@ -52,7 +52,7 @@ impl Change {
         }
     }
 
-    /// The changed scene file; its blocks' weights must be given.
+    /// The changed scene file. The weights of its blocks must be given.
     fn file(&self, file: &Value) -> Value {
         let mut file = file.clone();
         let gravity = file.get("gravity").cloned().unwrap_or(json!([0, -9.81]));
@@ -288,7 +288,7 @@ fn in_millimetres_and_in_kilometres() {
 }
 
 #[test]
-fn with_feathers_and_with_mountains() {
+fn with_very_small_and_very_large_forces() {
     for force in [1e-6, 1e9] {
         let change = Change { force, ..SAME };
         for (name, mut file) in structures() {

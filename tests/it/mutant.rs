@@ -72,7 +72,7 @@ fn count(value: &Value) -> usize {
     }
 }
 
-/// The value with a number, counted from the top.
+/// The value with a number, counted from 0 in the order of the file.
 fn at<'v>(value: &'v mut Value, number: &mut usize) -> Option<&'v mut Value> {
     if *number == 0 {
         return Some(value);
@@ -172,7 +172,7 @@ fn mutant(original: &Value, seed: u64) -> Value {
     scene
 }
 
-/// What is wrong with what becomes of a text, if anything is.
+/// Whether a text is a valid scene. The error says what is wrong with the problems or the results.
 fn examine(text: &str) -> Result<bool, String> {
     let scene = match Scene::from_json(text) {
         Ok(scene) => scene,
@@ -243,7 +243,7 @@ fn originals() -> Vec<(String, Value)> {
 }
 
 #[test]
-fn mutants_are_refused_in_words_or_decided() {
+fn mutants_are_refused_with_messages_or_analysed() {
     let originals = originals();
     assert!(originals.len() > 10);
     let (mut sound, mut all) = (0, 0);

@@ -142,9 +142,10 @@ fn every_note_occurs_where_it_belongs_and_can_be_silenced() {
 }
 
 #[test]
-fn what_is_usual_is_not_noted() {
+fn usual_input_has_no_notes() {
     for text in [
-        // A grip and a load on the boundary, a friction of 2, a block that is only planned, a density beside a load.
+        // A grip and a load on the boundary, a friction of 2, a block that is only planned, a density together with a
+        // load.
         format!(
             "{{ \"drystone\": 1, {GROUND}, \"friction\": 2, \"density\": 2500, \"blocks\": [
                 {{ \"id\": \"a\", \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]] }},

@@ -342,7 +342,8 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut seen = BTreeSet::new();
     let extra = [
-        // Blocks that hang in the air, a robot that may not turn, a doubtful gap, coordinates with three decimals.
+        // Blocks without support, a robot without torque, a gap that decides the verdict, coordinates with three
+        // decimals.
         r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] }] }"#.to_owned(),
         r#"{ "drystone": 1, "friction": 0.6, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] },
             { "polygon": [[3, -1], [4, -1], [4, 0], [3, 0]] }],

@@ -40,7 +40,7 @@ fn on_ground(stone: &Outline, reach: f64, tolerance: Option<f64>) -> Value {
     file
 }
 
-/// Corners of a circle that rests on y = 0 with its lowest edge level.
+/// The corners of a regular polygon that rests with its lowest edge on y = 0.
 fn circle(radius: f64, corners: usize) -> Outline {
     let half = core::f64::consts::PI / corners as f64;
     let lowest = radius * libm::cos(half);
@@ -77,7 +77,7 @@ fn verdict(file: &Value) -> Result<(Verdict, String), String> {
 }
 
 #[test]
-fn stones_with_edges_shorter_than_the_tolerance_are_answered() {
+fn stones_with_edges_shorter_than_the_tolerance_stand() {
     for text in [
         include_str!("pebbles/many-corners.json"),
         include_str!("pebbles/circle-200.json"),
@@ -118,7 +118,7 @@ fn a_circle_of_any_size_and_any_number_of_corners_stands_on_its_lowest_edge() {
 /// A contact tolerance from a thousandth of the radius to a thousand times the radius changes nothing within one
 /// outline.
 #[test]
-fn a_tolerance_larger_than_the_block_leaves_its_outline_alone() {
+fn a_tolerance_larger_than_the_block_does_not_change_its_outline() {
     let mut cases = Vec::new();
     for corners in [3, 4, 5, 20, 77, 200, 1000] {
         for share in [0.001, 0.01, 0.1, 1.0, 10.0, 1000.0] {
@@ -282,7 +282,7 @@ type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
     clippy::print_stdout,
     reason = "the counts are the result of a long run"
 )]
-fn hardly_any_pebble_is_undecided() {
+fn few_random_pebbles_are_undecided() {
     let number = |name: &str, usual: u64| {
         let value = std::env::var(name).ok();
         value.map_or(usual, |v| v.parse().expect("a number"))

@@ -30,7 +30,7 @@ fn a_block_slides_where_the_slope_is_steeper_than_friction() {
 }
 
 #[test]
-fn a_sliding_block_lacks_just_the_friction_that_is_missing() {
+fn the_failure_of_a_sliding_block_is_the_missing_friction() {
     let (degrees, friction, weight): (f64, f64, f64) = (30.0, 0.2, 5.0);
     let frame = first(&on_slope(degrees, 4.0, 1.0, friction, 0.0));
     let [Failure::Friction { force, .. }] = frame.failures[..] else {
@@ -39,10 +39,11 @@ fn a_sliding_block_lacks_just_the_friction_that_is_missing() {
     let angle = degrees.to_radians();
     let missing = weight * (libm::sin(angle) - friction * libm::cos(angle));
     assert!((force.norm() - missing).abs() < 1e-9);
-    // Up the slope, which rises to the right.
+    // The missing force points up the slope, which rises to the right.
     assert!(force.x > 0.0 && force.y > 0.0);
     assert!((frame.total_sticking - missing).abs() < 1e-9);
-    // Rigid plasticity lets a sliding contact open by μ per unit of slip: the block leaves arctan μ off the slope.
+    // In rigid plasticity a sliding contact opens by μ per unit of slip, so the block moves at the angle arctan μ to
+    // the slope.
     let moves = frame.mechanism[0];
     let heading = angle - libm::atan(friction);
     assert!(
@@ -91,7 +92,7 @@ fn a_block_topples_where_its_weight_leaves_the_kernel() {
 fn a_toppling_block_turns_about_its_lower_corner() {
     let frame = first(&on_slope(25.0, 1.0, 3.0, 5.0, 0.0));
     let moves = frame.mechanism[0];
-    // Anticlockwise, downhill to the left; the lower left corner (−0.3, 0) turned by 25° stays where it is.
+    // It turns anticlockwise, downhill to the left. The lower left corner, (−0.3, 0) turned by 25°, does not move.
     assert!(moves.spin > 0.0);
     let corner = drystone::internals::geometry::Point::new(
         -0.3 * libm::cos(0.4363323129985824),
@@ -204,7 +205,7 @@ fn uneven_loads_on_two_supports_follow_the_lever() {
 
 #[test]
 fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
-    // A window frame with a block standing inside on the hole's lower edge.
+    // A frame with a block that stands on the lower edge of its hole.
     let frame_block = json!({ "id": "frame", "polygon": rectangle(0.0, 0.0, 6.0, 6.0),
         "holes": [rectangle(1.0, 1.0, 4.0, 4.0)], "weight": 10 });
     let file = on_floor(
@@ -217,7 +218,7 @@ fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
     let frame = first(&file);
     assert_eq!(frame.verdict, STANDS);
     assert_eq!(frame.contacts.len(), 2);
-    // One lower edge shared by three blocks side by side makes three interfaces.
+    // Three blocks side by side on one edge have three interfaces with it.
     let three = on_floor(
         0.5,
         vec![
@@ -237,7 +238,7 @@ fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
 }
 
 #[test]
-fn what_touches_nothing_falls_freely() {
+fn a_block_without_contacts_falls_freely() {
     let file = on_floor(0.5, vec![block("up", rectangle(0.0, 3.0, 1.0, 1.0), 2.0)]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
@@ -261,7 +262,7 @@ fn a_corner_set_into_a_straight_edge_changes_nothing() {
 }
 
 #[test]
-fn a_robot_carries_what_it_may_and_the_rest_sticks() {
+fn a_robot_carries_force_up_to_its_limit_and_the_rest_is_reported() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     file["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 10, "fy": 5, "torque": 0 } }]);
@@ -294,7 +295,7 @@ fn a_robot_that_grips_off_centre_needs_a_torque() {
 
 #[test]
 fn a_tip_on_a_slope_presses_square_to_it() {
-    // A slope of 3 in 4, and a triangle on its tip with its centroid straight above.
+    // A slope of 3 in 4, and a triangle that stands on its tip, with the centroid vertically above the tip.
     let balanced = |friction: f64| {
         json!({ "drystone": 1, "friction": friction, "corner_contacts": true,
             "ground": [{ "polygon": [[-4, -3], [-4, -5], [4, -5], [4, 3]] }],

@@ -20,7 +20,8 @@ fn wedged(file: &Value) -> bool {
         .unwrap_or_else(|| panic!("no answer for {file}"))
 }
 
-/// A bar between two walls whose faces lean towards each other at the top by `lean` over the bar's height.
+/// A bar between two walls. The faces of the walls lean towards each other at the top, each by `lean` per metre of
+/// height.
 pub fn bar_between_walls(lean: f64, friction: f64) -> Value {
     json!({ "drystone": 1, "friction": friction,
         "ground": [{ "polygon": [[-2, -2], [-2.0 * lean, -2], [lean * 2.0, 2], [-2, 2]] },
@@ -179,7 +180,7 @@ impl Between {
     }
 
     fn rests_as(&self, pressed: &dyn Fn(usize) -> bool, slides: &dyn Fn(usize) -> usize) -> bool {
-        // Generalised directions of the opening at a point and the slip along a face.
+        // The opening at each point and the slip along each face, as linear functions of the motion of the block.
         let opening: Vec<[f64; 3]> = self
             .points
             .iter()
@@ -351,7 +352,7 @@ fn three_bars_between_walls_are_a_flat_arch() {
 
 /// Springs that can only press end in the state of least energy, which exists exactly if a balance exists.
 #[test]
-fn without_friction_a_balance_is_reached_from_rest() {
+fn no_stable_structure_without_friction_is_reported_as_wedged() {
     for half_angle in [0.3, 0.01, 1e-3] {
         let x = |y: f64| libm::tan(half_angle) * (y + 10.0);
         let file = json!({ "drystone": 1, "friction": 0,

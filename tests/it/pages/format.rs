@@ -1,6 +1,6 @@
-//! What the page of the scene format says, sentence by sentence, each beside a small scene that shows it.
+//! Tests the page of the scene format: each claim is a phrase of the page with a small scene that shows it.
 //!
-//! A claim is a phrase of the page, so that neither can change without the other.
+//! The test fails if the page no longer contains the phrase or the scene no longer behaves as the phrase says.
 
 mod order;
 mod refused;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::words_of;
 use crate::structure::rectangle;
 
-/// A square metre on a floor, with other keys of the scene beside or in place of these.
+/// A block of 1 m by 1 m on a floor. The given keys are added to the scene or replace its keys.
 fn file(keys: Value) -> Value {
     let mut file = json!({ "drystone": 1, "ground": [{ "polygon": rectangle(-20.0, -1.0, 60.0, 1.0) }],
         "blocks": [{ "id": "a", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) }] });
@@ -22,7 +22,7 @@ fn file(keys: Value) -> Value {
     file
 }
 
-/// The same, with other keys of its block.
+/// The same scene with other keys of its block as well.
 fn block(keys: Value, scene: Value) -> Value {
     let mut file = file(scene);
     put(&mut file["blocks"][0], keys);
@@ -47,9 +47,9 @@ fn put(object: &mut Value, keys: Value) {
 struct Claim(&'static str, Value, Shown);
 
 enum Shown {
-    /// Here in the result there is this.
+    /// The result has this value at this path.
     Result(&'static str, Value),
-    /// It is refused, with this code alone, and these words in the message or the help.
+    /// The scene is refused with only this code, and the message or the help contains these words.
     Refused(&'static str, &'static str),
 }
 use Shown::{Refused, Result};

@@ -14,7 +14,7 @@ fn result(file: &Value, options: &Options) -> Value {
     serde_json::from_str(&json).expect("JSON")
 }
 
-/// A phrase of the page, a scene and how it is examined, a place in the result, and what is there; `None` for nothing.
+/// A phrase of the page, a scene, its options, a path in the result and the value there; `None` if there is no value.
 struct Claim<'a>(
     &'static str,
     &'a Value,
@@ -40,7 +40,7 @@ fn hold(claims: Vec<Claim<'_>>) {
     }
 }
 
-/// A block of 3 m by 2 m that hangs in the air.
+/// A block of 3 m by 2 m without support.
 fn hanging() -> Value {
     on_floor(0.7, vec![block("a", rectangle(0.0, 5.0, 3.0, 2.0), 6.0)])
 }
@@ -270,7 +270,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
 }
 
 #[test]
-fn what_is_asked_for_is_there_and_the_rest_is_not() {
+fn requested_values_are_present_and_others_are_not() {
     let plain = Options::default();
     let some = Options::default()
         .margins(true)
@@ -450,7 +450,7 @@ fn effects_and_methods_have_the_names_on_the_page() {
         page.contains(&format!("{} or {last}", first.join(", "))),
         "{named:?}"
     );
-    // What is left out tells what it would have cost.
+    // An effect that is left out states the unknowns that it would have added.
     let sticking = effects
         .iter()
         .find(|e| e["effect"] == EffectName::Sticking.word())

@@ -1,4 +1,4 @@
-//! What wins over what: outlines and their places, weights, friction.
+//! Precedence between keys: outlines and their positions, weights, friction.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,4 @@
-//! What is refused, and what is not.
+//! Scenes that the page says are refused, and scenes that are not.
 
 use serde_json::{Value, json};
 

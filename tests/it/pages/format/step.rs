@@ -1,4 +1,4 @@
-//! How steps are played.
+//! How steps change the frames.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::Shown::{Refused, Result};
 use super::{Claim, WEIGHT, file, hold};
 use crate::structure::rectangle;
 
-/// Three of them, two on each other and one beside; a robot; and steps.
+/// Three blocks, one of them on another; two robots; and steps.
 fn steps(steps: Value) -> Value {
     let at = |id: &str, x: f64, y: f64| json!({ "id": id, "polygon": rectangle(x, y, 1.0, 1.0) });
     file(
@@ -16,7 +16,7 @@ fn steps(steps: Value) -> Value {
 }
 
 #[test]
-fn steps_are_played_as_the_page_says() {
+fn steps_work_as_the_page_says() {
     let holding = json!({ "place": ["a", "c"], "hold": { "r": "a" } });
     let two = json!({ "place": ["a"], "hold": { "r": "a", "q": "a" } });
     hold(vec![
