@@ -66,7 +66,7 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
 }
 
 #[test]
-fn switches_leave_out_what_they_name_and_nothing_else() {
+fn each_switch_leaves_out_only_the_part_that_it_names() {
     let scene = scene("tests/scenes/lintel.json");
     let analysis = Analysis::new(&scene);
     let said = |options: &Options| {

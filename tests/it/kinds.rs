@@ -27,7 +27,7 @@ fn draw(analysis: &Analysis, kind: Kind) -> Drawing {
     figure::draw(analysis, kind, &Options::default())
 }
 
-/// Every group of a class.
+/// All groups of a class.
 fn of_class<'a>(items: &'a [Item], class: &str, found: &mut Vec<&'a Group>) {
     for item in items {
         if let Item::Group(group) = item {
@@ -64,7 +64,7 @@ fn outlines(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
 }
 
 #[test]
-fn nothing_of_any_kind_lies_beyond_the_page() {
+fn no_kind_of_figure_draws_beyond_the_page() {
     for name in [
         "thesis/figure-4.json",
         "thesis/figure-6-kernel-05.json",
@@ -92,7 +92,7 @@ fn nothing_of_any_kind_lies_beyond_the_page() {
 }
 
 #[test]
-fn what_stands_has_no_mechanism_and_what_falls_shows_every_block_that_moves() {
+fn stable_frames_have_no_mechanism_and_unstable_ones_show_every_moving_block() {
     let scene = scene("thesis/figure-4.json");
     let analysis = Analysis::new(&scene);
     let drawing = draw(&analysis, Kind::Mechanism);
@@ -159,7 +159,7 @@ fn a_kernel_of_one_leaves_a_point() {
 }
 
 #[test]
-fn marks_of_all_friction_stand_exactly_where_all_of_it_is_used() {
+fn interfaces_that_use_all_friction_are_marked_and_no_others() {
     let mut marked = 0;
     for name in [
         "thesis/figure-8-left.json",

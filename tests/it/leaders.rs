@@ -19,7 +19,7 @@ fn drawn(scene: &Scene, kind: Kind, width: f64) -> Drawing {
     )
 }
 
-/// The boxes of a label's lines.
+/// The boxes of the lines of a label.
 fn boxes(label: &Group) -> Vec<Box4> {
     texts(label).iter().map(ink).collect()
 }
@@ -142,7 +142,7 @@ fn union(a: Box4, b: Box4) -> Box4 {
     ]
 }
 
-/// The lines of the name of a block.
+/// The lines of text in the label of a block.
 fn lines_of(drawing: &Drawing, wanted: &str) -> Vec<String> {
     let labels = classes(&drawing.items, &["name"]);
     let lines = labels.iter().map(|label| {
@@ -154,7 +154,7 @@ fn lines_of(drawing: &Drawing, wanted: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_name_of_several_words_stands_in_lines_where_one_has_no_room() {
+fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
     let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Kernel, COLUMN);
     assert_eq!(lines_of(&posts, "left post"), ["left", "post"]);
     let spelled = "U+4E2D\u{a0}6587\u{a0}77F3\u{a0}5934";
@@ -172,9 +172,9 @@ fn a_name_of_several_words_stands_in_lines_where_one_has_no_room() {
     assert_eq!(lines_of(&drawing, "one\u{a0}name"), ["one\u{a0}name"]);
 }
 
-/// Names stood off the lines of ground that the picture has cut away.
+/// The names were once off the ground line, which the picture cuts off.
 #[test]
-fn both_names_of_level_points_stand_at_the_edge_of_the_picture() {
+fn both_names_of_points_at_equal_height_are_at_the_edge_of_the_picture() {
     let found = Analysis::new(scene("tests/scenes/one.json"));
     for width in [COLUMN, 658.0] {
         let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));

@@ -362,7 +362,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
 }
 
 #[test]
-fn an_authors_fill_wins() {
+fn a_fill_given_in_the_scene_has_precedence() {
     let scene = slab("", r##", "fill": "#8b6b3d""##);
     let fill = fills(
         &figure::forces(&Analysis::new(&scene), &Options::default()),
@@ -388,7 +388,7 @@ fn wide_ground_is_cut_and_the_structure_stays_large() {
 }
 
 #[test]
-fn odd_scenes_are_drawn_too() {
+fn unusual_scenes_are_drawn() {
     let nothing = from_json(r#"{ "drystone": 1, "blocks": [] }"#);
     let weightless = slab(r#""gravity": [0, 0],"#, "");
     let falling = from_json(
@@ -422,7 +422,7 @@ fn very_many_blocks_are_drawn_together() {
             1 + i % 7
         )
     };
-    // Blocks side by side, in rows that stand on ground of their own.
+    // Blocks side by side, each on a separate part of the ground.
     let (mut blocks, mut ground) = (Vec::new(), Vec::new());
     for i in 0..1100 {
         let (column, row) = (2 * (i % 50), 3 * (i / 50));

@@ -12,7 +12,7 @@ fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// A block of 6 N on the edge of the ground, pushed across with `push` newtons at its foot.
+/// A block of 6 N near the edge of the ground, pushed sideways with `push` newtons at its lower edge.
 fn block(left: f64, push: f64) -> Scene {
     let right = left + 4.0;
     scene(&format!(
@@ -76,7 +76,7 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
     let analysis = Analysis::with(&pushed, &asked);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
     let (words, _) = said(&drawing);
-    // It slides at 3 N, half of its weight.
+    // The block slides at 3 N, half of its weight.
     assert!(
         words.contains("falls once its loads are 1.5 times as large"),
         "{words}"

@@ -108,7 +108,7 @@ fn pixels(bytes: &[u8]) -> (Vec<u8>, usize) {
 }
 
 #[test]
-fn outlines_stand_where_the_words_stood() {
+fn text_as_outlines_is_at_the_position_of_the_text() {
     for name in SCENES {
         let drawing = figure(name);
         let picture = |words| {
@@ -276,7 +276,7 @@ fn a_pdf_without_a_width_has_three_quarters_of_a_point_per_pixel() {
 }
 
 #[test]
-fn odd_drawings_become_pdf_too() {
+fn unusual_drawings_become_pdf() {
     for drawing in [
         hostile(),
         figure::shapes(&drystone::drawing::Theme::default()),

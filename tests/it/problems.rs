@@ -201,7 +201,7 @@ fn with_one_replaced(value: &Value, other: &Value) -> Vec<Value> {
 }
 
 #[test]
-fn a_file_with_one_value_replaced_never_panics_and_is_never_told_vaguely() {
+fn a_file_with_one_value_replaced_never_panics_and_has_a_precise_message() {
     let sources = [
         starter().to_string(),
         SMALL.replace(", \"title2\": null", ""),
@@ -236,7 +236,7 @@ fn a_file_with_one_value_replaced_never_panics_and_is_never_told_vaguely() {
 }
 
 #[test]
-fn nesting_without_end_is_refused() {
+fn very_deep_nesting_is_refused() {
     for opened in ["[", "{\"a\":", "{\"drystone\":1,\"blocks\":[{\"x\":"] {
         let problems = refused(&opened.repeat(100_000));
         assert_eq!(problems.list.len(), 1);
@@ -264,7 +264,7 @@ fn bytes_that_are_not_text_are_refused_with_their_place() {
 }
 
 #[test]
-fn a_byte_order_mark_is_no_part_of_the_text() {
+fn a_byte_order_mark_is_not_part_of_the_text() {
     let marked = format!("\u{feff}{}", r#"{ "drystone": 1, "blocks": [] }"#);
     assert!(Scene::from_slice(marked.as_bytes()).is_ok());
     assert!(Scene::from_json(&marked).is_ok());
@@ -295,7 +295,7 @@ fn a_scene_made_in_code_has_paths_but_no_lines() {
 }
 
 #[test]
-fn what_a_problem_points_at_is_what_it_speaks_of() {
+fn a_problem_points_at_the_text_that_it_describes() {
     let text = "{ \"drystone\": 1, \"krenel\": 0.5,\n  \"blocks\": [ { \"id\": \"a\",\n    \"weight\": -2 } ] }";
     let problems = refused(text);
     let pointed: Vec<&str> = problems

@@ -51,7 +51,7 @@ fn everything_but_version_and_blocks_has_a_default() {
 }
 
 #[test]
-fn the_nearest_weight_wins() {
+fn the_most_specific_weight_has_precedence() {
     let square = r#""polygon": [[0, 0], [2, 0], [2, 1], [0, 1]]"#;
     for (given, weight) in [
         (
@@ -320,7 +320,7 @@ fn the_starter_scene_uses_what_a_newcomer_needs() {
 }
 
 #[test]
-fn a_wall_of_ten_thousand_blocks_is_read_in_the_time_of_a_breath() {
+fn a_wall_of_ten_thousand_blocks_is_read_quickly() {
     let mut blocks = Vec::new();
     for row in 0..100 {
         for column in 0..100 {

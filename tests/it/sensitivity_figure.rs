@@ -1,4 +1,4 @@
-//! The figure of the sensitivity: its arrows are the slopes, and what has no slope is said in words.
+//! The figure of the sensitivity: its arrows show the derivatives, and a text says why a frame has none.
 
 use drystone::analysis::{MarginKind, Options as Asked};
 use drystone::drawing::{Camera, Drawing, Group, Item, PagePoint};

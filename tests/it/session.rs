@@ -155,7 +155,7 @@ fn robots() -> Value {
 }
 
 #[test]
-fn a_session_on_a_lattice_says_what_a_file_says() {
+fn a_session_on_a_lattice_has_the_results_of_a_scene_file() {
     let mut tally = Tally::default();
     for number in 0..60 {
         let mut chance = Random::new(900 + number);
@@ -195,7 +195,7 @@ fn a_session_on_a_lattice_says_what_a_file_says() {
 }
 
 #[test]
-fn a_session_of_bricks_says_what_a_file_says() {
+fn a_session_of_bricks_has_the_results_of_a_scene_file() {
     let mut tally = Tally::default();
     for number in 200..240 {
         let base = json!({ "drystone": 1, "friction": 0.6, "ground": [{ "polygon": rectangle(-20.0, -1.0, 40.0, 1.0) }],
@@ -211,7 +211,7 @@ fn a_session_of_bricks_says_what_a_file_says() {
 }
 
 #[test]
-fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
+fn an_invalid_block_is_refused_and_changes_nothing() {
     let base = json!({ "drystone": 1, "grid": { "kind": "square" }, "ground": [{ "cells": [[0, -1]] }],
         "blocks": [{ "id": "a", "cells": [[0, 0]] }] });
     let mut session = Session::new(file(&base)).unwrap();
@@ -242,7 +242,7 @@ fn a_block_that_is_wrong_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn verdicts_alone_are_those_of_a_whole_analysis() {
+fn verdicts_without_an_analysis_are_those_of_a_full_analysis() {
     let held = |value: Value| (value.to_string(), scene(&value));
     let mut scenes: Vec<(String, Scene)> = (0..420).map(|n| held(random::scene(n).1)).collect();
     for n in 3..12 {

@@ -62,7 +62,7 @@ impl Folder {
         fs::write(path, text).expect("writable");
     }
 
-    /// Every file, by its path from the folder.
+    /// The paths of all files, relative to the folder.
     fn files(&self) -> Vec<String> {
         let mut files = Vec::new();
         collect(self.folder.path(), self.folder.path(), &mut files);
@@ -109,13 +109,13 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) {
 /// The gallery of this crate, checked like the scenes of any user: every scene in `tests/scenes` and every scene of
 /// the thesis's figures, with facts, drawings and pictures in each theme.
 #[test]
-fn the_gallery_is_as_its_references_say() {
+fn the_gallery_equals_its_references() {
     drystone::snapshot::assert_scenes!("tests/scenes");
 }
 
-/// The plates of `drystone figures`, among them those that no scene file draws: the ring of colours and the sheet of shapes.
+/// The figures of `drystone figures`. Some of them have no scene file: the ring of colours and the sheet of shapes.
 #[test]
-fn the_plates_are_as_their_references_say() {
+fn the_figures_of_the_program_equal_their_references() {
     let plates = drystone::figure::gallery(&drystone::drawing::Theme::default());
     for plate in &plates {
         drystone::snapshot::assert_figure!(plate.name, &plate.drawing);
@@ -138,7 +138,7 @@ fn the_plates_are_as_their_references_say() {
     }
 }
 
-/// A folder with one scene, accepted.
+/// A folder with one scene and its accepted references.
 fn accepted() -> Folder {
     let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
     let ran = folder.run(&["a", "--accept"]);

@@ -28,8 +28,8 @@ pub(crate) const GROUPS: &[&str] = &[
     "entry",
 ];
 
-/// A path below `src` without its groups, as code names it: `scene/frame.rs` for `mechanics/scene/frame.rs`. `None` for a
-/// group's own `mod.rs`.
+/// A path below `src` without its groups, as in module paths: `scene/frame.rs` for `mechanics/scene/frame.rs`. `None`
+/// for the `mod.rs` of a group.
 pub(crate) fn without_groups(path: &str) -> Option<&str> {
     let mut rest = path;
     while let Some((first, below)) = rest.split_once('/') {
@@ -92,7 +92,8 @@ pub(crate) fn word_at(text: &str) -> Option<String> {
 
 /// Whether the code names a foreign crate: as the head of a path, or in a `use` of the bare name.
 ///
-/// A module of ours may have the crate's name, as `output::png` has; a file that imports or declares it means that one.
+/// A module of drystone may have the name of a crate, as `output::png` does. In a file that imports or declares it,
+/// the name means this module.
 pub(crate) fn names_crate(code: &str, name: &str) -> bool {
     let ours = [";", "::{self", ",", "}"].map(|end| format!("::{name}{end}"));
     if ours.iter().any(|import| code.contains(import)) || code.contains(&format!("mod {name};")) {

@@ -1,4 +1,4 @@
-//! Scene files for tests, built once for all of them.
+//! Scene files that several tests share.
 
 use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
@@ -117,7 +117,8 @@ pub fn on_slope(degrees: f64, width: f64, height: f64, friction: f64, kernel: f6
 /// stack.
 pub fn harmonic(n: usize, share: f64) -> Value {
     let mut left = vec![0.0; n];
-    // From the top: brick k (from 1) reaches 1/(2k) beyond the next below, the lowest beyond the table's edge.
+    // Brick k, counted from 1 at the top, overhangs the next brick below by share/(2k); the lowest overhangs the
+    // table.
     let mut x = 0.0;
     for k in (1..=n).rev() {
         x += share / (2.0 * k as f64);

@@ -1,4 +1,4 @@
-//! The macros as tests call them, in programs of their own, since they read the environment.
+//! The macros for tests. They read the environment, so each runs in a separate process.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,10 +8,10 @@ use drystone::{Analysis, Scene, figure};
 
 use super::{Folder, lintel};
 
-/// Where the test below finds the crate it plays in.
+/// The environment variable with the folder of the crate for the test below.
 const FOLDER: &str = "DRYSTONE_TEST_FOLDER";
 
-/// Run by the others in programs of their own.
+/// The other tests run this one in a separate process.
 #[test]
 #[ignore = "called by the other tests, with a folder"]
 fn a_scene_a_folder_and_a_figure() {
@@ -49,7 +49,7 @@ fn run(folder: &Folder, environment: &[(&str, &str)]) -> (bool, String) {
 }
 
 #[test]
-fn a_test_fails_with_words_until_it_is_updated_and_never_writes_in_ci() {
+fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
     let folder = Folder::with(&[("scenes/arch.json", lintel("A lintel", 1.0))]);
     let before = folder.files();
     for environment in [
@@ -105,6 +105,6 @@ fn a_figures_name_stays_in_its_folder() {
 
 #[test]
 #[should_panic(expected = "there is no scene file at src/text")]
-fn a_folder_without_scenes_is_no_success() {
+fn a_folder_without_scenes_is_a_failure() {
     assertion::scenes(Path::new(env!("CARGO_MANIFEST_DIR")), "src/text".as_ref());
 }

@@ -1,4 +1,4 @@
-//! What happens on the disk: places that cannot be written, runs at once, and runs that are interrupted.
+//! Snapshots on disk: paths that cannot be written, simultaneous runs, and interrupted runs.
 
 use std::fs;
 use std::process::Stdio;
@@ -14,7 +14,7 @@ use super::{Folder, accepted, lintel};
 fn a_place_that_cannot_be_written_changes_no_answer_and_refuses_acceptance() {
     let folder = accepted();
     folder.write("a/arch.json", &lintel("A lintel", 1.3));
-    // A folder where a file must go cannot be written by anybody, not even by the superuser.
+    // If a folder has the name of the file, not even the superuser can write the file.
     fs::create_dir(folder.path("a/arch.new.txt")).expect("made");
     let ran = folder.run(&["a"]);
     assert!(
@@ -76,13 +76,13 @@ fn an_interrupted_acceptance_leaves_whole_files() {
         let mut command = folder.command(&["--accept"]);
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut run = command.spawn().expect("starts");
-        // From the first reference on, in the midst of writing.
+        // Wait until the first reference is written, so that the program is still writing.
         let wrote = || folder.files().iter().any(|name| name.ends_with(".txt"));
         while !wrote() && run.try_wait().expect("known").is_none() {
             thread::sleep(Duration::from_millis(1));
         }
         thread::sleep(Duration::from_millis(wait));
-        // As by the system, without a word to the program.
+        // The process is killed and cannot react.
         let _ = run.kill();
         run.wait().expect("ends");
         for name in folder.files() {

@@ -1,10 +1,10 @@
-//! Files of every sort in the place of references: compared, or refused in words of their own; never a panic.
+//! Files of many kinds used as references: each is compared or refused with a specific message, without a panic.
 
 use drystone::output::animation;
 use drystone::output::png as ours;
 use drystone::snapshot::picture::{Difference, Picture, PictureError, PixelTolerance, Subject};
 
-/// A picture with a few colours and a ramp.
+/// A picture with a few colours and a gradient.
 fn sample() -> Picture {
     let pixel = |i: u32| match i % 24 {
         x @ 0..16 => [(16 * x) as u8, 200, (i / 48) as u8 * 9, 255],
@@ -13,7 +13,7 @@ fn sample() -> Picture {
     Picture::new(24, 20, (0..480).map(pixel).collect())
 }
 
-/// Pixels as another program would write them.
+/// A PNG file as another program may write it.
 fn foreign(
     colour: png::ColorType,
     depth: png::BitDepth,
@@ -41,7 +41,7 @@ fn foreign(
 fn every_sort_of_png_is_read_as_the_same_pixels() {
     use png::BitDepth::{Eight, Four, One, Sixteen};
     use png::ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
-    // Black, white, black, white; and the other way round.
+    // Two rows: black, white, black, white; and the reverse.
     let [b, w] = [[0, 0, 0, 255], [255, 255, 255, 255]];
     let expected = Picture::new(4, 2, vec![b, w, b, w, w, b, w, b]);
     let spread = |one: &[u8], zero: &[u8]| -> Vec<u8> {
@@ -132,7 +132,7 @@ fn every_sort_of_png_is_read_as_the_same_pixels() {
 }
 
 #[test]
-fn what_is_no_whole_png_has_words_of_its_own() {
+fn each_kind_of_invalid_png_has_its_own_message() {
     let bytes = sample().encode(Some(Subject::Scene)).expect("packed");
     let refused = |bytes: &[u8]| {
         Picture::decode(bytes)
@@ -164,7 +164,7 @@ fn what_is_no_whole_png_has_words_of_its_own() {
     ] {
         assert!(refused(bytes).starts_with(words), "{}", refused(bytes));
     }
-    // A header that promises more than is ever compared.
+    // A header with more pixels than the limit.
     let mut huge = foreign(
         png::ColorType::Grayscale,
         png::BitDepth::Eight,
@@ -231,7 +231,7 @@ fn every_beginning_and_every_damaged_byte_is_refused_or_read_without_a_panic() {
         for flip in [0x01, 0x80, 0xff] {
             let mut damaged = bytes.clone();
             damaged[place] ^= flip;
-            // Read or refused, but never more pixels than its header says.
+            // A picture that is read has exactly the pixels of its header.
             if let Ok(picture) = Picture::decode(&damaged) {
                 assert_eq!(
                     picture.pixels().len() as u64,
@@ -243,7 +243,7 @@ fn every_beginning_and_every_damaged_byte_is_refused_or_read_without_a_panic() {
 }
 
 #[test]
-fn pictures_of_another_size_are_told_by_their_sizes() {
+fn pictures_of_different_sizes_are_reported_with_both_sizes() {
     let one = sample();
     let other = Picture::new(20, 24, vec![[255; 4]; 480]);
     let difference = Difference::new(&one, &other, PixelTolerance::default());
@@ -261,7 +261,7 @@ fn pictures_of_another_size_are_told_by_their_sizes() {
         [0xb8, 0xd4, 0xf0, 255],
         "only one of them reaches here"
     );
-    // A page that grew by a strip of its own white is another page all the same.
+    // A page with an additional white row is a different page.
     let white = |w, h| Picture::new(w, h, vec![[255; 4]; (w * h) as usize]);
     let grown = Difference::new(&white(9, 9), &white(9, 10), PixelTolerance::default());
     assert_eq!(

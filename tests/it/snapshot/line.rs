@@ -1,4 +1,4 @@
-//! `drystone snapshot` as a person runs it: exit codes, files, words, and what happens when things go wrong.
+//! The command `drystone snapshot`: exit codes, files, messages and errors.
 
 use std::fs;
 use std::io::Write;
@@ -9,7 +9,7 @@ use drystone::snapshot::picture::Picture;
 use super::{Folder, accepted, lintel, ran};
 
 #[test]
-fn what_is_new_lies_beside_until_it_is_accepted() {
+fn a_new_snapshot_is_written_next_to_the_reference_until_it_is_accepted() {
     let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
     let ran = folder.run(&["a"]);
     assert_eq!(ran.code, 1);
@@ -53,7 +53,7 @@ fn what_is_new_lies_beside_until_it_is_accepted() {
 }
 
 #[test]
-fn a_change_is_told_in_words_with_a_picture_and_goes_away_with_it() {
+fn a_change_is_reported_with_a_picture_that_is_removed_with_the_change() {
     let folder = accepted();
     folder.write("a/arch.json", &lintel("A lintel", 1.2));
     let ran = folder.run(&["a"]);
@@ -140,7 +140,7 @@ fn a_filter_leaves_the_others_alone() {
 }
 
 #[test]
-fn a_whole_name_is_that_scene_alone() {
+fn a_complete_name_selects_only_that_scene() {
     let folder = Folder::with(&[
         ("arch.json", lintel("One", 1.0)),
         ("arch2.json", lintel("Two", 1.0)),
@@ -157,7 +157,7 @@ fn a_whole_name_is_that_scene_alone() {
 }
 
 #[test]
-fn wrong_input_is_told_whole_and_nothing_is_written() {
+fn invalid_input_is_reported_completely_and_nothing_is_written() {
     let folder = Folder::with(&[
         ("good.json", lintel("Good", 1.0)),
         ("bad.json", r#"{ "drystone": 1, "blocks": 3 }"#.into()),
@@ -188,7 +188,7 @@ fn wrong_input_is_told_whole_and_nothing_is_written() {
 }
 
 #[test]
-fn nothing_is_accepted_in_ci_unless_it_is_meant() {
+fn nothing_is_accepted_in_ci_without_the_option_for_ci() {
     let folder = Folder::with(&[("arch.json", lintel("A lintel", 1.0))]);
     let in_ci = |arguments: &[&str]| {
         let mut command = folder.command(arguments);
@@ -209,7 +209,7 @@ fn nothing_is_accepted_in_ci_unless_it_is_meant() {
 }
 
 #[test]
-fn names_with_spaces_and_of_any_script_are_names() {
+fn names_may_have_spaces_and_any_script() {
     let names = [
         "a b/ein Bogen & 'mehr'.json",
         "арка.json",
@@ -234,13 +234,13 @@ fn names_with_spaces_and_of_any_script_are_names() {
 }
 
 #[test]
-fn names_that_are_one_on_some_disks_are_refused() {
+fn names_that_are_equal_on_some_disks_are_refused() {
     let folder = Folder::with(&[
         ("Arch.json", lintel("One", 1.0)),
         ("arch.json", lintel("Two", 1.0)),
     ]);
     if folder.files().len() < 3 {
-        // This disk is such a one itself.
+        // This disk treats both names as one.
         return;
     }
     let ran = folder.run(&["--accept"]);
@@ -266,7 +266,7 @@ fn names_that_are_one_on_some_disks_are_refused() {
 }
 
 #[test]
-fn references_that_cannot_be_read_have_their_words() {
+fn references_that_cannot_be_read_have_specific_messages() {
     let folder = accepted();
     let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:9f8e\nsize 18231\n";
     for (name, text, words) in [
@@ -364,7 +364,7 @@ fn a_page_a_report_and_annotations_are_written() {
 }
 
 #[test]
-fn a_person_is_asked_one_by_one() {
+fn review_asks_about_each_change() {
     let scenes = [
         ("one.json", lintel("One", 1.0)),
         ("three.json", lintel("Three", 1.0)),
@@ -378,7 +378,8 @@ fn a_person_is_asked_one_by_one() {
         .stderr(Stdio::piped());
     let mut run = command.spawn().expect("starts");
     let mut typed = run.stdin.take().expect("a pipe");
-    // What is no answer is asked again; the end of the input leaves the rest.
+    // After an invalid answer the question is repeated. At the end of the input the remaining references stay as they
+    // are.
     typed.write_all(b"perhaps\ny\nn\n").expect("read");
     drop(typed);
     let output = run.wait_with_output().expect("ends");

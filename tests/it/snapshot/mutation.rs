@@ -12,7 +12,7 @@ use drystone::{Scene, output};
 use super::lintel;
 use crate::random::Random;
 
-/// What is compared of one scene.
+/// The facts, the drawing and the picture of one scene.
 struct Take {
     facts: Facts,
     svg: String,
@@ -81,7 +81,7 @@ fn points(outline: &mut Outline, change: &dyn Fn(PagePoint) -> PagePoint) {
     }
 }
 
-/// Turns the arrow of a title about its tail, on the page anticlockwise.
+/// Turns the arrow with a title about its tail, anticlockwise on the page.
 fn turn(drawing: &mut Drawing, title: &str, degrees: f64) {
     let mut turned = 0;
     groups(&mut drawing.items, &mut |group| {
@@ -110,7 +110,7 @@ fn words(drawing: &mut Drawing, change: &mut dyn FnMut(&mut Vec<Item>)) {
     groups(&mut drawing.items, &mut |group| change(&mut group.items));
 }
 
-/// Takes the label of a block away; the key names the block too.
+/// Removes the label of a block.
 fn lose(drawing: &mut Drawing, label: &str) {
     let mut lost = 0;
     groups(&mut drawing.items, &mut |group| {
@@ -126,7 +126,7 @@ fn lose(drawing: &mut Drawing, label: &str) {
     assert_eq!(lost, 1, "{label}");
 }
 
-/// Moves the label with these words, pixels.
+/// Moves the label with this text by some pixels.
 fn shift(drawing: &mut Drawing, label: &str, x: f64, y: f64) {
     words(drawing, &mut |items| {
         for item in items {
@@ -139,7 +139,7 @@ fn shift(drawing: &mut Drawing, label: &str, x: f64, y: f64) {
     });
 }
 
-/// Fills a block with another colour, by so much in red.
+/// Changes the red component of the fill of a block.
 fn recolour(drawing: &mut Drawing, title: &str, by: u8) {
     groups(&mut drawing.items, &mut |group| {
         if group.title != title {
@@ -165,7 +165,7 @@ struct Row {
 }
 
 #[test]
-fn every_mutation_is_caught_by_its_layers_in_words() {
+fn every_mutation_is_reported_by_the_expected_layers() {
     let text = lintel("A lintel", 1.0);
     let expected = Take::scene(&text);
     let arrow = "Force on block lintel from block left";
@@ -295,7 +295,7 @@ fn shifted(picture: &Picture) -> Picture {
     Picture::new(picture.width, picture.height, pixels)
 }
 
-/// Every force of an analysis off by up to a billionth part of it, as from another solver.
+/// Changes every force of an analysis by up to a billionth, as another solver might.
 fn jittered(analysis: &mut Analysis, random: &mut Random) {
     let mut near = |value: &mut f64| {
         let part = (random.next() % 2001) as f64 / 1000.0 - 1.0;
@@ -321,7 +321,7 @@ fn jittered(analysis: &mut Analysis, random: &mut Random) {
     }
 }
 
-/// Scenes of every sort: those of the gallery.
+/// The scenes of the gallery.
 fn gallery() -> Vec<(String, Scene)> {
     let mut scenes = Vec::new();
     for folder in ["tests/scenes", "assets/thesis"] {
@@ -391,7 +391,7 @@ fn one_pixel_is_enough() {
     let expected = Take::scene(&lintel("A lintel", 1.0)).picture;
     let packed = Picture::decode(&expected.encode(None).expect("packed")).expect("read");
     let mut pixels = expected.pixels().to_vec();
-    // A pixel of the white page, where no rounding is.
+    // A pixel of the white page, which has no rounding errors.
     pixels[5 * expected.width as usize + 9] = [252, 255, 255, 255];
     let found = Picture::new(expected.width, expected.height, pixels);
     let difference = Difference::new(&packed, &found, PixelTolerance::default());
@@ -404,7 +404,7 @@ fn one_pixel_is_enough() {
     assert_eq!(image.pixel(12, 8), [0xf0, 0x70, 0x80, 255], "framed");
 }
 
-/// The facts of every scene of the gallery are read back as they were written, whatever its names hold.
+/// The facts of every scene of the gallery, with any characters in names, are read back as they were written.
 #[test]
 fn facts_are_read_back_as_they_were_written() {
     for (name, scene) in gallery() {

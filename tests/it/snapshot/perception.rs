@@ -1,8 +1,8 @@
-//! Perceptual comparison: the counts of pixelmatch, and smoothing that is let pass.
+//! Perceptual comparison: its counts equal those of pixelmatch, and differences in smoothing can be ignored.
 
 use drystone::snapshot::picture::{Difference, Picture, PixelTolerance};
 
-/// Another disc, a threshold, and how many pixels differ and are smoothed.
+/// Another disc, a threshold, the number of differing pixels and that of smoothed pixels.
 type Count = ([f64; 3], f64, u64, u64);
 
 const PIXELMATCH: &[Count] = &[
@@ -16,7 +16,7 @@ const PIXELMATCH: &[Count] = &[
     ([5.0, 5.0, 9.0], 0.05, 1044, 124),
 ];
 
-/// A smoothed disc, by arithmetic that is the same everywhere: row by row, 64 × 64 pixels.
+/// A smoothed disc in 64 × 64 pixels, row by row. The arithmetic is the same on all platforms.
 fn disc(x: f64, y: f64, radius: f64) -> Picture {
     let pixel = |i: usize| {
         let (px, py) = ((i % 64) as f64 + 0.5 - x, (i / 64) as f64 + 0.5 - y);
@@ -50,7 +50,7 @@ fn counts_are_those_of_pixelmatch() {
 }
 
 #[test]
-fn another_smoothing_of_the_same_edge_is_let_pass_only_on_request() {
+fn another_smoothing_of_the_same_edge_is_ignored_only_on_request() {
     let (one, other) = (disc(32.0, 32.0, 16.0), disc(32.2, 32.1, 16.0));
     let strict = Difference::new(&one, &other, PixelTolerance::default());
     assert!(strict.changed > 80, "{}", strict.words());
