@@ -76,7 +76,7 @@ impl Folder {
 }
 
 #[test]
-fn a_report_ends_as_other_pictures_do_and_strict_as_check_does() {
+fn a_report_has_the_exit_codes_of_render_and_with_strict_those_of_check() {
     let folder = Folder::three();
     for (line, code) in [
         ("report in -o r.html", 0),
@@ -99,7 +99,7 @@ fn a_report_ends_as_other_pictures_do_and_strict_as_check_does() {
 }
 
 #[test]
-fn a_broken_scene_among_sound_ones_is_listed_and_nothing_is_lost() {
+fn an_invalid_scene_is_listed_and_the_others_are_reported() {
     let folder = Folder::new(&[
         ("in/a.json", STANDS),
         ("in/b.json", WRONG),
@@ -140,7 +140,7 @@ fn a_broken_scene_among_sound_ones_is_listed_and_nothing_is_lost() {
 }
 
 #[test]
-fn the_same_scenes_give_the_same_bytes_and_times_only_where_asked_for() {
+fn the_same_scenes_give_the_same_bytes_and_times_are_written_only_on_request() {
     let folder = Folder::three();
     for form in ["html", "md", "json", "pdf"] {
         folder.done(&format!("report in -o a.{form} --margins --title T"));
@@ -216,7 +216,7 @@ fn every_result_is_the_one_that_check_prints() {
 }
 
 #[test]
-fn markdown_has_its_figures_beside_it_and_its_words_do_nothing() {
+fn markdown_has_figures_in_separate_files_and_texts_have_no_effect() {
     let folder = Folder::three();
     folder.done("report in -o r.md");
     let text = folder.text("r.md");
@@ -357,7 +357,7 @@ fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
 }
 
 #[test]
-fn a_comparison_tells_of_loads_and_robots_and_of_steps_that_one_scene_has() {
+fn a_comparison_lists_loads_robots_and_steps_of_only_one_scene() {
     let blocks = "{ \"id\": \"a\", \"polygon\": [[0,0],[2,0],[2,1],[0,1]], \"friction\": 0.7 },
         { \"id\": \"b\", \"polygon\": [[2,0],[4,0],[4,1],[2,1]], \"friction\": 0.7 }";
     let scene = |force: f64, more: &str| {

@@ -218,18 +218,18 @@ fn every_value_has_its_source_and_every_source_a_value() {
     }
 }
 
-/// Numbers in the text that are not in the table.
+/// Checks a number in the text that is not in the table.
 #[test]
-fn the_text_says_what_is_computed() {
+fn the_text_states_the_computed_value() {
     let page = std::fs::read_to_string(path(PAGE)).expect("the page is there");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     let more = measure::horizontal(&arches::oppenheim(21));
     assert!(words.contains(&format!("with 21 voussoirs our value is {more:.3}")));
 }
 
-/// Every picture shows its scene just beyond the limit; both lie in `assets/validation`.
+/// Checks each picture and its scene in `assets/validation`.
 #[test]
-fn the_pictures_are_those_of_the_cases() {
+fn the_pictures_show_their_scenes() {
     let mut inline = String::new();
     for (name, kind, file) in pictures::PICTURES {
         let file = file();

@@ -1,4 +1,4 @@
-//! `accuracy`, the levels of `check`, and what it is to be undecided.
+//! The command `accuracy`, the accuracy levels of `check`, and undecided verdicts.
 
 use std::fs;
 
@@ -42,7 +42,7 @@ fn a_study_is_written_in_every_form() {
     let study: Value = serde_json::from_str(&text("json")).expect("JSON");
     assert!(study.is_object());
     assert!(text("md").contains('|'));
-    // A form that is not known is told before anything is measured or written.
+    // An unknown output format is reported before anything is measured or written.
     let ran = bench.run("accuracy stands.json -o study.txt -o other.csv");
     assert_eq!(ran.code, 2);
     assert!(
@@ -60,13 +60,14 @@ fn a_study_is_written_in_every_form() {
 #[test]
 fn what_cannot_be_proved_ends_with_three_and_says_why() {
     let bench = Bench::new();
-    // A thrust of 10⁹ weights balances to seven digits: enough for a verdict, too little for one a hundred times better.
+    // A thrust of 10⁹ weights is balanced to seven digits. This is enough for a verdict, but not for the level
+    // `proved`, which needs a hundred times better.
     fs::write(bench.path("flat.json"), wedge(1e-9)).expect("writable");
     let ran = bench.run("check --accuracy proved flat.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(ran.out.contains("undecided"), "{}", ran.out);
     assert!(ran.out.contains("of what acts on a block"), "{}", ran.out);
-    // Of 10¹³ weights it balances to three digits, which is no proof; nor does it fall.
+    // A thrust of 10¹³ weights is balanced to three digits, which is not a proof. The wedge does not fall either.
     fs::write(bench.path("flatter.json"), wedge(1e-13)).expect("writable");
     let ran = bench.run("check flatter.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
@@ -111,7 +112,7 @@ fn every_level_gives_the_same_verdicts() {
     let ran = bench.run("check --accuracy best stands.json");
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("standard, proved"), "{}", ran.err);
-    // A level of earlier versions: the message says what to use in its place.
+    // For a level of earlier versions the message names its replacement.
     let ran = bench.run("check --accuracy draft stands.json");
     assert_eq!(ran.code, 2);
     assert!(

@@ -1,4 +1,4 @@
-//! `drystone batch`: a line for every scene, in order, whatever is wrong with some of them and however a run ends.
+//! `drystone batch`: one line for every scene, in order, even if some scenes are invalid or a run is interrupted.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -15,7 +15,8 @@ fn line(text: &str) -> String {
     format!("{value}\n")
 }
 
-/// A tower of so many bricks, each shifted by so much: from 0.5/(bricks − 1) on it falls.
+/// A tower of `bricks` bricks, each shifted by `shift` from the brick below. It falls if the shift is more than
+/// 1/`bricks`.
 fn tower(title: &str, bricks: usize, shift: f64) -> String {
     let blocks: Vec<Value> = (0..bricks)
         .map(|k| {
@@ -60,7 +61,7 @@ fn every_line_is_answered_in_its_place() {
 }
 
 #[test]
-fn problems_are_told_with_their_places() {
+fn problems_are_reported_with_their_positions() {
     let bench = Bench::new();
     let input = format!("{}{}", line(STANDS), line(WRONG));
     let told = lines(&bench.run_with("batch", input.as_bytes()).out);
@@ -72,7 +73,7 @@ fn problems_are_told_with_their_places() {
         assert!(problem["column"].as_u64() > Some(0));
         assert_ne!(problem["message"], "");
     }
-    // A scene in a file of its own has lines of its own.
+    // In a separate file the line numbers are those of the file.
     let ran = bench.run("batch wrong.json");
     let told = lines(&ran.out);
     assert_eq!(told[0]["file"], "wrong.json");
@@ -91,7 +92,7 @@ fn many_threads_answer_as_one_does_and_as_check_does() {
     let bench = Bench::new();
     let mut input = String::new();
     for k in 0..60 {
-        // Now and then a large one, so that later ones are ready first.
+        // Some towers are large, so that later ones are ready first.
         let bricks = if k % 7 == 0 { 60 } else { 5 };
         input += &tower(&format!("tower {k}"), bricks, 0.004 * f64::from(k));
     }
@@ -128,11 +129,11 @@ fn fields_pick_what_is_written() {
         assert_eq!(at(part), at(all));
         assert_eq!(part["interfaces"][0].as_object().map(|o| o.len()), Some(1));
     }
-    // Everything by its names is everything.
+    // The names of all fields give the complete result.
     let ran = bench
         .run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,notes,frames");
     assert_eq!(lines(&ran.out).remove(0), whole);
-    // What is found out only on request is asked for by its own name.
+    // Results that are computed only on request are requested by their field names.
     let frame = |list: &str| {
         let ran = bench.run(&format!("batch falls.json --fields {list}"));
         lines(&ran.out)[0]["frames"][1].clone()
@@ -150,7 +151,7 @@ fn fields_pick_what_is_written() {
     assert!(ran.err.contains("did you mean frames.proof?") && ran.err.contains("no field x"));
 }
 
-/// The margins of `batch` are those of `check`, whichever list either is given.
+/// For each list of margins, `batch` gives the same margins as `check`.
 #[test]
 fn margins_are_those_of_check() {
     let bench = Bench::new();
@@ -175,7 +176,7 @@ fn margins_are_those_of_check() {
                 assert_ne!(ran.code, 2, "{}", ran.err);
                 lines(&ran.out).remove(0)
             };
-            // By itself --margins adds them to what is written, and only them.
+            // `--margins` alone adds only the margins to the output.
             let told = batch("");
             assert_eq!(margins(&told), margins(&checked), "{list}");
             assert_eq!(told["frames"][0].as_object().map(|o| o.len()), Some(1));
@@ -225,7 +226,7 @@ fn a_folder_is_read_in_the_order_of_names() {
 }
 
 #[test]
-fn an_interrupted_run_goes_on_where_it_ended() {
+fn an_interrupted_run_continues_where_it_ended() {
     let bench = Bench::new();
     let input: String = (0..20)
         .map(|k| tower(&format!("tower {k}"), 4, 0.02 * f64::from(k)))
@@ -235,7 +236,7 @@ fn an_interrupted_run_goes_on_where_it_ended() {
     assert_eq!((whole.code, &*whole.out), (1, ""));
     let whole = fs::read(bench.path("whole.ndjson")).expect("there");
     let record = fs::read(bench.path("whole.ndjson.resume")).expect("there");
-    // Cut anywhere, within a line or between two, from nothing at all to all of it.
+    // The output is cut at several positions, within a line and between lines, from empty to complete.
     for cut in [0, 1, 30, whole.len() / 2, whole.len() - 1, whole.len()] {
         fs::write(bench.path("part.ndjson"), &whole[..cut]).expect("writable");
         fs::write(bench.path("part.ndjson.resume"), &record).expect("writable");
@@ -246,7 +247,7 @@ fn an_interrupted_run_goes_on_where_it_ended() {
         let kept = fs::read(bench.path("part.ndjson.resume")).expect("there");
         assert!(kept == record, "cut at {cut}");
     }
-    // A completed file is left as it is, and the scenes that follow are answered.
+    // The existing lines stay as they are, and the answers to the remaining scenes follow.
     let ran = bench.run("batch in.ndjson -o part.ndjson --resume");
     assert_eq!((ran.code, &*ran.out), (0, ""), "{}", ran.err);
     assert!(
@@ -264,9 +265,9 @@ fn an_interrupted_run_goes_on_where_it_ended() {
     assert_eq!(bench.run("batch --resume").code, 2, "without an output");
 }
 
-/// Answers to other scenes, with other options or of other origin are never taken for finished work, and stay as they are.
+/// Lines from other scenes, other options or another program are not taken for finished answers, and are not changed.
 #[test]
-fn what_was_made_from_something_else_is_not_resumed() {
+fn output_of_other_scenes_or_options_is_not_resumed() {
     let bench = Bench::new();
     let towers: Vec<String> = (0..9)
         .map(|k| tower(&format!("tower {k}"), 4, 0.02))
@@ -286,9 +287,9 @@ fn what_was_made_from_something_else_is_not_resumed() {
     let swapped = whole.replacen("tower 2", "tower 3", 1);
     let cut = &whole[..whole.len() / 2];
     let run = "batch in.ndjson -o out.ndjson --resume";
-    // What is in the output, what is run, and what the refusal says of it.
+    // The content of the output file, the command, and the expected texts of the refusal.
     let cases: [(&str, &str, &[&str]); 13] = [
-        // Other scenes, which have the place of those that were answered.
+        // Other scenes at the positions of those that were answered.
         (
             &whole,
             "batch < other.ndjson",
@@ -344,7 +345,7 @@ fn what_was_made_from_something_else_is_not_resumed() {
             "batch in.ndjson --render drawn",
             &["pictures was none and is now png"],
         ),
-        // Garbage, and lines that somebody changed.
+        // Foreign text, and lines that were changed.
         ("mine\n", "batch in.ndjson", &["line 1 ", "was changed"]),
         (&swapped, "batch in.ndjson", &["line 3 ", "was changed"]),
         (
@@ -374,7 +375,7 @@ fn what_was_made_from_something_else_is_not_resumed() {
         "a refused run makes no folder"
     );
 
-    // The same name, other scenes in it; fewer of them.
+    // An input file with the same name, but with other or fewer scenes.
     write("out.ndjson", &whole);
     for (input, said) in [
         (
@@ -394,7 +395,7 @@ fn what_was_made_from_something_else_is_not_resumed() {
     }
     write("in.ndjson", &towers.concat());
 
-    // Without the record, or with something else in its place, nobody knows what the lines answer.
+    // Without a valid record it is not known which scenes the lines answer.
     for (record, said) in [
         (None, "is missing"),
         (Some("{"), "drystone batch wrote"),
@@ -408,19 +409,19 @@ fn what_was_made_from_something_else_is_not_resumed() {
         assert!(ran.code == 2 && ran.err.contains(said), "{}", ran.err);
         assert_eq!(read("out.ndjson"), whole);
     }
-    // Threads and progress change no answer.
+    // The number of threads and the display of progress do not change the answers.
     write("out.ndjson.resume", &record);
     write("out.ndjson", cut);
     let ran = bench.run(&format!("{run} --jobs 1 --progress 10"));
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert_eq!(read("out.ndjson"), whole);
-    // A device keeps no answers.
+    // Output to a device cannot be resumed.
     #[cfg(unix)]
     assert_eq!(bench.run("batch in.ndjson -o /dev/null --resume").code, 2);
 }
 
 #[test]
-fn a_run_that_is_killed_leaves_whole_lines_to_go_on_from() {
+fn a_killed_run_leaves_complete_lines_and_can_be_resumed() {
     let bench = Bench::new();
     let mut command = bench.command("batch -o out.ndjson");
     let mut child = command.stdin(Stdio::piped()).spawn().expect("starts");
@@ -446,7 +447,7 @@ fn a_run_that_is_killed_leaves_whole_lines_to_go_on_from() {
 }
 
 #[test]
-fn one_line_in_is_one_line_out_before_the_next_comes() {
+fn each_line_is_answered_before_the_next_one_is_read() {
     let bench = Bench::new();
     let mut child = bench
         .command("batch")
@@ -481,7 +482,7 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
         assert_eq!(png[16..20], 400_u32.to_be_bytes(), "{name}");
     }
     assert_eq!(fs::read_dir(bench.path("drawn")).expect("there").count(), 2);
-    // The same figure as render makes.
+    // The picture equals that of `render`.
     let ran = bench.run("batch stands.json --render more --format svg");
     assert_eq!(lines(&ran.out)[0]["picture"], "stands.svg");
     bench.run("render stands.json -o alone.svg");
@@ -494,9 +495,10 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
 }
 
 #[test]
-fn a_limit_of_time_is_that_of_each_scene() {
+fn the_time_limit_applies_to_each_scene() {
     let bench = Bench::new();
-    // A tower leaves no choice of forces, and takes no program that could run out of time; a bridge does.
+    // The forces of a tower are unique, so no solver runs that could exceed the time limit. A bridge needs the
+    // solver.
     let bridge = |title: &str| {
         let posts = [rectangle(0.0, 0.0, 1.0, 3.0), rectangle(3.0, 0.0, 1.0, 3.0)];
         let polygons = posts.into_iter().chain([rectangle(0.0, 3.0, 4.0, 1.0)]);
@@ -518,7 +520,7 @@ fn a_limit_of_time_is_that_of_each_scene() {
 }
 
 #[test]
-fn progress_is_told_on_standard_error_where_it_is_asked_for() {
+fn progress_is_written_to_standard_error_on_request() {
     let bench = Bench::new();
     let input: String = (0..40).map(|k| tower(&k.to_string(), 12, 0.01)).collect();
     fs::write(bench.path("in.ndjson"), input).expect("writable");
@@ -532,7 +534,7 @@ fn progress_is_told_on_standard_error_where_it_is_asked_for() {
 }
 
 #[test]
-fn a_reader_who_leaves_early_is_no_failure_though_the_input_never_ends() {
+fn a_closed_output_ends_the_run_without_failure_while_the_input_is_open() {
     let bench = Bench::new();
     let mut child = bench
         .command("batch")
@@ -562,7 +564,7 @@ fn a_reader_who_leaves_early_is_no_failure_though_the_input_never_ends() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_told() {
+fn a_full_disk_is_reported() {
     let bench = Bench::new();
     for target in ["-o /dev/full", "--render /dev/full/x"] {
         let ran = bench.run(&format!("batch stands.json {target}"));

@@ -1,10 +1,10 @@
-//! `render --broken`: what is wrong with a refused scene can be looked at.
+//! `render --broken` draws a refused scene with its problems.
 
 use std::fs;
 
 use super::Bench;
 
-/// Two overlaps, one with the ground, a gap of 5 mm, a crossing where asked for, and an unknown key.
+/// A scene with two overlaps (one with the ground), a gap of 5 mm, an unknown key, and the additions in `more`.
 fn doorway(more: &str) -> String {
     format!(
         r#"{{ "drystone": 1, "title": "By hand",

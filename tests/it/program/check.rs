@@ -38,7 +38,7 @@ fn check_ends_with_the_worst_verdict() {
 }
 
 #[test]
-fn a_person_reads_verdict_numbers_and_what_fails() {
+fn the_table_has_verdicts_numbers_and_failures() {
     let bench = Bench::new();
     let ran = bench.run("check falls.json");
     let lines: Vec<&str> = ran.out.lines().collect();
@@ -60,11 +60,12 @@ fn a_person_reads_verdict_numbers_and_what_fails() {
     for line in explained.lines().rev().take(9) {
         assert!(line.chars().count() <= 80, "{line}");
     }
-    // The lintel's 11 N lie 2 m beyond the post's edge; the pull at the far corner has an arm of 1 m.
+    // The weight of the lintel, 11 N, acts 2 m beyond the edge of the post. The pull at the far corner has an arm of
+    // 1 m.
     let words =
         "lintel comes off left at (0, 3) m: holding them together would need a pull of 22 N";
     assert!(ran.out.contains(words), "{}", ran.out);
-    // The post's own 6 N, half a metre inside, do a share of that at its foot.
+    // At the foot of the post its own weight of 6 N, half a metre inside the edge, reduces the pull.
     assert!(
         ran.out.contains(
             "left comes off ground at (0, 0) m: holding them together would need a pull of 19 N"
@@ -75,7 +76,7 @@ fn a_person_reads_verdict_numbers_and_what_fails() {
 }
 
 #[test]
-fn programs_read_one_object_a_scene() {
+fn the_json_output_has_one_object_per_scene() {
     let bench = Bench::new();
     let ran = bench.run("check --json falls.json");
     let result: Value = serde_json::from_str(&ran.out).expect("JSON");
@@ -113,7 +114,7 @@ fn programs_read_one_object_a_scene() {
 }
 
 #[test]
-fn margins_are_there_where_asked_for() {
+fn margins_are_present_on_request() {
     let bench = Bench::new();
     let object =
         |line: &str| -> Value { serde_json::from_str(&bench.run(line).out).expect("JSON") };
@@ -140,7 +141,7 @@ fn margins_are_there_where_asked_for() {
 }
 
 #[test]
-fn some_margins_can_be_asked_for_alone() {
+fn single_margins_can_be_requested() {
     let bench = Bench::new();
     for line in [
         "check --json --margins friction,tilt falls.json",
@@ -371,7 +372,7 @@ fn files_are_answered_in_the_order_of_the_result_page() {
     let ran = bench.run_with("check --json -", &scene);
     let result: Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(result["file"], "-");
-    // What a program must know before it asks for the verdicts of all frames.
+    // A program must check for refused files before it reads `frames`.
     let ran = bench.run("check --json -q wrong.json");
     let refused: Value = serde_json::from_str(&ran.out).expect("JSON");
     assert!(refused.get("frames").is_none() && !ran.err.is_empty());

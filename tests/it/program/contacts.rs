@@ -24,7 +24,7 @@ fn stands(file: &Value) -> bool {
     Analysis::new(&scene).verdict() == Verdict::Stable
 }
 
-/// The least value at which it stands, between a value at which it falls and one at which it stands.
+/// The value at which the verdict changes, between a value at which it falls and one at which it stands.
 fn threshold(mut falls: f64, mut holds: f64, is_stable: impl Fn(f64) -> bool) -> f64 {
     assert!(!is_stable(falls) && is_stable(holds));
     for _ in 0..40 {
@@ -51,7 +51,7 @@ fn the_exercise_has_its_known_answers() {
 }
 
 #[test]
-fn every_way_takes_a_contact_list() {
+fn every_command_accepts_a_contact_list() {
     let bench = Bench::empty();
     let rows = "x,y,mass\n25,35,2\n66,42,10\n1,2,60,60,pi,0.5\n1,0,0,0,pi/2,0.5\n2,0,60,0,1.5708,0.5\n2,0,72,0,1.5708,0.5\n";
     std::fs::write(bench.path("list.csv"), rows).expect("writable");
@@ -163,7 +163,7 @@ fn a_session_takes_a_contact_list() {
 }
 
 #[test]
-fn wrong_lists_are_refused_in_words() {
+fn invalid_contact_lists_are_refused_with_messages() {
     let mut file = assembly([2.0, 10.0], [0.5; 4]);
     file["contacts"][0]["bodies"] = json!(["1", "1"]);
     file["contacts"][1]["bodies"] = json!(["1", "grond"]);

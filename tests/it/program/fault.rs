@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Bench, FALLS, Ran, STANDS};
 
-/// A folder of a scene that stands, one on which the program fails, and one that falls.
+/// A folder with a stable scene, a scene on which the program fails, and an unstable scene.
 fn bench() -> Bench {
     let bench = Bench::empty();
     fs::create_dir(bench.path("all")).expect("a folder");
@@ -20,7 +20,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// Runs a command whose work on `faulty.json` fails at the given number of times that it is begun.
+/// Runs a command that fails when it begins to work on `faulty.json` for the time with this number.
 fn run(bench: &Bench, line: &str, number: usize) -> Ran {
     let mut command = bench.command(line);
     command.env("DRYSTONE_TEST_FAULT", format!("faulty#{number}"));
@@ -36,7 +36,7 @@ fn run(bench: &Bench, line: &str, number: usize) -> Ran {
 }
 
 fn is_reported(text: &str) -> bool {
-    // Lines are broken to the width of the terminal.
+    // Messages are broken into lines of the width of the terminal.
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
     text.contains("faulty.json")

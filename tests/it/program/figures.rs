@@ -1,4 +1,4 @@
-//! `figures`, free-body diagrams, steps one after the other, and books.
+//! The command `figures`, free-body diagrams, animated steps, and books.
 
 use std::fs;
 
@@ -36,7 +36,7 @@ fn the_gallery_is_drawn_in_every_format_with_captions() {
         }
         assert!(captions.contains(&format!("**{name}** ")), "{name}");
     }
-    // What the source leaves out carries what it refuses.
+    // With corner contacts, which the source leaves out, the bridge stands.
     assert!(captions.contains("a bridge of five blocks. It falls: "));
     assert!(captions.contains("The same with corner contacts. It stands."));
     assert!(captions.contains("robot r0 would have to give 5.74 N·m more torque"));
@@ -172,7 +172,7 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
         svg.contains("aria-label=\"U+77F3\u{a0}5854\""),
         "spelled out"
     );
-    // Words that a browser sets stay as they are: it has its own fonts.
+    // In SVG the text stays as it is, because the browser has its own fonts.
     let ran = bench.run("render stone.json -o named.svg");
     assert!(ran.code == 0 && !ran.err.contains("warning"), "{}", ran.err);
     let svg = fs::read_to_string(bench.path("named.svg")).expect("drawn");
@@ -194,7 +194,7 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
 }
 
 #[test]
-fn a_broken_scene_breaks_the_book() {
+fn a_book_with_an_invalid_scene_fails() {
     let bench = Bench::new();
     assert_eq!(bench.run("mdbook supports html").code, 0);
     assert_eq!(bench.run("mdbook supports markdown").code, 1);
@@ -217,7 +217,7 @@ fn a_broken_scene_breaks_the_book() {
 }
 
 #[test]
-fn two_scenes_are_compared_and_what_cannot_be_is_told() {
+fn two_scenes_are_compared_and_invalid_comparisons_are_reported() {
     let bench = Bench::new();
     let text = fs::read_to_string(bench.path("stands.json")).expect("there");
     let heavier = text
@@ -230,7 +230,7 @@ fn two_scenes_are_compared_and_what_cannot_be_is_told() {
     let svg = fs::read_to_string(bench.path("diff.svg")).expect("drawn");
     assert!(svg.contains("changed: lintel"), "{svg}");
     assert!(svg.contains("friction 0.5 in place of 0.6"), "{svg}");
-    // The lintel keeps its outline, so there is no outline before to draw.
+    // The outline of the lintel does not change, so no previous outline is drawn.
     assert!(!svg.contains("class=\"gone\"") && svg.contains("class=\"new\""));
     assert!(svg.contains("new or changed"), "{svg}");
     let ran = bench.run("render stands.json stands.json --kind compare -o same.svg");
@@ -253,7 +253,7 @@ fn two_scenes_are_compared_and_what_cannot_be_is_told() {
 }
 
 #[test]
-fn a_strip_too_large_for_a_png_is_refused_with_the_ways_to_split_it() {
+fn a_strip_too_large_for_a_png_is_refused_with_options_to_split_it() {
     let bench = Bench::new();
     let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
     fs::copy(steps, bench.path("steps.json")).expect("copied");

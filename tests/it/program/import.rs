@@ -1,4 +1,4 @@
-//! `drystone import`
+//! The commands `drystone import` and `drystone export`.
 
 use std::fs;
 
@@ -56,7 +56,7 @@ fn a_drawing_becomes_a_scene_that_check_takes() {
 }
 
 #[test]
-fn standard_input_and_output_want_the_format() {
+fn standard_input_and_output_need_the_format() {
     let bench = bench();
     let ran = bench.run_with("import - --format svg --quiet", DRAWING.as_bytes());
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
@@ -81,7 +81,7 @@ fn standard_input_and_output_want_the_format() {
 }
 
 #[test]
-fn what_was_done_is_told_as_json() {
+fn the_json_output_describes_the_import() {
     let bench = bench();
     let ran = bench.run("import drawing.svg -o scene.json --json --quiet");
     let told: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
@@ -114,7 +114,7 @@ fn doubts_are_warnings_unless_strict() {
 }
 
 #[test]
-fn what_is_wrong_writes_nothing_and_ends_with_2() {
+fn a_refused_drawing_writes_nothing_and_ends_with_2() {
     let bench = bench();
     let overlap = bench.run("import overlap.svg -o scene.json");
     assert_eq!(overlap.code, 2);
@@ -197,7 +197,7 @@ fn a_dwg_is_refused_with_the_remedy_and_old_letters_are_read() {
         "{}",
         ran.err
     );
-    // The layer "Gelände" in Windows-1252, as files before 2007 write it.
+    // The layer name "Gelände" in Windows-1252, as in files of versions before 2007.
     let square = "70\n1\n10\n0\n20\n0\n10\n2\n20\n0\n10\n2\n20\n1\n10\n0\n20\n1\n";
     let file = format!(
         "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nGel\u{e4}nde\n{square}0\nENDSEC\n0\nEOF\n"

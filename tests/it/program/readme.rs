@@ -1,4 +1,4 @@
-//! The commands of the README and of `src/doc/cli.md`, run as they are typed.
+//! Runs the commands of the README and of `src/doc/cli.md`.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use super::Bench;
 const README: &str = include_str!("../../../README.md");
 const CLI: &str = include_str!("../../../src/doc/cli.md");
 
-/// The first fenced block of this language in a page that contains these words.
+/// The first fenced block of a page that has this language and contains these words.
 fn fenced(page: &'static str, language: &str, words: &str) -> &'static str {
     let mark = format!("```{language}\n");
     let blocks = page.split(mark.as_str()).skip(1);
@@ -17,7 +17,7 @@ fn fenced(page: &'static str, language: &str, words: &str) -> &'static str {
         .expect("the page has it")
 }
 
-/// Each `$ drystone …` line in turn, in an empty folder; what it prints stands below it.
+/// Runs each `$ drystone …` line in order, in an initially empty folder. Its output must equal the text below it.
 #[test]
 fn the_readmes_console_prints_what_it_shows() {
     let bench = Bench::empty();
@@ -42,7 +42,7 @@ fn the_readmes_console_prints_what_it_shows() {
     assert_eq!(printed, shown);
 }
 
-/// In a folder with the scene above them, a second version of it, and a drawing.
+/// Runs the commands in a folder with the scene of the page, a second version of it, and a drawing.
 #[test]
 fn every_command_of_the_page_does_its_work() {
     let bench = Bench::new();
@@ -83,7 +83,7 @@ fn every_command_of_the_page_does_its_work() {
     let mut seen = 0;
     for command in commands {
         let typed = command.split(" # ").next().expect("a part").trim();
-        // One ends when somebody ends it, and one talks with mdBook.
+        // The first runs until it is stopped, and the second communicates with mdBook.
         if typed.contains("--watch") || typed.ends_with("mdbook") {
             continue;
         }
@@ -95,7 +95,7 @@ fn every_command_of_the_page_does_its_work() {
             Some(line) => bench.run_with(line, scene.as_bytes()),
             None => bench.run(typed.strip_prefix("drystone ").expect("ours")),
         };
-        // Without references there is something for a person to look at.
+        // Without references `snapshot` reports new pictures and ends with 1.
         let expected = i32::from(typed.contains("snapshot"));
         assert_eq!(ran.code, expected, "{typed}\n{}{}", ran.out, ran.err);
         if let Some(file) = into {

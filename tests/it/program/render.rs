@@ -1,4 +1,4 @@
-//! `render`: files, streams and what becomes of them when something is wrong.
+//! The command `render`: its files and streams, also after errors.
 
 use std::fs;
 use std::process::Stdio;
@@ -6,7 +6,7 @@ use std::process::Stdio;
 use super::{Bench, FALLS, STANDS, of, ran};
 
 #[test]
-fn render_ends_well_once_the_picture_is_written_unless_strict() {
+fn render_ends_with_0_if_the_picture_is_written_unless_strict() {
     let bench = Bench::new();
     let ran = bench.run("render falls.json -o falls.svg");
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
@@ -102,7 +102,7 @@ fn several_scenes_fill_a_folder() {
     for name in ["new/deep/stands.png", "new/deep/falls.png"] {
         assert_eq!(fs::read(bench.path(name)).expect(name)[1..4], *b"PNG");
     }
-    // An existing folder needs no slash, and SVG is what comes unasked.
+    // An existing folder needs no slash, and SVG is the default format.
     assert_eq!(bench.run("render stands.json -o new").code, 0);
     assert!(bench.path("new/stands.svg").exists());
     fs::create_dir(bench.path("other")).expect("made");
@@ -182,7 +182,7 @@ fn a_full_disk_behind_standard_output_ends_with_four_and_a_closed_pipe_does_not(
 
 #[cfg(unix)]
 #[test]
-fn a_picture_has_the_rights_of_any_new_file() {
+fn a_picture_has_the_permissions_of_any_new_file() {
     use std::os::unix::fs::PermissionsExt;
     let bench = Bench::new();
     assert_eq!(bench.run("render stands.json -o a.svg").code, 0);
@@ -197,7 +197,7 @@ fn a_picture_has_the_rights_of_any_new_file() {
 }
 
 #[test]
-fn command_lines_that_make_no_sense_are_refused_with_a_way_out() {
+fn invalid_command_lines_are_refused_with_a_remedy() {
     let bench = Bench::new();
     for (line, words) in [
         (
@@ -313,7 +313,7 @@ fn watching_draws_again_on_every_save() {
         false
     };
     let first = shown("A lintel");
-    // A save that breaks the scene leaves the picture, and the next one is drawn.
+    // If the saved scene is invalid, the picture stays as it is. The next valid scene is drawn.
     fs::write(bench.path("stands.json"), "{ \"drystone\": 1,").expect("writable");
     std::thread::sleep(Duration::from_millis(600));
     let kept = shown("A lintel");

@@ -68,7 +68,7 @@ fn a_link_stays_a_link_and_a_file_keeps_its_permissions() {
     assert_eq!(mode & 0o777, 0o604);
 }
 
-/// Sends the signal at ever later moments of a run that writes many files; some moments lie within the writing.
+/// Sends a signal at later and later times of a run that writes many files. At some of these times it is writing.
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_nothing_half_written() {
@@ -94,7 +94,8 @@ fn a_signal_leaves_nothing_half_written() {
     }
 }
 
-/// Beyond its limit a file cannot grow: that is told, nothing of it is left, and the temporary name is nobody's business.
+/// A file that exceeds the size limit is reported, no part of it is left, and the message does not show the temporary
+/// name.
 #[cfg(unix)]
 #[test]
 fn a_file_size_limit_is_a_failure_to_write() {
@@ -119,7 +120,7 @@ fn a_file_size_limit_is_a_failure_to_write() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn help_that_cannot_be_printed_is_no_success() {
+fn help_that_cannot_be_printed_is_a_failure() {
     let bench = Bench::new();
     for line in [
         "--help",

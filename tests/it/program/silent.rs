@@ -1,10 +1,10 @@
-//! No silent wrong answer: default weights, missing ground, units, existing files and damaged scenes are reported.
+//! Doubtful input is reported: default weights, missing ground, units, existing files and damaged scenes.
 
 use std::fs;
 
 use super::Bench;
 
-/// A lintel on two posts in a layer of Inkscape, with its abutments in another.
+/// An Inkscape drawing of a lintel on two posts in one layer, with the abutments in another layer.
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 60" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape">
   <g inkscape:groupmode="layer" inkscape:label="Abutments"><rect y="50" width="100" height="10"/></g>
   <g inkscape:groupmode="layer" inkscape:label="Stones"><rect x="10" y="30" width="10" height="20"/>
@@ -25,7 +25,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// Runs a line, and expects its exit code and words on standard error.
+/// Runs a command, and checks its exit code and the words on standard error.
 fn says(bench: &Bench, line: &str, code: i32, words: &[&str]) {
     let ran = bench.run(line);
     assert_eq!(ran.code, code, "{line}: {}", ran.err);

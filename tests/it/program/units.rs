@@ -1,4 +1,4 @@
-//! A scene in millimetres and kilonewtons says the same as one in metres and newtons, each in its own units.
+//! A scene in millimetres and kilonewtons has the same results as one in metres and newtons, each in its own units.
 
 use drystone::analysis::{Analysis, Options};
 use drystone::figure::{self, Kind};
@@ -40,7 +40,7 @@ fn assert_near(a: &Value, b: &Value, at: &str) {
     match (a, b) {
         (Value::Number(x), Value::Number(y)) => {
             let (x, y) = (x.as_f64().expect("a float"), y.as_f64().expect("a float"));
-            // Proofs and margins are as exact as the solver.
+            // Proofs and margins are only as exact as the solver.
             let tolerance = 1e-3 * x.abs().max(y.abs()) + 1e-8;
             assert!((x - y).abs() <= tolerance, "{at}: {x} {y}");
         }
@@ -65,7 +65,7 @@ fn results_are_the_same_in_all_units() {
         let written = to_json(&analysis(file), Timing::LeftOut, Layout::OneLine);
         let mut result: Value = serde_json::from_str(&written).expect("JSON");
         for frame in result["frames"].as_array_mut().expect("frames") {
-            // Motions are as exact as the solver, and there may be several.
+            // Motions are only as exact as the solver, and may not be unique.
             frame["mechanism"].take();
             frame["margins"]["mechanisms"].take();
             frame["margins"]["excluded"].take();
@@ -98,7 +98,7 @@ fn results_are_the_same_in_all_units() {
 }
 
 #[test]
-fn people_read_the_units_of_the_file() {
+fn tables_have_the_units_of_the_file() {
     let file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let analysis = Analysis::new(&scene);

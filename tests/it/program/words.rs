@@ -1,4 +1,4 @@
-//! What is said and how: colour, quiet, help, starter, schema, shapes, and the README's word.
+//! Texts of the command line: colour, quiet mode, help, starters, schemas and shapes; and the pictures of the README.
 
 use std::fs;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn quiet_leaves_the_exit_code_and_errors() {
 }
 
 #[test]
-fn a_title_cannot_play_with_the_terminal() {
+fn a_title_cannot_control_the_terminal() {
     let bench = Bench::new();
     let text = STANDS.replace("A lintel", "\\u001b[31mred\\u0007");
     fs::write(bench.path("red.json"), text).expect("writable");
@@ -123,7 +123,7 @@ fn shapes_are_drawn_and_shells_are_helped() {
 }
 
 #[test]
-fn help_tells_commands_limits_and_exit_codes() {
+fn help_describes_commands_limits_and_exit_codes() {
     let bench = Bench::new();
     let help = bench.run("--help");
     assert_eq!(help.code, 0);
@@ -199,7 +199,7 @@ fn the_readmes_gallery_is_what_the_program_draws() {
         "flying-buttress",
         "gabled-wall",
     ] {
-        // As `examples/gallery.py` draws them.
+        // The same options as in `examples/gallery.py`.
         let look = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict -o picture.png";
         let mut command = bench.command(look);
         command.arg(folder.join(format!("{name}.json")));
@@ -252,7 +252,7 @@ fn themes_and_styles_change_the_picture() {
         ran.err
     );
 
-    // What is printed reads back to the same picture.
+    // The printed style, read back, gives the same picture.
     let printed = bench.run("style --theme dark").out;
     fs::write(bench.path("dark.json"), printed).expect("writable");
     assert_eq!(
@@ -276,7 +276,7 @@ fn themes_and_styles_change_the_picture() {
 }
 
 #[test]
-fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
+fn an_invalid_style_is_reported_with_all_other_errors_and_nothing_is_written() {
     let bench = Bench::new();
     fs::write(
         bench.path("bad.json"),
@@ -301,7 +301,7 @@ fn a_wrong_style_is_told_with_all_else_that_is_wrong_and_nothing_is_written() {
         "{}",
         ran.err
     );
-    // Once the word for what is now said by another option.
+    // `--style` had this value in earlier versions; the message names the option that replaced it.
     let ran = bench.run("render stands.json -o a.svg --style components");
     assert!(ran.code == 2 && ran.err.contains("--arrows"), "{}", ran.err);
     assert_eq!(
@@ -413,7 +413,7 @@ fn there_is_a_manual_page_for_every_command() {
 }
 
 #[test]
-fn the_style_on_the_page_works_as_it_is_typed() {
+fn the_style_shown_on_the_page_works() {
     let page = include_str!("../../../src/doc/cli.md");
     assert!(page.contains("\ndrystone style > mine.json "));
     assert!(page.contains("--theme dark --style mine.json\n"));

@@ -1,8 +1,8 @@
-//! A sheet recalculated from its printed numbers alone: forces and moments of the whole structure and of one block.
+//! Checks a calculation sheet from its printed numbers only: forces and moments of the structure and of one block.
 
 use super::{FALLS, Folder, STANDS};
 
-/// A row of a balance: the values as they are printed, and half a unit of their last digits.
+/// A row of an equilibrium table: each printed value, and half a unit of its last digit.
 struct Row {
     name: String,
     values: Vec<Option<(f64, f64)>>,
@@ -15,7 +15,7 @@ fn number(words: &str) -> Option<(f64, f64)> {
     Some((value, 0.5 * libm::pow(10.0, -(decimals as f64))))
 }
 
-/// The balances of a page of Markdown: their captions, heads and rows.
+/// The equilibrium tables of a Markdown page: their captions, heads and rows.
 fn balances(page: &str) -> Vec<(String, String, Vec<Row>)> {
     let mut found = Vec::new();
     let mut lines = page.lines();
@@ -37,7 +37,7 @@ fn balances(page: &str) -> Vec<(String, String, Vec<Row>)> {
     found
 }
 
-/// Newtons or newton metres for each unit of a column.
+/// The factor from the unit of a column to newtons or newton metres.
 fn factor(head: &str, column: usize) -> f64 {
     let cells: Vec<&str> = head.trim_matches('|').split('|').collect();
     match cells[column + 1].trim().rsplit(", ").next() {
@@ -82,7 +82,7 @@ fn check((caption, head, rows): &(String, String, Vec<Row>)) {
         let (dx, dy) = (x.0 - about[0], y.0 - about[1]);
         let (fx, fy) = (force * right.0, force * up.0);
         let expected = dx * fy - dy * fx;
-        // Each printed number is off by at most half a unit of its last digit, the centroid likewise.
+        // The error of each printed number, also of the centroid, is at most half a unit of its last digit.
         let slack = 2.0 * x.1 * fy.abs()
             + 2.0 * y.1 * fx.abs()
             + force * (dx.abs() * up.1 + dy.abs() * right.1)

@@ -1,4 +1,4 @@
-//! A real Chromium, driven over its own pipe: what it shows, what it complains of, and what it asks the network for.
+//! Controls a real Chromium over a pipe: reads what it shows, its errors and its network requests.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Write};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// The browser's name, where there is one. Without one the test that asks says so, and fails where everything must run.
+/// The name of an installed browser. If there is none, a message is written; in CI the test fails.
 pub fn installed() -> Option<&'static str> {
     let found = NAMES.into_iter().find(|name| {
         let version = Command::new(name).arg("--version").output();
@@ -18,26 +18,26 @@ pub fn installed() -> Option<&'static str> {
     if found.is_none() {
         let words = "no Chromium is installed: the tests of the report in a browser are skipped";
         assert!(std::env::var_os("CI").is_none(), "{words}");
-        // Not through the test's own output, which nobody sees when it passes.
+        // Not by `eprintln!`, whose output is hidden if the test passes.
         let _ = writeln!(io::stderr(), "{words}");
     }
     found
 }
 
-/// A page that is open, and what happened on it.
+/// An open page and its events.
 pub struct Browser {
     process: Child,
     commands: ChildStdin,
     answers: BufReader<ChildStdout>,
     session: Option<String>,
     sent: u64,
-    /// Events that have arrived, the first first.
+    /// The events that have arrived, oldest first.
     pub events: VecDeque<Value>,
 }
 
 impl Browser {
     pub fn open(name: &str) -> Browser {
-        // The browser reads commands from its third descriptor and answers on its fourth.
+        // The browser reads commands from file descriptor 3 and answers on file descriptor 4.
         let line = format!(
             "exec {name} --headless --no-sandbox --disable-gpu --remote-debugging-pipe about:blank \
              3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"
@@ -70,13 +70,13 @@ impl Browser {
         for domain in ["Page", "Runtime", "Network", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
-        // A page without the focus tells nobody when a part of it gets it.
+        // A page without focus sends no focus events for its elements.
         let focus = json!({ "enabled": true });
         browser.call("Emulation.setFocusEmulationEnabled", focus);
         browser
     }
 
-    /// Calls a method of the protocol; events that arrive meanwhile are kept.
+    /// Calls a method of the protocol. Events that arrive in the meantime are kept.
     pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.sent += 1;
         let id = self.sent;
@@ -125,7 +125,7 @@ impl Browser {
         }
     }
 
-    /// What an expression comes to on the page.
+    /// The value of a JavaScript expression on the page.
     pub fn eval(&mut self, expression: &str) -> Value {
         let told = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let answer = self.call("Runtime.evaluate", told);
@@ -137,7 +137,7 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    /// How many elements there are, whether or not scripts may run.
+    /// The number of elements that match a selector. This works also if scripts are disabled.
     pub fn count(&mut self, selector: &str) -> usize {
         let root = self.call("DOM.getDocument", json!({}))["root"]["nodeId"].clone();
         let told = json!({ "nodeId": root, "selector": selector });
@@ -145,7 +145,7 @@ impl Browser {
         found["nodeIds"].as_array().map_or(0, Vec::len)
     }
 
-    /// Shows the page as wide as this, light or dark.
+    /// Sets the width and the colour scheme, light or dark, of the page.
     pub fn view(&mut self, width: u32, scheme: &str) {
         let size =
             json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
@@ -154,8 +154,8 @@ impl Browser {
         self.call("Emulation.setEmulatedMedia", scheme);
     }
 
-    /// What went wrong or out of the house since the page was opened: exceptions, complaints, dialogues, requests for
-    /// anything but the page itself.
+    /// The errors since the page was opened: exceptions, error messages, dialogues, and requests for anything except
+    /// the page itself.
     pub fn complaints(&self) -> Vec<String> {
         let bad = |event: &&Value| match event["method"].as_str().unwrap_or_default() {
             "Runtime.exceptionThrown"
@@ -175,7 +175,7 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The process may have ended already.
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

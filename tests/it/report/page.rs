@@ -1,4 +1,4 @@
-//! The page in a real Chromium.
+//! The report page in a real Chromium.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::browser::{Browser, installed};
 use super::{FALLS, Folder, HOSTILE, STANDS};
 
-/// The page of three scenes, open.
+/// The open report page of three scenes.
 fn opened(folder: &Folder) -> Option<Browser> {
     let name = installed()?;
     folder.done("report in -o r.html --margins");
@@ -18,7 +18,7 @@ fn opened(folder: &Folder) -> Option<Browser> {
     Some(browser)
 }
 
-/// The names in the table of all scenes, as they are shown.
+/// The visible names in the table of all scenes.
 const NAMES: &str = "[...document.querySelectorAll('table.all tbody tr:not([hidden])')].map(r => r.cells[1].querySelector('a').textContent)";
 
 fn click(browser: &mut Browser, what: &str) {
@@ -26,7 +26,7 @@ fn click(browser: &mut Browser, what: &str) {
 }
 
 #[test]
-fn it_sorts_filters_searches_and_complains_of_nothing() {
+fn the_page_sorts_filters_and_searches_without_errors() {
     let folder = Folder::three();
     let Some(mut browser) = opened(&folder) else {
         return;
@@ -38,7 +38,7 @@ fn it_sorts_filters_searches_and_complains_of_nothing() {
         .replace('\u{202e}', "\u{fffd}");
     let (a, b, c) = ("A lintel", "Half a lintel", hostile.as_str());
     assert_eq!(browser.eval(NAMES), json!([a, b, c]));
-    // By blocks: three, two and one; and the other way round.
+    // Sorted by the number of blocks: three, two, one; then in the reverse order.
     let head = "table.all th:nth-child(6) button";
     click(&mut browser, head);
     assert_eq!(browser.eval(NAMES), json!([c, b, a]));
@@ -63,12 +63,12 @@ fn it_sorts_filters_searches_and_complains_of_nothing() {
 }
 
 #[test]
-fn it_marks_what_belongs_together_and_enlarges_figures() {
+fn the_page_marks_related_parts_and_enlarges_figures() {
     let folder = Folder::three();
     let Some(mut browser) = opened(&folder) else {
         return;
     };
-    // From the figure to the table: a real mouse over the middle of an interface.
+    // From the figure to the table: the mouse moves to the middle of an interface.
     browser.eval("document.querySelector('#scene-1 .plate').scrollIntoView()");
     let place = "(r => [r.x + r.width / 2, r.y + r.height / 2])(document.querySelector('#scene-1 g.touch[data-mark=i0] path').getBoundingClientRect())";
     let at = browser.eval(place);
@@ -82,14 +82,14 @@ fn it_marks_what_belongs_together_and_enlarges_figures() {
         readout.contains("normal force") && readout.contains(" N"),
         "{readout}"
     );
-    // From the table to the figure, by the keyboard.
+    // From the table to the figure: a row gets the keyboard focus.
     browser.eval("document.querySelector('#scene-1 tr[data-mark=i1]').focus()");
     assert_eq!(browser.eval(on), json!(["g i1", "g i1", "TR i1"]));
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 
 #[test]
-fn without_scripts_everything_is_there() {
+fn without_scripts_the_page_is_complete() {
     let folder = Folder::three();
     let Some(mut browser) = opened(&folder) else {
         return;
@@ -117,7 +117,7 @@ fn without_scripts_everything_is_there() {
 }
 
 #[test]
-fn it_prints_every_step_and_fits_a_phone() {
+fn the_page_prints_every_step_and_fits_a_phone() {
     let folder = Folder::three();
     let Some(mut browser) = opened(&folder) else {
         return;
@@ -176,7 +176,7 @@ fn axe_finds_no_violation_in_light_dark_and_on_a_phone() {
     }
 }
 
-/// Time from opening to the end of the first layout, and scrolling to the end, of a page of very many scenes.
+/// Measures the time to open and lay out a page of very many scenes, and to scroll to its end.
 #[test]
 fn a_thousand_scenes_open_and_scroll() {
     let Some(name) = installed() else { return };

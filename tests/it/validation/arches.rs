@@ -20,7 +20,7 @@ pub struct Arch {
     pub on_the_line: bool,
 }
 
-/// Voussoirs of the arches whose limit is sought.
+/// The number of voussoirs of the arches whose limit is computed.
 const FINE: usize = 60;
 
 impl Arch {
@@ -104,7 +104,7 @@ pub fn least_thickness_on_the_line() -> f64 {
     limit([0.106, 0.109], 1e-7, |t| on_the_line(t, 2.0))
 }
 
-/// The thickness at which the forces of an arch are its only ones, within a hundred thousandth.
+/// The thickness at which the forces of an arch are unique, within 10⁻⁵.
 const THIN: f64 = 0.10741;
 
 /// The horizontal thrust of the thinnest arch, over weight per length times radius.
@@ -170,7 +170,7 @@ pub fn friction_of_a_thick_arch() -> f64 {
     *FOUND.get_or_init(|| friction(&on_the_line(0.3, 2.0)))
 }
 
-/// The least thickness with the least friction of any arch; the limit is taken a millionth above that friction.
+/// The least thickness for a friction coefficient a millionth above `friction_of_a_thick_arch`.
 pub fn thickness_at_least_friction() -> f64 {
     let mu = friction_of_a_thick_arch() * (1.0 + 1e-6);
     limit([0.195, 0.205], 1e-6, |t| on_the_line(t, mu))

@@ -40,7 +40,8 @@ pub fn frame_pushed() -> f64 {
     horizontal(&frame_of_columns())
 }
 
-/// A uniform ladder of 3 m and 20 kg, its foot 1 m from a wall without friction; a rhombus, so that it has two tips.
+/// A uniform ladder of 3 m and 20 kg. Its foot is 1 m from a wall without friction. It is a rhombus, so both ends are
+/// tips.
 pub fn ladder() -> Value {
     let top = [1.0, libm::sqrt(8.0)];
     let middle = [0.5, top[1] / 2.0];

@@ -12,19 +12,19 @@ pub enum Unit {
     Answer,
 }
 
-/// A published value beside ours.
+/// A published value and ours.
 pub struct Case {
-    /// Which section of the page has it.
+    /// The section of the page.
     pub group: &'static str,
     pub what: &'static str,
     pub unit: Unit,
-    /// As it was published, with its digits.
+    /// The value as published, with all its digits.
     pub published: &'static str,
     /// A key of `SOURCES`.
     pub source: &'static str,
     /// Whether we have seen the value in a stored text, by the authors or about them.
     pub seen: bool,
-    /// The largest difference that is expected, percent. A larger one fails the test.
+    /// The largest allowed difference, percent.
     pub within: f64,
     pub ours: fn() -> f64,
 }

@@ -61,7 +61,7 @@ pub fn drawn(name: &str, kind: Kind, file: &Value) -> String {
     svg
 }
 
-/// The links of the page to its pictures, as definitions at its end.
+/// The link definitions at the end of the page, one for each picture.
 pub fn links() -> String {
     PICTURES
         .iter()
@@ -69,7 +69,8 @@ pub fn links() -> String {
         .collect()
 }
 
-/// A picture as a definition that contains it: rustdoc has no folder with pictures, and the first definition counts.
+/// A link definition that contains the picture itself. rustdoc has no folder for pictures, and it uses the first
+/// definition of a name.
 pub fn inline(name: &str, svg: &str) -> String {
     format!(
         "[{name}]: data:image/svg+xml;base64,{}\n",

@@ -11,8 +11,8 @@ pub fn one_on_one<const N: usize>() -> f64 {
     reach * limit([1.001, 0.999], 1e-9, |share| harmonic(N, share))
 }
 
-/// The left ends of the blocks, level by level, of the stacks with the largest reach; the table ends at 0. We found them
-/// with a nonlinear program of our own, without drystone.
+/// The left ends of the blocks, level by level, of the stacks with the largest reach. The table ends at 0. We
+/// computed them with a separate nonlinear program, without drystone.
 const BEST: [&[&[f64]]; 4] = [
     &[&[-0.5], &[-1.0, 0.0]],
     &[
