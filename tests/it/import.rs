@@ -168,7 +168,8 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
 
 #[test]
 fn an_arch_from_a_cad_program_stands() {
-    // Written by ezdxf as AutoCAD 2010: voussoirs with bulges, a keystone of lines and arcs, block references, hatches.
+    // Written by ezdxf as AutoCAD 2010: voussoirs with bulges, a keystone of lines and arcs, block references, and
+    // hatches.
     let imported = read("arch.dxf", Format::Dxf, &Options::default());
     let blocks = &imported.scene.blocks;
     assert_eq!((blocks.len(), imported.scene.ground.len()), (12, 2));
@@ -180,7 +181,7 @@ fn an_arch_from_a_cad_program_stands() {
     let warned: Vec<&str> = remarks(&imported).iter().map(|r| r.1).collect();
     assert_eq!(warned, ["a spline has no exact corners"]);
     assert!(imported.notes[0].contains("0.001 m, because the drawing states millimetres"));
-    // The layer LIMESTONE sets the density: the weight of the first voussoir is that of a ninth of the half ring, less the
+    // The layer LIMESTONE sets the density. The first voussoir weighs as much as a ninth of the half ring, minus the
     // segments that the chords cut off.
     let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
     let ring = std::f64::consts::PI / 2.0 * (1.3 * 1.3 - 1.0) / 9.0 * 2500.0 * 9.81;

@@ -319,7 +319,8 @@ fn the_headline_says_what_is_missing() {
     };
     // The slope rises by 4 in 9: 0.444 is needed, rounded up to 0.45.
     assert!(svg(&slide).contains("falls: would need friction 0.45"));
-    // A block 1 m wide and 2 m high of 8 N topples under a push at its top of more than 2 N: 0.476 of 4.2 N, rounded down.
+    // A block of 8 N, 1 m wide and 2 m high, topples if a push at its top exceeds 2 N. This is 0.476 of 4.2 N,
+    // rounded down.
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
         "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,2],[0,2]], "weight": 8 } ],
         "loads": [ { "block": "a", "force": [4.2, 0], "at": [0, 2] } ] }"#;

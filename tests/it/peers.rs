@@ -105,7 +105,7 @@ fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
 
 /// The statement of the README about the picture.
 #[test]
-fn one_of_many_is_ahead_of_all_others_at_ten_blocks_and_at_a_thousand() {
+fn drystone_in_a_batch_is_faster_than_other_programs_at_ten_and_a_thousand_blocks() {
     let lines = walls();
     let at = |line: &GrowthLine, least: f64| line.points.iter().find(|p| p.x >= least).map(|p| p.y);
     let many = lines.iter().find(|line| line.name == MANY);

@@ -185,7 +185,7 @@ fn nothing_lies_beyond_the_page_and_words_fit() {
 }
 
 #[test]
-fn a_figure_says_its_verdicts_and_numbers_to_those_who_do_not_see_it() {
+fn a_figure_has_its_verdicts_and_numbers_as_text_for_screen_readers() {
     let scene = scene("assets/thesis/figure-4.json");
     let svg = svg::write(&figure::forces(&Analysis::new(&scene), &Options::default()));
     for said in [

@@ -130,7 +130,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
 }
 
 #[test]
-fn a_report_says_of_what_falls_that_missing_forces_are_counted() {
+fn a_report_of_an_unstable_frame_says_that_missing_forces_are_included() {
     let file = File {
         name: "a.json",
         text: "{}",

@@ -16,7 +16,8 @@ fn verdict(file: &SceneFile) -> Verdict {
 
 #[test]
 fn starters_stand_or_fall_as_they_say() {
-    // The least thickness of a semicircle of few voussoirs is below Milankovitch's 0.1075 of the middle line's radius.
+    // With few voussoirs the least thickness of a semicircular arch is below Milankovitch's value, 0.1075 of the
+    // radius of the centreline.
     let arch = |voussoirs, thickness| {
         Arch {
             voussoirs,

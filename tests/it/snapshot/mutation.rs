@@ -1,4 +1,5 @@
-//! The table of mutations: each is caught, by the layers that can see it, in words that say what it is; and jitter is not.
+//! The table of mutations: the layers that can see a mutation report it with a specific message. Small random changes
+//! of forces and pixels are not reported.
 
 use drystone::analysis::{Analysis, Verdict};
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, Segment};
@@ -43,7 +44,8 @@ impl Take {
     }
 }
 
-/// What each layer says of one take against the references of another, as they lie on disk: text, text and a packed picture.
+/// The messages of each layer if `found` is compared with the references of `expected` in the form in which they are
+/// stored.
 fn said(expected: &Take, found: &Take) -> [Vec<String>; 3] {
     let kept = Facts::read(&expected.facts.text()).expect("what was written is read");
     let facts = kept.changes(&found.facts).into_iter().map(|c| c.words);
@@ -155,7 +157,7 @@ fn recolour(drawing: &mut Drawing, title: &str, by: u8) {
     });
 }
 
-/// A row: what was done, and what facts, drawing and pixels must say of it; nothing where the string is empty.
+/// A row: the mutation, and the expected message of facts, drawing and pixels. An empty string means no message.
 struct Row {
     what: &'static str,
     found: Take,

@@ -118,8 +118,8 @@ pub fn thrust_of_the_thinnest() -> f64 {
     crown.normal_forces.iter().sum::<f64>() / THIN
 }
 
-/// The least and the greatest horizontal thrust that balance the thinnest arch, over weight per length times radius. At
-/// the least thickness both are the only thrust that is possible.
+/// The least and the greatest horizontal thrust with which the thinnest arch is in equilibrium, divided by weight per
+/// length times radius. At the least thickness both are equal.
 fn thrusts_of_the_thinnest() -> [f64; 2] {
     static FOUND: OnceLock<[f64; 2]> = OnceLock::new();
     *FOUND.get_or_init(|| {
@@ -148,7 +148,8 @@ fn resultant(contact: &Contact) -> [f64; 2] {
     ]
 }
 
-/// Where the line of thrust touches the intrados, degrees from the crown: a parabola through the three nearest joints.
+/// The angle from the crown at which the line of thrust touches the intrados, degrees. It is the extremum of a
+/// parabola through the three nearest joints.
 pub fn hinge_of_the_thinnest() -> f64 {
     let frame = frame(&on_the_line(THIN, 2.0));
     let mut joints: Vec<[f64; 2]> = frame.contacts.iter().map(resultant).collect();

@@ -65,8 +65,8 @@ pub fn plane_safety() -> f64 {
     libm::tan(31f64.to_radians()) / friction(&file)
 }
 
-/// The slope of Goodman and Bray: 16 columns, each 10 m wide, on steps that rise at 30° and are 1 m high. A horizontal
-/// force of `newtons` supports the lowest.
+/// The slope of Goodman and Bray: 16 columns, each 10 m wide, on steps that rise at 30° and are 1 m high. A
+/// horizontal force of `newtons` supports the lowest column.
 pub fn toppling(newtons: f64) -> Value {
     let (sin, cos) = libm::sincos(30f64.to_radians());
     let turned = |along: f64, up: f64| [along * cos - up * sin, along * sin + up * cos];
