@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Counts instructions of three paths, in the profile in which tests run, and fails where one takes over a tenth more than
-# tests/bench/instructions.txt says. A count is the same on a busy machine, where a time is not. It does depend on the
-# compiler: under another than the file's it says so, and fails only beyond a fifth.
+# Counts the instructions of three tasks, in the profile of the tests. It fails if a count is more than a tenth above that
+# in tests/bench/instructions.txt. Counts, unlike times, do not depend on other load, but they depend on the compiler.
+# With a compiler other than that of the file, a message is printed and only counts more than a fifth above fail.
 #
 #   cargo build --locked && bash tests/bench/instructions.sh            compares
 #   cargo build --locked && bash tests/bench/instructions.sh --accept   writes the counts of now into the file
 #
-# Needs valgrind. Paths: the verdict alone on structures of ten blocks; a wall of a hundred checked in full; figures of
-# those of ten as PNG of 400 pixels, checked and drawn.
+# Needs valgrind. Tasks: only the verdicts of structures of ten blocks; a full check of a wall of a hundred blocks; check
+# and figures of the structures of ten blocks, as PNG of 400 pixels.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export LC_ALL=C
@@ -20,7 +20,7 @@ command -v valgrind >/dev/null || { echo "valgrind is not installed" >&2; exit 2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# Ten blocks or so each: what stands, what leans too far, what slides.
+# Structures of about ten blocks: stable, leaning too far, sliding.
 mkdir "$folder/ten" "$folder/drawn"
 for n in 8 9 10 11 12; do
     "$program" new arch --voussoirs "$n" -q -o "$folder/ten/arch-$n.json"
@@ -33,7 +33,7 @@ for bricks in 2 3 4; do
 done
 "$program" new wall --courses 10 --bricks 10 -q -o "$folder/hundred.json"
 
-# A falling structure ends drystone with 1: that is an answer. Anything else but 0 is not.
+# For an unstable structure drystone ends with 1, which is a valid answer. Codes other than 0 and 1 are failures.
 count() {
     local code=0
     valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null --log-file="$folder/log" "$@" \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A thousand snapshots: time and memory of a whole check, and of comparing the same thousand pairs of PNG by other tools in the
-# same run. Wants node with pixelmatch and pngjs installed in the folder $2, and ImageMagick's compare.
+# Time and memory of a check of a thousand snapshots, and of other tools that compare the same thousand pairs of PNG in the
+# same run. Needs node with pixelmatch and pngjs installed in the folder $2, and `compare` of ImageMagick.
 #   tests/bench/snapshots.sh target/release/drystone FOLDER_OF_NODE_MODULES
 set -eu
 drystone=$(realpath "$1")

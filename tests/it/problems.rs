@@ -307,7 +307,7 @@ fn a_problem_points_at_the_text_that_it_describes() {
 }
 
 #[test]
-fn a_thousand_blocks_in_one_place_are_refused_in_words_and_in_time() {
+fn a_thousand_blocks_in_one_place_are_refused_quickly_with_a_message() {
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
     let text = format!(
         "{{ \"drystone\": 1, \"blocks\": [{}] }}",

@@ -107,7 +107,7 @@ fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
 }
 
 #[test]
-fn words_on_words_and_faint_words_are_found() {
+fn overlapping_and_faint_texts_are_found() {
     let (_, scene) = strangers().remove(0);
     let mut drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     assert_eq!(faults(&drawing).1, Vec::<String>::new());

@@ -22,7 +22,7 @@ pub(super) fn random_scene(number: u64) -> Value {
                 let mut load = json!({ "block": id, "at": corner(&file, id) });
                 let quarter = |chance: &mut Random| chance.whole(-24, 24) as f64 / 4.0;
                 let force = [quarter(&mut chance), quarter(&mut chance)];
-                // A load of zero is none.
+                // Avoid a load of zero.
                 load["force"] = json!(if force == [0.0; 2] {
                     [0.0, -1.0]
                 } else {

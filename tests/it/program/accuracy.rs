@@ -58,7 +58,7 @@ fn a_study_is_written_in_every_form() {
 }
 
 #[test]
-fn what_cannot_be_proved_ends_with_three_and_says_why() {
+fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
     let bench = Bench::new();
     // A thrust of 10⁹ weights is balanced to seven digits. This is enough for a verdict, but not for the level
     // `proved`, which needs a hundred times better.
@@ -123,7 +123,7 @@ fn every_level_gives_the_same_verdicts() {
 }
 
 #[test]
-fn a_falling_frame_says_which_forces_its_motion_rules_out() {
+fn an_unstable_frame_states_which_forces_its_motion_rules_out() {
     let bench = Bench::new();
     let ran = bench.run("check --json falls.json");
     let result: Value = serde_json::from_str(&ran.out).expect("JSON");

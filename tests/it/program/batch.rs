@@ -111,7 +111,7 @@ fn many_threads_answer_as_one_does_and_as_check_does() {
 }
 
 #[test]
-fn fields_pick_what_is_written() {
+fn fields_select_the_output() {
     let bench = Bench::new();
     let whole = lines(&bench.run("batch falls.json --fields all").out).remove(0);
     let list =

@@ -38,7 +38,7 @@ fn a_refused_scene_is_drawn_with_its_problems_and_ends_with_2() {
 }
 
 #[test]
-fn crossings_and_what_has_no_place_are_told_apart() {
+fn crossings_are_marked_and_problems_without_a_position_are_not() {
     let bench = Bench::new();
     let cap = r#", { "id": "cap", "polygon": [[1, 4], [5, 4.6], [5, 4], [1, 4.6]] }"#;
     let text = doorway(cap).replace(r#""title""#, r#""titel": "", "title""#);

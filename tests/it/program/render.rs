@@ -125,7 +125,7 @@ fn one_wrong_scene_leaves_everything_unwritten() {
 }
 
 #[test]
-fn what_cannot_be_written_ends_with_four() {
+fn a_file_that_cannot_be_written_ends_with_four() {
     let bench = Bench::new();
     for line in [
         "render stands.json -o no/such/folder.svg",

@@ -69,7 +69,7 @@ fn runs_at_once_take_turns() {
 }
 
 #[test]
-fn an_interrupted_acceptance_leaves_whole_files() {
+fn an_interrupted_acceptance_leaves_complete_files() {
     let mut seen = 0;
     for wait in [0, 1, 3, 8, 20] {
         let folder = twelve();

@@ -7,7 +7,7 @@ use super::{Claim, STANDS, block, cells, file, hold, stands};
 use crate::structure::rectangle;
 
 #[test]
-fn what_the_page_says_is_refused_is_refused() {
+fn scenes_that_the_page_says_are_refused_are_refused() {
     let outline = |polygon: Value| block(json!({ "polygon": polygon }), json!({}));
     let hole = |hole: Value| block(json!({ "holes": [hole] }), json!({}));
     let sunk = |depth: f64, scene: Value| {
