@@ -1,4 +1,5 @@
-//! Scales that are known by hand, by amounts that were chosen, or by what may not change them.
+//! Tests of gauges that are known by hand, from chosen coefficients, or from transformations that must not change
+//! them.
 
 use super::*;
 
@@ -29,7 +30,7 @@ fn combined(generators: &[Vec3], amounts: &[f64]) -> Vec3 {
 }
 
 #[test]
-fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
+fn the_gauge_is_at_most_the_largest_coefficient_and_reaches_it_on_the_surface() {
     let mut seed = 7;
     for count in [1, 2, 3, 4, 8, 20, 39] {
         for _ in 0..50 {
@@ -47,7 +48,7 @@ fn combinations_lie_within_their_largest_amount_and_supports_reach_it() {
 }
 
 #[test]
-fn scale_rotation_and_mirror_change_nothing() {
+fn scaling_rotation_and_reflection_do_not_change_the_gauge() {
     let mut seed = 11;
     for _ in 0..100 {
         let g: Vec<Vec3> = (0..7).map(|_| triple(&mut seed)).collect();
@@ -73,7 +74,7 @@ fn scale_rotation_and_mirror_change_nothing() {
     }
 }
 
-/// A pebble of weight 1 between two frictionless upright faces that press it with 10⁸: nothing holds it up.
+/// A pebble of weight 1 between two frictionless vertical faces that press it with 10⁸: nothing holds it up.
 #[test]
 fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
     let forces = [
@@ -83,7 +84,7 @@ fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
         [0.0, 0.0, 2e8],
     ];
     assert!((zonotope_gauge(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
-    // With friction of half its weight on either side, and a ten-millionth missing, it is.
+    // With friction of half its weight on either side, and a residual of a ten-millionth, it is balanced.
     let mut held = forces.to_vec();
     held.extend([[0.0, 0.5, 0.5], [0.0, 0.5, -0.5]]);
     let scale = zonotope_gauge(&held, [0.0, -1e-7, 0.0]);
@@ -91,7 +92,7 @@ fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
 }
 
 #[test]
-fn flat_and_straight_ones() {
+fn zonotopes_in_a_plane_or_on_a_line_have_a_gauge() {
     let line = [[3.0, 4.0, 0.0], [-6.0, -8.0, 0.0]];
     assert!((zonotope_gauge(&line, [0.9, 1.2, 0.0]) - 0.1).abs() < 1e-12);
     assert_eq!(zonotope_gauge(&line, [0.9, 1.2, 1e-9]), f64::INFINITY);
@@ -105,7 +106,7 @@ fn flat_and_straight_ones() {
 }
 
 #[test]
-fn hundreds_of_generators_are_judged_more_strictly_never_less() {
+fn hundreds_of_generators_give_a_larger_gauge_never_a_smaller_one() {
     let mut seed = 5;
     for count in [60, 200, 900] {
         let g: Vec<Vec3> = (0..count).map(|_| triple(&mut seed)).collect();
@@ -119,20 +120,20 @@ fn hundreds_of_generators_are_judged_more_strictly_never_less() {
     }
 }
 
-/// The same turned in space: by 36.9° about z, and then by 67.4° about x.
+/// Rotates a vector: by 36.9° about z, then by 67.4° about x.
 fn tilted(v: Vec3) -> Vec3 {
     let [x, y, z] = [0.8 * v[0] - 0.6 * v[1], 0.6 * v[0] + 0.8 * v[1], v[2]];
     let (sin, cos) = (12.0 / 13.0, 5.0 / 13.0);
     [x, cos * y - sin * z, sin * y + cos * z]
 }
 
-/// Both of them turned, and in parts of 10⁻⁴⁰.
+/// Leaves a vector as it is, rotates it, or rotates it and scales it by 10⁻⁴⁰.
 fn ways() -> [fn(Vec3) -> Vec3; 3] {
     [|v| v, tilted, |v| tilted(v).map(|x| 1e-40 * x)]
 }
 
 #[test]
-fn three_generators_take_the_amounts_that_solve_for_the_point() {
+fn the_gauge_of_three_generators_is_the_largest_coefficient_of_the_solution() {
     let mut seed = 3;
     for _ in 0..100 {
         let g: Vec<Vec3> = (0..3).map(|_| triple(&mut seed)).collect();
@@ -148,7 +149,7 @@ fn three_generators_take_the_amounts_that_solve_for_the_point() {
 }
 
 #[test]
-fn nothing_needs_nothing_and_has_nothing() {
+fn the_origin_has_gauge_zero_and_infinite_numbers_have_an_infinite_gauge() {
     let cube = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     assert_eq!(zonotope_gauge(&cube, [0.0; 3]), 0.0);
     assert_eq!(zonotope_gauge(&[], [0.0; 3]), 0.0);
@@ -165,13 +166,13 @@ fn nothing_needs_nothing_and_has_nothing() {
 }
 
 #[test]
-fn what_rounding_may_leave_is_no_distance_and_no_width() {
+fn rounding_errors_count_neither_as_distance_nor_as_width() {
     let plane = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
-    // Off the plane by a few units in the last place, or by some dozens.
+    // The point is off the plane by a few units in the last place, or by some dozens.
     let scale = zonotope_gauge(&plane, [2.0, 3.0, 4e-15]);
     assert!((scale - 1.0).abs() < 1e-12, "{scale}");
     assert_eq!(zonotope_gauge(&plane, [2.0, 3.0, 4e-14]), f64::INFINITY);
-    // Forces that are as thick as their own rounding hold nothing up.
+    // A generator that is not longer than the rounding gives the zonotope no width.
     let thick = |by: f64| zonotope_gauge(&[plane[0], plane[1], [0.0, 0.0, by]], [0.0, 0.0, by]);
     assert_eq!(thick(4e-15), f64::INFINITY);
     assert!((thick(1e-13) - 1.0).abs() < 0.2, "{}", thick(1e-13));
@@ -179,8 +180,8 @@ fn what_rounding_may_leave_is_no_distance_and_no_width() {
 }
 
 #[test]
-fn a_line_is_as_long_as_all_of_it_together() {
-    // 0.3 and 1.2 and 0.5 of one direction, 2 in all, either way round.
+fn parallel_generators_form_a_segment_of_their_total_length() {
+    // Lengths of 0.3, 1.2 and 0.5 along one direction or its opposite: 2 in total.
     for way in ways() {
         let direction = |by: f64| way([by, 2.0 * by, -2.0 * by]);
         let line = [0.3, -1.2, 0.5].map(direction);
@@ -202,7 +203,8 @@ fn a_line_is_as_long_as_all_of_it_together() {
 
 #[test]
 fn a_rectangle_in_space_is_flat_and_bounded_by_its_sides() {
-    // Sides of 2 and 3 across each other: whatever lies in their plane needs the larger of its two parts.
+    // The sides of 2 and 3 are perpendicular. The gauge of a point in their plane is the larger of its two
+    // coordinates, each relative to its side.
     for way in ways() {
         let sides = [way([2.0, 0.0, 0.0]), way([0.0, 3.0, 0.0])];
         for (x, y, scale) in [
@@ -219,9 +221,10 @@ fn a_rectangle_in_space_is_flat_and_bounded_by_its_sides() {
 }
 
 #[test]
-fn few_are_told_exactly_and_many_by_their_least_squares() {
-    // Of 12 the answer is that of the facets. Of five along x, four of 2 along y and five along z, the least squares share
-    // each part out evenly: 1/5, 1/8 and 1/5 for a unit.
+fn the_bound_is_exact_for_twelve_generators_and_from_least_squares_for_more() {
+    // With 12 generators the bound is the gauge itself. With five of length 1 along x, four of length 2 along y and
+    // five of length 1 along z, the combination with the least squares has equal coefficients: 1/5, 1/8 and 1/5 for a
+    // unit.
     let along = |k: usize, size: f64| {
         let mut g = [0.0; 3];
         g[k] = size;
@@ -230,7 +233,7 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
     let mut forces = [[along(0, 1.0); 5], [along(2, 1.0); 5]].concat();
     forces.extend([along(1, 2.0), along(1, -2.0)]);
     assert_eq!(forces.len(), MAX_GENERATORS_TESTED_AT_ONCE);
-    // One lies across the others, so that the two ways differ.
+    // One generator is oblique, so that the least squares would give another result.
     forces[4] = [1.0, 1.0, 1.0];
     let point = [2.0, 1.0, 0.5];
     assert_eq!(
@@ -255,7 +258,7 @@ fn few_are_told_exactly_and_many_by_their_least_squares() {
 }
 
 #[test]
-fn least_squares_say_nothing_where_space_is_not_spanned_well() {
+fn least_squares_give_no_bound_for_nearly_flat_zonotopes() {
     let mut seed = 9;
     let flat = |thick: f64, seed: &mut u64| -> Vec<Vec3> {
         let any = (0..20).map(|_| triple(seed));
@@ -269,7 +272,8 @@ fn least_squares_say_nothing_where_space_is_not_spanned_well() {
         assert!(spans(1.0) && spans(1e-3));
         assert!(!spans(1e-6) && !spans(0.0));
     }
-    // Twenty along each axis, those along one of them thinner by t: the moments' determinant is t²/8 of the cube of their sum.
+    // Twenty generators along each axis; those along one axis have length t. The determinant of the Gram matrix is
+    // then t²/8 times the cube of its trace.
     for axis in 0..3 {
         for (thick, some) in [(0.98, false), (1.02, true)] {
             let mut forces = Vec::new();
@@ -296,7 +300,7 @@ fn least_squares_say_nothing_where_space_is_not_spanned_well() {
 }
 
 #[test]
-fn least_squares_are_never_below_the_smallest_scale() {
+fn the_least_squares_bound_is_never_below_the_gauge() {
     let mut seed = 21;
     for _ in 0..100 {
         let g: Vec<Vec3> = (0..20).map(|_| triple(&mut seed)).collect();
@@ -306,7 +310,8 @@ fn least_squares_are_never_below_the_smallest_scale() {
             zonotope_gauge_bound(&g, point).expect("they span space"),
             zonotope_gauge(&g, point),
         );
-        // Their amounts are the shortest that give the point, so the largest is no larger than all given ones together.
+        // The bound's coefficients are the shortest vector that gives the point. Their largest is therefore no larger
+        // than the norm of the given coefficients.
         let length: f64 = amounts.iter().map(|a| a * a).sum::<f64>().sqrt();
         assert!(
             least <= quick && quick <= 1.1 * length,
@@ -317,7 +322,7 @@ fn least_squares_are_never_below_the_smallest_scale() {
 }
 
 #[test]
-fn parallel_ones_are_one_and_opposite_ones_add_up() {
+fn parallel_and_opposite_generators_are_added_up() {
     let found = reduced(vec![
         [1.0, 2.0, 2.0],
         [0.0; 3],
@@ -326,20 +331,21 @@ fn parallel_ones_are_one_and_opposite_ones_add_up() {
         [0.5, 0.0, 0.0],
     ]);
     assert_eq!(found, [[3.0, 6.0, 6.0], [3.5, 0.0, 0.0]]);
-    // A millionth of a degree apart is not parallel.
+    // Directions that differ by a millionth of a degree are not parallel.
     assert_eq!(reduced(vec![[1.0, 0.0, 0.0], [1.0, 2e-8, 0.0]]).len(), 2);
     assert_eq!(reduced(vec![[1.0, 0.0, 0.0], [1e-3, 2e-11, 0.0]]).len(), 2);
 }
 
 #[test]
-fn beyond_forty_the_ones_whose_sum_loses_least_are_added_up() {
+fn of_more_than_forty_generators_the_pairs_that_lose_least_are_added_up() {
     let mut seed = 13;
     let unit = |v: Vec3| v.map(|x| x / norm(v));
     let apart: Vec<Vec3> = (0..MAX_GENERATORS)
         .map(|_| unit(triple(&mut seed)))
         .collect();
     assert_eq!(reduced(apart.clone()), apart, "forty stay as they are");
-    // Small ones across them, and others next to them, are what is lost; what lies apart stays apart.
+    // Only small generators that are perpendicular to others, and small differences between neighbours, are lost.
+    // Generators of different directions are not merged.
     let few = &apart[..15];
     let mut all = few.to_vec();
     all.extend(
@@ -352,17 +358,18 @@ fn beyond_forty_the_ones_whose_sum_loses_least_are_added_up() {
     );
     let kept = reduced(all);
     assert_eq!(kept.len(), MAX_GENERATORS);
-    let whole = few.iter().map(|g| g.map(|x| 2.0 * x)).collect::<Vec<_>>();
+    let total = few.iter().map(|g| g.map(|x| 2.0 * x)).collect::<Vec<_>>();
     for _ in 0..50 {
         let n = unit(triple(&mut seed));
         let width = |all: &[Vec3]| all.iter().map(|g| dot(n, *g).abs()).sum::<f64>();
-        assert!((width(&kept) - width(&whole)).abs() < 1e-5);
+        assert!((width(&kept) - width(&total)).abs() < 1e-5);
     }
 }
 
 #[test]
-fn the_part_of_the_smaller_across_the_larger_is_what_is_lost() {
-    // Of two large ones a ten-thousandth of a radian apart less is lost than of any small one, beside whatever it lies.
+fn a_merge_loses_the_perpendicular_part_of_the_shorter_generator() {
+    // Two long generators differ by a ten-thousandth of a radian. Merging them loses less than merging a short
+    // generator with any other.
     let mut seed = 29;
     let mut any = |size: f64| {
         let v = triple(&mut seed);
@@ -380,7 +387,7 @@ fn the_part_of_the_smaller_across_the_larger_is_what_is_lost() {
 }
 
 #[test]
-fn more_than_a_hundred_and_twenty_are_first_added_up_by_direction() {
+fn more_than_120_generators_are_first_added_up_by_direction() {
     let alike = |count: usize| -> Vec<Vec3> {
         let at = |k: usize| 0.1 + 1e-3 * k as f64;
         (0..count).map(|k| [1.0, at(k), 0.05]).collect()
@@ -392,7 +399,7 @@ fn more_than_a_hundred_and_twenty_are_first_added_up_by_direction() {
 }
 
 #[test]
-fn a_cell_holds_directions_that_are_alike() {
+fn a_cell_contains_similar_directions() {
     let mut seed = 17;
     let mut first: Vec<Option<Vec3>> = vec![None; 3 * CELLS_PER_SIDE * CELLS_PER_SIDE];
     for _ in 0..5000 {
@@ -408,7 +415,7 @@ fn a_cell_holds_directions_that_are_alike() {
         first.iter().all(Option::is_some),
         "every cell has directions"
     );
-    // Those along the edges of a face belong to one of its outermost cells.
+    // A direction along an edge of a face belongs to one of the outermost cells.
     assert_eq!(
         [
             direction_cell([1.0, 1.0, 1.0]),
@@ -421,12 +428,13 @@ fn a_cell_holds_directions_that_are_alike() {
 }
 
 #[test]
-fn a_bound_lies_above_the_answer_and_says_nothing_of_flat_ones() {
+fn the_quick_bound_is_not_below_the_gauge_and_does_not_exist_for_flat_zonotopes() {
     let mut seed = 13;
     let mut bounded = 0;
     for turn in 0..3000 {
         let count = 3 + turn % 38;
-        // As thin along one axis as friction that is granted for rounding alone.
+        // Every second zonotope is thin along one axis, as if only the friction that is allowed for rounding acted
+        // there.
         let thin = if turn % 2 == 0 { 3e-6 } else { 1.0 };
         let squeezed = |[x, y, z]: Vec3| [thin * x, y, z];
         let g: Vec<Vec3> = (0..count).map(|_| squeezed(triple(&mut seed))).collect();

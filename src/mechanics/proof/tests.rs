@@ -1,4 +1,4 @@
-//! Proofs against sums done by hand, on a box of 4 m by 3 m and what stands on it.
+//! Tests of proofs against sums done by hand, for a box of 4 m by 3 m and a second box on it.
 
 use super::*;
 use crate::assembly::{AssemblyContact, AssemblyGrip};
@@ -8,7 +8,8 @@ use crate::scene::{BodyId, Limits, RobotId};
 mod balance;
 mod least;
 
-/// A box of 4 m by 3 m with its lower left corner at the origin: centroid (2, 1.5), farthest corner 2.5 m from it.
+/// A box 4 m wide whose lower left corner is (0, `bottom`). With `bottom` 0 and a height of 3 m, its centroid is (2,
+/// 1.5), and its farthest corner is 2.5 m away from the centroid.
 fn body(number: usize, bottom: f64, height: f64, weight: f64, listed: LoadVector) -> AssemblyBody {
     let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, height), (0.0, height)];
     AssemblyBody {
@@ -28,7 +29,7 @@ fn listed(x: f64, y: f64, moment: f64) -> LoadVector {
     }
 }
 
-/// A level joint at this height with application points at x = 3 and x = 1 and friction of 0.5.
+/// A level joint at this height, with application points at x = 3 and x = 1 and a friction coefficient of 0.5.
 fn joint(on: usize, from: Option<usize>, height: f64) -> AssemblyContact {
     let at = |x: f64| Point::new(x, height);
     AssemblyContact {
@@ -124,10 +125,10 @@ fn assert_near(found: f64, expected: f64, within: f64) {
 }
 
 #[test]
-fn forces_that_balance_leave_nothing() {
-    // A push of 1 N at the upper box's middle, taken by friction in both joints. About the lower centroid both
-    // frictions turn by −1.5 N·m: the ground presses 3 N more at its right point, 1 m from the middle, than at its left
-    // one.
+fn forces_in_exact_balance_have_no_imbalance() {
+    // A push of 1 N at the middle of the upper box is resisted by friction in both joints. About the lower centroid
+    // each of the two friction forces has a moment of −1.5 N·m, so the ground presses 3 N more at its right point, 1
+    // m from the middle, than at its left point. The uneven pressure of the upper joint adds 1 N to this difference.
     let two = assembly(
         vec![
             body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
@@ -136,10 +137,12 @@ fn forces_that_balance_leave_nothing() {
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
     );
     let below = pressed(9.5 + 0.5, 6.5 - 0.5, 1.0);
-    // About the upper centroid friction turns by −1 N·m, which the normal forces take with ±0.5 N.
+    // About the upper centroid, friction has a moment of −1 N·m. It is balanced by normal forces that differ by ±0.5
+    // N from their mean.
     let above = pressed(3.5, 2.5, 1.0);
     assert_eq!(found(&two, vec![below, above], vec![]), [0.0; 4]);
-    // A robot's force, at (0, 3), and torque: −2 N along x turn by +3 N·m about the centroid, 1.5 m below.
+    // A robot's force and torque at (0, 3): −2 N along x has a moment of +3 N·m about the centroid, which is 1.5 m
+    // lower; −4 N along y has a moment of +8 N·m.
     let mut held = on_ground(listed(2.0, 4.0, -4.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
     let gives = GripForces {
@@ -157,21 +160,21 @@ fn imbalance_is_the_share_by_which_forces_must_change_or_move() {
         found(&box_alone, vec![pressed(5.0, 5.0, 0.0)], vec![]),
         [0.0; 4]
     );
-    // 1 N too much, among 11 N of the joint and 10 N of weight.
+    // The joint gives 1 N too much: 1 N relative to 11 N of the joint and 10 N of weight.
     let all = found(&box_alone, vec![pressed(5.5, 5.5, 0.0)], vec![]);
     assert_near(all[0], 1.0 / 21.0, 1e-5);
     assert_near(all[1], 0.1, 1e-15);
-    // 2 N·m over 2.5 m. Moving 20 N of forces takes 20 N of it, the moment itself 0.8 N, and 5 N more at one point and
-    // less at the other, 1 m to either side of the centroid, 4 N.
+    // A moment of 2 N·m is 0.8 N at the radius of 2.5 m. Moving 20 N of forces counts 20 N, the moment itself 0.8 N.
+    // A change of 5 N at each of the two points, 1 m to either side of the centroid, counts 4 N.
     let twisted = on_ground(listed(0.0, 0.0, 2.0));
     let all = found(&twisted, vec![pressed(5.0, 5.0, 0.0)], vec![]);
     assert_near(all[0], 0.8 / 24.8, 1e-6);
     assert_near(all[1], 0.8 / 10.8, 1e-15);
-    // Against a push of 1 N nothing acts but itself.
+    // Only the push of 1 N itself acts in its direction.
     let pushed = on_ground(listed(1.0, 0.0, 0.0));
     let all = found(&pushed, vec![pressed(5.0, 5.0, 0.0)], vec![]);
     assert_near(all[0], 1.0, 1e-3);
-    // The worst of all bodies, and each by itself.
+    // The imbalance of the assembly is the largest of all blocks.
     let mut two = on_ground(LoadVector::ZERO);
     two.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     two.contacts.push(joint(1, Some(0), 3.0));
@@ -189,13 +192,14 @@ fn imbalance_is_the_share_by_which_forces_must_change_or_move() {
 }
 
 #[test]
-fn load_factor_and_pull_count_in_the_balance() {
+fn the_load_factor_and_the_direction_of_gravity_count_in_the_balance() {
     let doubled = on_ground(listed(0.0, -3.0, 0.0)).with_load_factor(2.0);
     let all = found(&doubled, vec![pressed(8.0, 8.0, 0.0)], vec![]);
     assert_eq!(all, [0.0; 4]);
     assert_near(gross_load(&doubled, &doubled.bodies[0]), 16.0, 1e-15);
     let leaning = on_ground(LoadVector::ZERO).with_gravity(Vector::new(0.6, -0.8));
-    // 6 N along the joint at its middle's height below the centroid: 9 N·m, 4.5 N more at the right point.
+    // Friction resists 6 N of the weight, 1.5 m below the centroid: a moment of 9 N·m, so the right point has 4.5 N
+    // more and the left point 4.5 N less.
     let all = found(&leaning, vec![pressed(8.5, -0.5, 6.0)], vec![]);
     assert_eq!(all[0], 0.0);
 }
@@ -208,7 +212,7 @@ fn pulls_slips_and_limits_are_shares_of_their_own_forces() {
     assert_near(all(&edge, pressed(11.0, -1.0, 0.0))[2], 1.0 / 12.0, 1e-15);
     assert_near(all(&edge, pressed(4.0, 6.0, -6.0))[3], 1.0 / 16.0, 1e-15);
     assert_eq!(all(&edge, pressed(4.0, 6.0, 5.0))[2..], [0.0, 0.0]);
-    // A corner has one point: what stands at the other one is no force of it.
+    // A corner contact has only one point. Any force at the other point is an error.
     let mut tip = on_ground(LoadVector::ZERO);
     tip.contacts[0].kind = ContactKind::Corner;
     assert_near(all(&tip, pressed(6.0, 2.0, 0.0))[2], 0.25, 1e-15);
@@ -235,7 +239,8 @@ fn pulls_slips_and_limits_are_shares_of_their_own_forces() {
 #[test]
 fn a_sliding_box_does_work_against_the_friction_it_has() {
     let pushed = on_ground(listed(7.0, 0.0, 0.0));
-    // Of N + |T| = 1 friction can use 0.5/1.5. The loads are 10 N and 7 N; twice the speed is the same motion.
+    // Of a reaction with N + |T| = 1, friction is at most 0.5/1.5. The loads are 10 N and 7 N. Twice the speed is the
+    // same motion.
     for speed in [1.0, 2.0] {
         let [power, violation] = driven(&pushed, &[moving(0, speed, 0.0, 0.0)]);
         assert_near(power, 7.0 / 17.0, 1e-14);
@@ -244,10 +249,10 @@ fn a_sliding_box_does_work_against_the_friction_it_has() {
             check_mechanism(&pushed, &[moving(0, speed, 0.0, 0.0)]).excluded_force_sum();
         assert_near(rules_out, 21.0 / 17.0, 1e-13);
     }
-    // Down by 1 and along by 3: pressing alone takes 1, with all its friction (1.5 + 1)/1.5.
+    // The box moves down by 1 and along by 3. Pressing resists with 1, and with full friction (1.5 + 1)/1.5.
     let [_, violation] = driven(&pushed, &[moving(0, 3.0, -1.0, 0.0)]);
     assert_near(violation, 2.5 / 1.5 / libm::sqrt(10.0), 1e-14);
-    // Where there is none, nothing objects at all: the motion rules out every balance.
+    // Without friction no force resists the slide: the motion rules out every balance.
     let smooth = pushed.with_friction(0.0);
     let slides = check_mechanism(&smooth, &[moving(0, 1.0, 0.0, 0.0)]);
     assert_eq!(slides.excluded_force_sum(), f64::INFINITY);
@@ -256,7 +261,8 @@ fn a_sliding_box_does_work_against_the_friction_it_has() {
 
 #[test]
 fn a_turning_box_opens_its_joint_or_presses_it() {
-    // About the lower left corner: the centroid rises by 2 and goes back by 1.5, the farthest corner moves by 5.
+    // The box turns about its lower left corner: the centroid moves up by 2 and left by 1.5, the farthest corner by
+    // 5.
     let twisted = on_ground(listed(0.0, 0.0, 45.0));
     let [power, violation] = driven(&twisted, &[moving(0, -1.5, 2.0, 1.0)]);
     assert_near(power, (45.0 - 20.0) / (28.0 * 5.0), 1e-14);
@@ -267,7 +273,7 @@ fn a_turning_box_opens_its_joint_or_presses_it() {
 }
 
 #[test]
-fn only_what_moves_apart_counts_between_two_bodies() {
+fn between_two_blocks_only_the_relative_motion_counts() {
     let two = assembly(
         vec![
             body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
@@ -276,17 +282,17 @@ fn only_what_moves_apart_counts_between_two_bodies() {
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
     )
     .with_friction(0.0);
-    // Both rise together; the ground joint opens.
+    // Both boxes rise together, and the joint on the ground opens.
     let together = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 2.0, 0.0)];
     let [_, violation] = driven(&two, &together);
     assert!(
         violation > 0.0 && violation < 1e-14,
-        "the rounding of both: {violation}"
+        "only the rounding errors of both velocities: {violation}"
     );
-    // The lower one rises into the upper one, which rises by half as much.
+    // The lower box rises into the upper box, which rises half as fast.
     let into = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 1.0, 0.0)];
     assert_near(driven(&two, &into)[1], 0.5, 1e-14);
-    // Loads of what moves: 10 N at full speed, 7 N at half of it.
+    // The loads of the moving boxes: 10 N at full speed, 7 N at half speed.
     assert_near(moving_load(&two, &into), 13.5, 1e-14);
     let still = [moving(0, 0.0, 0.0, 0.0), moving(1, 0.0, 0.0, 0.0)];
     assert_eq!(moving_load(&two, &still), 0.0);
@@ -294,9 +300,9 @@ fn only_what_moves_apart_counts_between_two_bodies() {
 }
 
 #[test]
-fn a_grip_takes_its_limit_times_its_speed_and_without_one_objects() {
-    // The grip point goes by (3 − 0.75, −1 − 1): half a turn per second about a centroid 2 m to the right and 1.5 m
-    // below.
+fn a_limited_grip_costs_power_and_an_unlimited_grip_is_violated() {
+    // The velocity of the grip point is (3 − 0.75, −1 − 1): the box turns at 0.5 rad/s, and its centroid lies 2 m to
+    // the right of the grip and 1.5 m below it.
     let motion = [moving(0, 3.0, -1.0, 0.5)];
     let mut held = on_ground(listed(7.0, 0.0, 0.0)).with_friction(0.0);
     held.contacts.clear();
@@ -310,11 +316,11 @@ fn a_grip_takes_its_limit_times_its_speed_and_without_one_objects() {
         ((0.0, 0.0, 0.0), 0.0, 0.0),
         ((2.0, 0.0, 0.0), 2.0 * 2.25, 0.0),
         ((0.0, 3.0, 0.0), 3.0 * 2.0, 0.0),
-        // A torque counts by the turning: L has no part in it.
+        // A torque acts against the angular velocity: L has no influence.
         ((0.0, 0.0, 4.0), 4.0 * 0.5, 0.0),
         ((f64::INFINITY, 0.0, 0.0), 0.0, 2.25),
         ((0.0, f64::INFINITY, 0.0), 0.0, 2.0),
-        // A unit of torque over L = 2 m moves by 0.5 · 2.
+        // An unlimited torque counts with the speed 0.5 · 2, because L = 2 m.
         ((0.0, 0.0, f64::INFINITY), 0.0, 1.0),
         ((2e5, 0.0, 0.0), 0.0, 2.25),
         ((1e5, 0.0, 0.0), 2.25e5, 0.0),
@@ -330,15 +336,15 @@ fn a_grip_takes_its_limit_times_its_speed_and_without_one_objects() {
     }
 }
 
-/// What a sum may be off by counts against the motion, and no more than that.
+/// The possible rounding error of a sum counts against the motion, and no more than that.
 #[test]
 fn rounding_counts_against_a_motion_by_its_own_size() {
-    // A force of 10⁸ N that moves by 10⁻⁸ gives 1 W, to 15 digits.
+    // A force of 10⁸ N that moves at 10⁻⁸ m/s gives 1 W, to 15 digits.
     let mut heavy = on_ground(listed(1e8, 0.0, 0.0)).with_friction(0.0);
     let [power, violation] = driven(&heavy, &[moving(0, 1e-8, 0.0, 0.0)]);
     assert_near(power, 1e8 / (1e8 + 10.0), 1e-13);
     assert_eq!(violation, 0.0);
-    // A grip point that rests because two speeds cancel may move by their rounding, against a limit of 10³ N.
+    // Two velocities of the grip point cancel. Their rounding error counts as a motion against the limit of 10³ N.
     heavy.contacts.clear();
     heavy.bodies[0].listed = listed(1.0, 0.0, 0.0);
     heavy = heavy.with_summed_loads();
@@ -356,11 +362,12 @@ fn rounding_counts_against_a_motion_by_its_own_size() {
     assert!(objects > 0.0 && objects < 1e-13, "{objects}");
 }
 
-/// To the last digits, because a motion is believed for what is left when all roundings are taken off.
+/// Checked to the last digits: a motion is trusted only for the power that is left after all rounding errors are
+/// subtracted.
 #[test]
-fn every_sum_of_a_motion_is_taken_at_its_worst() {
+fn every_sum_of_a_motion_allows_for_the_largest_rounding_error() {
     const EPSILON: f64 = f64::EPSILON;
-    // 1 W from the force and 1 W from the moment: nine roundings of 2 W are taken off.
+    // 1 W from the force and 1 W from the moment: nine rounding errors of 2 W are subtracted.
     let mut alone = on_ground(listed(1.0, 0.0, 1.0));
     alone.contacts.clear();
     alone.bodies[0].weight = 0.0;
@@ -372,11 +379,11 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     };
     let found = watts(&alone, &motion);
     assert!(found <= 2.0 - 12.0 * EPSILON && found > 2.0 - 1e-13);
-    // A moment of 10⁸ N·m that turns by 10⁻⁸ gives 1 W to as many digits.
+    // A moment of 10⁸ N·m that turns at 10⁻⁸ rad/s gives 1 W to as many digits.
     alone.bodies[0].listed = listed(0.0, 0.0, 1e8);
     alone = alone.with_summed_loads();
     assert_near(watts(&alone, &[moving(0, 0.0, 0.0, 1e-8)]), 1.0, 1e-13);
-    // A robot that takes 1 W: eight roundings of its speed, and nine of the sum.
+    // A robot that takes 1 W: eight rounding errors of its speed are subtracted, and nine of the sum.
     let mut held = on_ground(listed(0.0, 0.0, 1.0));
     held.contacts.clear();
     held.bodies[0].weight = 0.0;
@@ -387,10 +394,11 @@ fn every_sum_of_a_motion_is_taken_at_its_worst() {
     held.grips = vec![grip(0, 1e3, 0.0, 0.0)];
     let found = watts(&held, &[moving(0, 1e-3, 0.0, 0.0)]);
     assert_near(found, -1.0, 1e-14);
-    // A slide along a level joint: friction's share of its speed may be off by eight roundings of itself.
+    // A slide along a level joint: the speed against which friction acts may be off by eight rounding errors of
+    // itself.
     let slides = driven(&on_ground(LoadVector::ZERO), &[moving(0, 1.0, 0.0, 0.0)]);
     assert!(slides[1] >= 1.0 / 3.0 + 3.0 * EPSILON && slides[1] < 1.0 / 3.0 + 1e-14);
-    // What weighs nothing proves nothing by its motion.
+    // The motion of a weightless block proves nothing.
     let mut weightless = on_ground(LoadVector::ZERO);
     weightless.bodies[0].weight = 0.0;
     let still = driven(&weightless.with_summed_loads(), &[moving(0, 1.0, 1.0, 0.0)]);
@@ -407,13 +415,13 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         }],
     };
     assert_near(forces.sum(2.0), 6.0 + 9.0 + 3.0, 1e-14);
-    // The ground presses with the weight at least, however fast the box is let down.
+    // The ground presses with at least the weight, however fast the box moves down.
     let mut alone = on_ground(LoadVector::ZERO);
     for speed in [1.0, 2.0] {
         let bound = force_sum_lower_bound(&alone, &[moving(0, 0.0, -speed, 0.0)]);
         assert_near(bound, 10.0, 1e-12);
     }
-    // A motion slower than what a unit of force costs says less.
+    // At a speed below 1, a unit of force costs more than the motion gives, so the bound is smaller.
     assert_near(
         force_sum_lower_bound(&alone, &[moving(0, 0.0, -0.5, 0.0)]),
         5.0,
@@ -423,7 +431,8 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         force_sum_lower_bound(&alone, &[moving(0, 0.0, 1.0, 0.0)]),
         0.0
     );
-    // A box beside it hangs on a robot: 10 + 4 · 6 W; of the robot's 3 N counts what is faster than 1.
+    // A second box hangs on a robot: 10 + 4 · 6 W. Of the speed against the robot's limit of 3 N, only the part above
+    // 1 counts.
     alone.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     let mut both = alone.with_summed_loads();
     let motions = [moving(0, 0.0, -1.0, 0.0), moving(1, 0.0, -4.0, 0.0)];
@@ -431,13 +440,14 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         ((0.0, 3.0, 0.0), 34.0 - 3.0 * 3.0),
         ((0.0, 0.0, 0.0), 34.0),
         ((0.0, f64::INFINITY, 0.0), 34.0 / 4.0),
-        // Across its motion the robot may give what it likes.
+        // Forces of the robot that are perpendicular to the motion have no influence.
         ((f64::INFINITY, 0.0, f64::INFINITY), 34.0),
     ] {
         both.grips = vec![grip(1, limits.0, limits.1, limits.2)];
         assert_near(force_sum_lower_bound(&both, &motions), bound, 1e-12);
     }
-    // Along x, at the height of its centroid by −0.5, 1 m above the grip by +1 · 2.5 more, and a torque by the turning.
+    // Along x the centroid moves by −5. The grip, 1 m below it, moves by −2.5 more because the box turns. A torque
+    // counts with the angular velocity.
     both.grips = vec![grip(1, 3.0, 0.0, 0.0)];
     let turning = [moving(0, 0.0, -1.0, 0.0), moving(1, -5.0, -4.0, -2.5)];
     assert_near(
@@ -454,7 +464,7 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
 }
 
 #[test]
-fn a_proof_holds_where_it_comes_to_what_is_demanded() {
+fn a_proof_holds_if_it_meets_the_threshold() {
     let balances = |imbalance, pull, slip| Proof::Forces {
         worst_imbalance: imbalance,
         worst_share: 1.0,
@@ -500,6 +510,6 @@ fn points_of_a_body_move_with_it() {
         .expect("a sound scene");
     let at = motion.at(&scene, Point::new(0.0, 3.0));
     assert_near((at - Vector::new(2.25, -2.0)).norm(), 0.0, 1e-12);
-    // The lower left corner goes by 3 + 0.75 and by −1 − 1, and no other faster.
+    // The lower left corner moves by 3 + 0.75 and by −1 − 1. No other corner is faster.
     assert_near(motion.fastest(&scene), 4.25, 1e-12);
 }

@@ -1,9 +1,9 @@
-//! Lines through few places, and where corners on them come to lie.
+//! Tests of the lines through a few nodes, and of the nodes that are moved onto them.
 
 use super::*;
 use crate::geometry::snap::{Corner, Gaps};
 
-/// The corners of one body, which stay apart however near they are.
+/// Nodes for the corners of one body, which are never merged, however close they are.
 fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
     let corner = |p: &[f64; 2]| Corner {
         at: Point::new(p[0], p[1]),
@@ -23,7 +23,7 @@ fn tilted(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     places.iter().map(turn).collect()
 }
 
-/// The kind of all of some places, the sides given by their numbers.
+/// The kind of the line through all of these places. Each side is given by the numbers of its two ends.
 fn kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
     let nodes = nodes(places, gap);
     let line = Line::new(&nodes, (0..places.len()).collect(), sides)?;
@@ -36,7 +36,7 @@ fn kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
     })
 }
 
-fn course_is(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) {
+fn assert_kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) {
     assert_eq!(
         kind(places, gap, sides).as_deref(),
         Some(wanted),
@@ -45,8 +45,9 @@ fn course_is(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) 
 }
 
 #[test]
-fn the_longest_side_is_the_line_where_it_reaches_along_all_and_all_lie_near() {
-    // A side of 4 that begins at 1, a shorter one on it, and a corner: a quarter beyond either end, a quarter beside.
+fn the_longest_side_gives_the_line_if_all_nodes_lie_along_it() {
+    // A side of length 4 that begins at x = 1, a shorter side near it, and a corner that is a quarter beyond either
+    // end, or a quarter above or below.
     let at = |end: f64, off: f64| {
         [
             [1.0, 2.0],
@@ -59,18 +60,18 @@ fn the_longest_side_is_the_line_where_it_reaches_along_all_and_all_lie_near() {
     let sides = [[2, 3], [0, 1]];
     for (end, off) in [(0.75, 0.0), (5.25, 0.0), (3.0, 0.25), (3.0, -0.25)] {
         let places = at(end, off);
-        course_is(&places, 0.25, &sides, "[0, 1]");
-        course_is(&transposed(&places), 0.25, &sides, "[0, 1]");
-        course_is(&tilted(&places), 0.2500001, &sides, "[0, 1]");
+        assert_kind(&places, 0.25, &sides, "[0, 1]");
+        assert_kind(&transposed(&places), 0.25, &sides, "[0, 1]");
+        assert_kind(&tilted(&places), 0.2500001, &sides, "[0, 1]");
     }
     for end in [0.5, 5.5] {
         let places = at(end, 0.0);
-        course_is(&places, 0.25, &sides, "level");
-        course_is(&transposed(&places), 0.25, &sides, "upright");
-        course_is(&tilted(&places), 0.25, &sides, "closest");
+        assert_kind(&places, 0.25, &sides, "level");
+        assert_kind(&transposed(&places), 0.25, &sides, "upright");
+        assert_kind(&tilted(&places), 0.25, &sides, "closest");
     }
-    // Of two as long the first, whichever way it runs.
-    course_is(
+    // Of two sides of equal length the first counts, whatever its direction.
+    assert_kind(
         &[[0.0, 0.0], [4.0, 0.0], [0.0, 0.5], [4.0, 0.5]],
         0.5,
         &[[1, 0], [2, 3]],
@@ -79,19 +80,19 @@ fn the_longest_side_is_the_line_where_it_reaches_along_all_and_all_lie_near() {
 }
 
 #[test]
-fn what_no_line_passes_within_the_gaps_has_none() {
-    // Three places of a triangle 1 high: the closest line is a third from two of them, two thirds from the third.
+fn there_is_no_line_if_a_node_would_be_farther_away_than_its_gap() {
+    // The corners of a triangle of height 1: the closest line is 1/3 away from two of them, and 2/3 from the third.
     let places = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0]];
     let sides = [[0, 2]];
     assert_eq!(kind(&places, 0.66, &sides), None);
-    course_is(&places, 0.67, &sides, "level");
+    assert_kind(&places, 0.67, &sides, "level");
     let off = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0], [f64::NAN, 0.0]];
     assert_eq!(kind(&off, 0.67, &[[0, 1]]), None);
 }
 
 #[test]
-fn level_and_upright_are_what_corners_cannot_tell_from_it() {
-    // Four corners in a row of 6, off by ±1/64; nothing tells whether one end is higher, by up to 1/32.
+fn a_line_is_level_or_upright_if_the_scatter_of_its_corners_allows_this() {
+    // Four corners in a row of length 6 are off by ±1/64. With this scatter one end may be up to 1/32 higher.
     let row = |rise: f64, off: f64| {
         let at = |k: usize, s: f64| [2.0 * k as f64, rise * (k as f64 / 3.0 - 0.5) + s * off];
         [at(0, 1.0), at(1, -1.0), at(2, -1.0), at(3, 1.0)]
@@ -103,7 +104,7 @@ fn level_and_upright_are_what_corners_cannot_tell_from_it() {
         (-0.03, 1.0 / 64.0, true),
         (0.033, 1.0 / 64.0, false),
         (-0.033, 1.0 / 64.0, false),
-        // Without a misfit only rounding is left: a billionth of the gap.
+        // Without scatter only rounding is allowed: a billionth of the gap.
         (0.9e-9, 0.0, true),
         (1.2e-9, 0.0, false),
         (1e-3, 0.0, false),
@@ -111,14 +112,14 @@ fn level_and_upright_are_what_corners_cannot_tell_from_it() {
         let places = row(rise, off);
         let far = places.map(|[x, y]| [x + 100.0, y - 0.5]);
         for places in [places, far] {
-            course_is(
+            assert_kind(
                 &places,
                 1.0,
                 &sides,
                 if level { "level" } else { "closest" },
             );
             let across = transposed(&places);
-            course_is(
+            assert_kind(
                 &across,
                 1.0,
                 &sides,
@@ -129,7 +130,7 @@ fn level_and_upright_are_what_corners_cannot_tell_from_it() {
 }
 
 #[test]
-fn the_closest_line_has_the_least_squares() {
+fn the_closest_line_has_the_least_sum_of_squared_distances() {
     let mut seed = 5_u64;
     let mut any = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -188,17 +189,17 @@ fn steps_to(at: [f64; 2], lines: &[Fit], wanted: [f64; 2]) {
 }
 
 #[test]
-fn a_step_goes_straight_onto_one_line_and_to_where_two_cross() {
+fn a_step_leads_to_the_nearest_point_of_one_line_or_to_the_crossing_of_two() {
     steps_to([3.0, 5.0], &[line([9.0, 1.0], [0.0, 1.0])], [3.0, 1.0]);
     steps_to([3.0, 5.0], &[line([9.0, 1.0], [-1.0, 0.0])], [9.0, 5.0]);
-    // y = x, and 3x + 4y = 25 from (8, 9).
+    // The lines y = x, and 3x + 4y = 25 from (8, 9).
     steps_to([3.0, 5.0], &[line([1.0, 1.0], [1.0, -1.0])], [4.0, 4.0]);
     steps_to(
         [8.0, 9.0],
         &[line([3.0, 4.0], [3.0, 4.0])],
         [8.0 - 3.0 * 1.4, 9.0 - 4.0 * 1.4],
     );
-    // x + y = 4 and x − 3y = −8 in (1, 3); x = 2 and x + 2y = 12 in (2, 5).
+    // x + y = 4 and x − 3y = −8 cross at (1, 3); x = 2 and x + 2y = 12 cross at (2, 5).
     steps_to(
         [9.0, -2.0],
         &[line([4.0, 0.0], [1.0, 1.0]), line([-8.0, 0.0], [1.0, -3.0])],
@@ -212,8 +213,8 @@ fn a_step_goes_straight_onto_one_line_and_to_where_two_cross() {
 }
 
 #[test]
-fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
-    // Three around a square of 6, level, level and upright; and along lines that never cross.
+fn a_step_towards_lines_without_a_common_point_leads_to_their_middle() {
+    // Two level lines and an upright line; then pairs of parallel lines.
     let level = |y: f64| line([0.0, y], [0.0, 1.0]);
     let upright = |x: f64| line([x, 0.0], [1.0, 0.0]);
     steps_to(
@@ -223,7 +224,7 @@ fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
     );
     steps_to([5.0, 9.0], &[level(1.0), level(3.0)], [5.0, 2.0]);
     steps_to([5.0, 9.0], &[upright(1.0), upright(3.0)], [2.0, 9.0]);
-    // x + y = 0 and x + y = 4 are as far from x + y = 2.
+    // x + y = 0 and x + y = 4 are equally far from x + y = 2.
     steps_to(
         [5.0, 1.0],
         &[line([0.0, 0.0], [1.0, 1.0]), line([4.0, 0.0], [1.0, 1.0])],
@@ -234,7 +235,8 @@ fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
         &[line([0.0, 0.0], [1.0, -1.0]), line([2.0, 0.0], [1.0, -1.0])],
         [3.5, 2.5],
     );
-    // A hundredth of a radian and a little more is a crossing, ten thousand gaps away; a little less is none.
+    // Two lines at a little more than a hundredth of a radian have a crossing, 98 m away. At a little less they count
+    // as parallel.
     let crossing = |sine: f64| {
         let lines = [level(0.0), line([0.0, 1.0], [-sine, 1.0])];
         least_squares_step(Point::new(0.0, 0.0), lines.iter()).norm()
@@ -243,7 +245,7 @@ fn a_step_onto_lines_that_miss_each_other_goes_to_the_middle() {
     assert!(crossing(0.0098) < 1.0);
 }
 
-/// The lines of sides and of the nodes on them, as sorted numbers of nodes.
+/// The numbers of the nodes on each line, sorted. A side is given by its ends and the other nodes on it.
 fn lines_of(nodes: &Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Vec<usize>> {
     let on = sides
         .iter()
@@ -253,17 +255,18 @@ fn lines_of(nodes: &Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Vec<usize>> 
 }
 
 #[test]
-fn sides_that_share_two_nodes_are_one_line() {
+fn sides_that_share_two_nodes_have_one_line() {
     let row = nodes(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|x| [x, 0.0]), 0.25);
-    // Three that overlap, the last of them with the one before; then with the first only, in one node.
+    // Each side shares two nodes with the next. In the second list the first two sides share only one node.
     let all = [([0, 2], &[1][..]), ([1, 4], &[2, 3]), ([3, 5], &[4])];
     assert_eq!(lines_of(&row, &all), [[0, 1, 2, 3, 4, 5]]);
     let two = [([0, 2], &[1][..]), ([2, 4], &[3]), ([3, 5], &[4])];
     assert_eq!(lines_of(&row, &two), [vec![0, 1, 2], vec![2, 3, 4, 5]]);
-    // The first and the last with one between them that comes later in the order of the sides.
+    // The third side shares two nodes with each of the other two, which share none.
     let later = [([0, 1], &[2][..]), ([3, 4], &[5]), ([3, 5], &[1, 2, 4])];
     assert_eq!(lines_of(&row, &later), [[0, 1, 2, 3, 4, 5]]);
-    // A bend by more than the gap: the sides stay lines of their own; and one that has none goes without.
+    // The sides form a bend of more than the gap, so each side keeps its own line. In the first case the second side
+    // has no line.
     let bent = nodes(
         &[[0.0, 0.0], [4.0, 0.0], [8.0, 0.5], [6.0, 0.0], [2.0, 0.0]],
         0.0625,
@@ -277,7 +280,7 @@ fn sides_that_share_two_nodes_are_one_line() {
     assert_eq!(lines_of(&wide, &sides), [vec![0, 1, 3, 4], vec![1, 2, 3]]);
 }
 
-/// The nodes once they lie on the lines of sides.
+/// The places of the nodes after they have been moved onto the lines of the sides.
 fn settled(mut nodes: Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Point> {
     let on = sides
         .iter()
@@ -295,8 +298,8 @@ fn lie_at(found: &[Point], wanted: &[[f64; 2]]) {
 }
 
 #[test]
-fn corners_go_to_their_line_and_those_of_two_to_the_crossing() {
-    // A level joint and an upright one, each of a side that runs along it; the corner of both lies beside both.
+fn corners_move_to_their_line_or_to_the_crossing_of_two_lines() {
+    // A level joint and an upright joint, each along one side. The corner in both joints lies off both lines.
     let drawn = [
         [0.0, 0.0],
         [8.0, 0.0],
@@ -334,8 +337,9 @@ fn corners_go_to_their_line_and_those_of_two_to_the_crossing() {
 }
 
 #[test]
-fn what_is_fixed_stays_and_the_others_come_to_it() {
-    // Two sides that overlap, and each other's ends lie on them; one of these four has to stay where it is.
+fn fixed_nodes_stay_and_the_others_move_to_them() {
+    // Two sides overlap, so that one end of each lies on the other. In the second case one of these four nodes is
+    // fixed.
     let drawn = [[0.0, 0.0], [4.0, 0.0], [2.0, 0.01], [6.0, 0.01]];
     let sides = [([0, 1], &[2][..]), ([2, 3], &[1])];
     lie_at(
@@ -348,9 +352,9 @@ fn what_is_fixed_stays_and_the_others_come_to_it() {
 }
 
 #[test]
-fn no_corner_goes_farther_than_two_gaps() {
-    // A corner a gap beside each of two lines: where they are square to each other it has 1.41 gaps to go, and at an
-    // angle of 0.4 to each other five.
+fn no_corner_moves_farther_than_two_gaps() {
+    // A corner is one gap away from each of two lines. If the lines are perpendicular it has to move 1.41 gaps; if
+    // their angle is 0.4 rad, five gaps.
     let at = |angle: f64| {
         let ray = |side: f64, reach: f64| {
             let (sin, cos) = libm::sincos(angle / 2.0);

@@ -1,9 +1,8 @@
-//! What counts in the imbalance of one body: its own forces, and how much rounding is granted to which of them.
+//! Which forces count in the imbalance of one block, and how much rounding each of them is allowed.
 
 use super::*;
 
-/// A stone of this weight between the ground below and the ground above, pressed with 1 000 N at each of the points
-/// given.
+/// A stone of this weight between two parts of the ground, one below and one above.
 fn squeezed(weight: f64, friction: f64, listed: LoadVector) -> Assembly {
     let mut above = joint(0, None, 3.0);
     above.normal = Vector::new(0.0, -1.0);
@@ -20,15 +19,15 @@ fn squeezed(weight: f64, friction: f64, listed: LoadVector) -> Assembly {
     there
 }
 
-/// A rounding is granted of 16 ε Σ |F| at τ = 10⁻⁹.
+/// The amount of force that is allowed for rounding: 16 ε Σ |F| at τ = 10⁻⁹.
 fn granted(total: f64) -> f64 {
     16.0 * f64::EPSILON / 1e-9 * total
 }
 
 #[test]
 fn a_torque_counts_by_its_own_amount() {
-    // 7 N·m of load against −8 N·m of a robot leave 1 N·m, over 2.5 m: 0.4 N. Moving 20 N gives 20 N, the load 2.8 N,
-    // the robot 3.2 N and the joint's two points 4 N.
+    // 7 N·m of load and −8 N·m of a robot leave 1 N·m, which is 0.4 N at the radius of 2.5 m. Moving 20 N of forces
+    // counts 20 N, the load 2.8 N, the robot 3.2 N, and the two points of the joint 4 N.
     let mut held = on_ground(listed(0.0, 0.0, 7.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
     let gives = GripForces {
@@ -41,8 +40,8 @@ fn a_torque_counts_by_its_own_amount() {
 }
 
 #[test]
-fn a_rounding_of_all_forces_is_granted_to_what_loads_a_body() {
-    // 10⁻¹⁵ N to the side, in a joint without friction, where nothing else acts along it.
+fn the_load_is_allowed_the_rounding_of_all_forces() {
+    // A push of 10⁻¹⁵ N to the side. The joint has no friction, so no other force acts in this direction.
     let pushed = on_ground(listed(1e-15, 0.0, 0.0)).with_friction(0.0);
     let found = found(&pushed, vec![pressed(5.0, 5.0, 0.0)], vec![])[0];
     let expected = 1e-15 / granted(20.0);
@@ -53,51 +52,53 @@ fn a_rounding_of_all_forces_is_granted_to_what_loads_a_body() {
 }
 
 #[test]
-fn a_rounding_is_granted_to_friction_within_its_cone_and_to_no_more_than_the_load() {
+fn friction_is_allowed_rounding_within_its_cone() {
     let side = 1e-8;
     let light = |friction: f64| squeezed(1e-9, friction, listed(side, 0.0, 0.0));
     let imbalance =
         |friction: f64, at: [ContactForces; 2]| found(&light(friction), at.into(), vec![])[0];
     let both = |f: f64| [pressed(1000.0, 1000.0, f), pressed(1000.0, 1000.0, f)];
-    // Two cones of 16 ε · 4 000 N/10⁻⁹ each, beside the load's own 10⁻⁸ N and as much again of the granted.
+    // The friction of each joint is allowed 16 ε · 4 000 N/10⁻⁹. The load's own 10⁻⁸ N are negligible.
     let cones = 2.0 * granted(4000.0);
     assert_near(imbalance(0.5, both(0.0)) / (side / cones), 1.0, 1e-3);
-    // What friction is given already it has; of equal and opposite ones nothing is left.
-    // Their couple of 3 m · f is taken by the joint below, 2 m wide.
+    // Friction that acts already adds nothing as long as it is less than the allowed amount. The two friction forces
+    // are equal and opposite. Their moment of 3 m · f is balanced by the joint below, whose points are 2 m apart.
     let rubbing = |f: f64| {
         let below = pressed(1000.0 + 1.5 * f, 1000.0 - 1.5 * f, f);
         [below, pressed(1000.0, 1000.0, f)]
     };
     let given = rubbing(5e-3);
     assert_near(imbalance(0.5, given) / (side / cones), 1.0, 1e-3);
-    // Beyond what is granted it has what it gives.
+    // Friction of more than the allowed amount counts with its own amount.
     let more = rubbing(0.5);
     assert_near(imbalance(0.5, more) / side, 1.0, 1e-3);
-    // Pressed at one point alone, of 2 000 N and of 10⁻² N with the cone of 5·10⁻³ N, less than what is granted.
+    // The result is the same if each joint is pressed at one point only, with 2 000 N.
     let one = [pressed(2000.0, 0.0, 0.0), pressed(0.0, 2000.0, 0.0)];
     assert_near(imbalance(0.5, one) / (side / cones), 1.0, 1e-3);
+    // With a friction coefficient of 2.5·10⁻⁷ the cone of each joint is 5·10⁻⁴ N, less than the allowed amount.
     let narrow = imbalance(2.5e-7, both(0.0));
     assert_near(narrow / (side / 1e-3), 1.0, 1e-3);
-    // Without friction the load alone takes it up: 2.1·10⁻⁸ N for the 10⁻⁸ N that are left.
+    // Without friction only the load is allowed to change: 2.1·10⁻⁸ N for a residual of 10⁻⁸ N.
     assert!(imbalance(0.0, both(0.0)) > 0.4);
 }
 
-/// A stone without weight has no load to measure by: what is left of it is no share, and friction alone balances it.
+/// A stone without weight has no load to which its residual could be relative. Only friction can balance it.
 #[test]
-fn what_nothing_loads_has_no_share() {
+fn a_stone_without_load_has_no_share() {
     let idle = squeezed(0.0, 0.5, LoadVector::ZERO);
     let at = [pressed(10.0, 10.0, 1.0), pressed(10.0, 10.0, 2.0)];
     let all = found(&idle, at.into(), vec![]);
     assert_eq!(all[1], 0.0);
-    // 1 N too much to the side, of 3 N of friction.
+    // 1 N too much to the side; the friction forces come to 3 N.
     assert_near(all[0], 1.0 / 3.0, 1e-3);
     let balanced = [pressed(10.0, 10.0, 0.0), pressed(10.0, 10.0, 0.0)];
     assert_eq!(found(&idle, balanced.into(), vec![]), [0.0; 4]);
 }
 
-/// In parts of its own forces, not of the scene's: a pebble that is off by a tenth is, beside a boulder of any weight.
+/// The imbalance is relative to the block's own forces: it stays the same if all forces are a billion times smaller
+/// or larger.
 #[test]
-fn imbalance_knows_no_unit() {
+fn imbalance_does_not_depend_on_the_unit_of_force() {
     let alone = |unit: f64| {
         let mut there = on_ground(LoadVector::ZERO);
         there.bodies[0].weight = 10.0 * unit;
@@ -113,10 +114,10 @@ fn imbalance_knows_no_unit() {
     }
 }
 
-/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points: each and the weight must change
-/// alike.
+/// A box of 9 N on five narrow joints, pressed with 1 N at each of their ten points. Each of these forces and the
+/// weight must change by the same fraction.
 #[test]
-fn many_small_forces_are_weighed_as_few_large_ones_are() {
+fn many_small_forces_count_as_much_as_a_few_large_ones() {
     let joints = (0..5_u8).map(|k| {
         let mut narrow = joint(0, None, 0.0);
         let at = |x: f64| Point::new(2.0 + 0.5 * (f64::from(k) - 2.0) + x, 0.0);
@@ -127,16 +128,17 @@ fn many_small_forces_are_weighed_as_few_large_ones_are() {
         vec![body(0, 0.0, 3.0, 9.0, LoadVector::ZERO)],
         joints.collect(),
     );
-    // Friction is in balance by itself, and counts neither way.
+    // The friction forces balance each other, so they change neither result.
     let rubbing = [0.4, -0.4, 0.4, -0.4, 0.0].map(|f| pressed(1.0, 1.0, f));
     let all = found(&there, rubbing.into(), vec![]);
     assert_near(all[0], 1.0 / 19.0, 1e-5);
     assert_near(all[1], 1.0 / 9.0, 1e-14);
 }
 
-/// Friction below the stone alone, granted as much whether the stone is 3 mm, 3 m or 3 km high.
+/// Only the joint below the stone has friction. The allowance is the same whether the stone is 3 mm, 3 m or 3 km
+/// high.
 #[test]
-fn imbalance_knows_no_unit_of_length() {
+fn imbalance_does_not_depend_on_the_unit_of_length() {
     let side = 1e-8;
     for scale in [1e-3, 1.0, 1e3] {
         let mut there = squeezed(1e-9, 0.5, listed(side, 0.0, 0.0));
