@@ -1,4 +1,4 @@
-//! Cells, turns and outlines on both lattices, worked out by hand or held against the plane.
+//! Tests of cells, rotations and outlines on both lattices, against results by hand or in the plane.
 
 use super::*;
 
@@ -16,7 +16,7 @@ fn lattice(shape: CellShape, side: f64) -> Lattice {
     Lattice { kind, side }
 }
 
-/// Squares of some columns and rows, from 0, without some of them.
+/// A rectangle of square cells with these numbers of columns and rows, except some cells.
 fn squares(columns: i64, rows: i64, without: &[Node]) -> Vec<Cell> {
     let all = (0..columns).flat_map(|x| (0..rows).map(move |y| (x, y)));
     let kept = all.filter(|place| !without.contains(place));
@@ -28,7 +28,8 @@ fn outline_of(cells: &[Cell], side: f64) -> Polygon {
     lattice.polygon(cells).expect("joined by edges")
 }
 
-/// The corners of a ring in their order, from the one that is first in the order of x and y.
+/// The corners of a ring in their order. The first is the corner with the smallest x, and among these with the
+/// smallest y.
 fn nodes(ring: &[Node]) -> Vec<Node> {
     let mut ring = ring.to_vec();
     let first = (0..ring.len()).min_by_key(|i| ring[*i]).unwrap_or(0);
@@ -54,7 +55,7 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
         for side in polygon.edges() {
             assert!((side.length() - 0.7).abs() < 1e-14);
         }
-        // What it is named by: the left end of its horizontal edge, with the cell above or below.
+        // A cell is named by the left end of its horizontal edge. Only a cell that points down lies below this edge.
         let above = lattice.cell_centre(cell).y > lattice.node((-4, 3)).y;
         assert!(cell.corners().contains(&(-4, 3)) && cell.corners().contains(&(-3, 3)));
         assert_eq!(above, shape != CellShape::Down);
@@ -62,8 +63,8 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
 }
 
 #[test]
-fn a_cell_lies_where_it_is_counted_to() {
-    // Triangles of 2 m: a row up is shape a cell to the right and √3 m higher.
+fn centres_and_nodes_have_the_expected_coordinates() {
+    // Triangles with a side of 2 m: the next row starts half a side farther to the right and √3 m higher.
     let triangles = lattice(CellShape::Up, 2.0);
     let third = 3f64.sqrt() / 3.0;
     let near = |found: Point, x: f64, y: f64| (found - Point::new(x, y)).norm() < 1e-14;
@@ -93,14 +94,14 @@ fn a_cell_lies_where_it_is_counted_to() {
 }
 
 #[test]
-fn a_moved_cell_keeps_its_half() {
+fn a_moved_cell_keeps_its_shape() {
     for shape in SHAPES {
         assert_eq!(cell(3, -2, shape).moved((4, -5)), cell(7, -7, shape));
     }
 }
 
 #[test]
-fn turns_on_the_lattice_are_turns_of_the_plane() {
+fn rotations_on_the_lattice_are_rotations_of_the_plane() {
     for shape in SHAPES {
         let lattice = lattice(shape, 1.3);
         let angle = if shape == CellShape::Square {
@@ -123,7 +124,7 @@ fn turns_on_the_lattice_are_turns_of_the_plane() {
 }
 
 #[test]
-fn a_boundary_is_what_one_cell_alone_has() {
+fn the_boundary_consists_of_the_edges_of_only_one_cell() {
     let one = cell(1, 2, CellShape::Up);
     let own = [((1, 2), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
     let sorted = |steps: &[LatticeEdge]| {
@@ -147,7 +148,7 @@ fn a_boundary_is_what_one_cell_alone_has() {
 
 #[test]
 fn outlines_have_corners_only_where_they_turn() {
-    // An L of five squares of shape a metre.
+    // An L of five squares.
     let mut cells = squares(3, 1, &[]);
     cells.extend([cell(0, 1, CellShape::Square), cell(0, 2, CellShape::Square)]);
     let corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)];
@@ -155,7 +156,7 @@ fn outlines_have_corners_only_where_they_turn() {
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), corners);
     assert_eq!(outline_of(&cells, 0.5).area(), 1.25);
-    // A triangle of two rows: three up, one down.
+    // A triangle of two rows: three cells point up and one points down.
     let up = [(0, 0), (1, 0), (0, 1)].map(|(x, y)| cell(x, y, CellShape::Up));
     let mut cells = up.to_vec();
     cells.push(cell(0, 1, CellShape::Down));
@@ -179,7 +180,7 @@ fn a_ring_of_squares_has_a_hole() {
 }
 
 #[test]
-fn the_outline_comes_first_and_then_the_holes_from_the_smallest() {
+fn the_outline_comes_before_the_holes_and_small_holes_before_large_ones() {
     let large = [(1, 1), (2, 1), (1, 2), (2, 2)];
     let holes = [&large[..], &[(4, 2)], &[(6, 1), (6, 2)]].concat();
     let traced = trace(&squares(8, 4, &holes)).expect("joined by edges");
@@ -194,9 +195,9 @@ fn the_outline_comes_first_and_then_the_holes_from_the_smallest() {
 }
 
 #[test]
-fn rings_that_touch_in_a_node_stay_with_their_own_cells() {
-    // The corner square is missing, so that the hole touches the outside in (1, 2): of the squares that meet there each
-    // keeps its own two sides, and all of it is one ring.
+fn where_rings_touch_in_a_node_each_cell_keeps_its_own_edges() {
+    // The corner square is missing, so the hole touches the outside at (1, 2). Each of the two squares that meet
+    // there keeps its own two edges, and all edges form one ring.
     let traced = trace(&squares(3, 3, &[(1, 1), (0, 2)])).expect("joined by edges");
     let wanted = [
         (0, 0),
@@ -230,14 +231,14 @@ fn rings_that_touch_in_a_node_stay_with_their_own_cells() {
     assert_eq!(nodes(&traced[0]), wanted);
 }
 
-/// The six triangles around the origin, anticlockwise from the one between 0° and 60°.
+/// The six triangles around the origin, anticlockwise from the triangle between 0° and 60°.
 fn wheel() -> Vec<Cell> {
     (0..6)
         .map(|k| cell(0, 0, CellShape::Up).turned(k))
         .collect()
 }
 
-/// The hexagon of two triangles to a side, without some of the six around its centre.
+/// A hexagon whose sides are two triangles long, without some of the six triangles around its centre.
 fn hexagon(without: &[usize]) -> Vec<Cell> {
     let inner = wheel();
     let place = |n: Node| lattice(CellShape::Up, 1.0).node(n).coords.norm();
@@ -249,9 +250,9 @@ fn hexagon(without: &[usize]) -> Vec<Cell> {
 }
 
 #[test]
-fn triangles_that_meet_in_a_node_only_keep_their_own_two_sides() {
+fn triangles_that_meet_only_in_a_node_keep_their_own_two_edges() {
     assert_eq!(hexagon(&[]).len(), 24);
-    // Every way in which triangles can be missing around the centre.
+    // Every pattern of missing triangles around the centre.
     for pattern in 1_usize..63 {
         let missing = |k: usize| pattern >> (k % 6) & 1 == 1;
         let without: Vec<usize> = (0..6).filter(|k| missing(*k)).collect();
@@ -259,7 +260,8 @@ fn triangles_that_meet_in_a_node_only_keep_their_own_two_sides() {
         assert_eq!((traced.len(), traced[0].len()), (2, 6), "{pattern:b}");
         let area: i64 = traced.iter().map(|ring| doubled_area(ring)).sum();
         assert_eq!(area as usize, 24 - without.len(), "{pattern:b}");
-        // The runs of triangles there, by the spokes that bound them; three in a row are straight and have no corner.
+        // Each run of adjacent triangles around the centre is given by the two spokes that bound it. The edge of
+        // three triangles in a row is straight there and has no corner.
         let mut wanted = BTreeSet::new();
         for begin in (0..6).filter(|k| !missing(*k) && missing(k + 5)) {
             let count = (1..6).find(|k| missing(begin + k)).unwrap_or(6);
@@ -282,11 +284,11 @@ fn triangles_that_meet_in_a_node_only_keep_their_own_two_sides() {
 }
 
 #[test]
-fn cells_that_meet_in_a_corner_only_are_not_one_body() {
+fn cells_that_meet_only_in_a_corner_are_not_one_body() {
     let apart = [cell(0, 0, CellShape::Square), cell(1, 1, CellShape::Square)];
     assert_eq!(lattice(CellShape::Square, 1.0).polygon(&apart), None);
     assert_eq!(lattice(CellShape::Square, 1.0).polygon(&[]), None);
-    // One that is listed twice is there once.
+    // A cell that is listed twice counts once.
     let twice = [cell(0, 0, CellShape::Up), cell(0, 0, CellShape::Up)];
     assert_eq!(outline_of(&twice, 2.0), outline_of(&twice[..1], 2.0));
 }

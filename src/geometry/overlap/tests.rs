@@ -16,7 +16,7 @@ fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
 }
 
 #[test]
-fn touching_is_not_overlapping_and_an_overlap_has_area_and_place() {
+fn touching_is_not_overlapping_and_an_overlap_has_an_area_and_a_centroid() {
     let a = rectangle(0.0, 0.0, 2.0, 1.0);
     let a = ConvexPieces::new(&a);
     assert_eq!(
@@ -76,7 +76,7 @@ fn polygon(corners: &[[f64; 2]]) -> Polygon {
     Polygon::new(corners, vec![]).expect("sound")
 }
 
-/// The overlap of two, the same in either order.
+/// The overlap of two polygons. Checks that it is the same in either order.
 fn both(a: &Polygon, b: &Polygon) -> Overlap {
     let (a, b) = (&ConvexPieces::new(a), &ConvexPieces::new(b));
     let found = overlap(a, b, 1e-9).expect("overlap");
@@ -88,8 +88,9 @@ fn both(a: &Polygon, b: &Polygon) -> Overlap {
 }
 
 #[test]
-fn common_area_and_its_centroid_are_those_of_the_pieces_together() {
-    // An L and a square over its corner: 2 by ½ around (1½, ¾), and ½ by 1½ around (¾, 1¾).
+fn the_area_and_the_centroid_of_an_overlap_are_those_of_all_pieces_together() {
+    // An L and a square over its corner. They share a rectangle of 2 by ½ around (1½, ¾) and one of ½ by 1½ around
+    // (¾, 1¾).
     for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
         let corners = [
             [0.0, 0.0],
@@ -105,14 +106,14 @@ fn common_area_and_its_centroid_are_those_of_the_pieces_together() {
         let wanted = Point::new(x + (1.5 + 0.5625) / 1.75, y + (0.75 + 1.3125) / 1.75);
         assert!((found.at - wanted).norm() < 1e-12, "{}", found.at);
     }
-    // A square less its four corners, cut by a diamond.
+    // A square whose four corners are cut off by a diamond.
     let diamond = polygon(&[[1.5, 0.0], [0.0, 1.5], [-1.5, 0.0], [0.0, -1.5]]);
     let found = both(&diamond, &rectangle(-1.0, -1.0, 2.0, 2.0));
     assert!((found.area - 3.5).abs() < 1e-12 && found.at.coords.norm() < 1e-12);
 }
 
 #[test]
-fn depth_is_the_least_way_out() {
+fn the_depth_is_the_shortest_distance_that_separates_the_bodies() {
     let slab = rectangle(0.0, 0.0, 4.0, 4.0);
     for (x, y, depth) in [
         (1.0, 1.0, 2.0),
@@ -127,7 +128,7 @@ fn depth_is_the_least_way_out() {
             found.depth
         );
     }
-    // A tip, from above and onto a slope: ¼ deep, the slope 3 along and 4 down.
+    // A tip that enters the top of the slab by ¼, and a box that enters a slope of 3 along and 4 down by ¼.
     let tip = polygon(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
     assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
     let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
@@ -137,7 +138,7 @@ fn depth_is_the_least_way_out() {
         overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap)
     };
     assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
-    // As deep as the gap is none yet.
+    // An overlap that is exactly as deep as the gap is not reported.
     let stone = rectangle(1.0, 3.75, 1.0, 1.0);
     assert_eq!(deep(&slab, &stone, 0.25), None);
     assert!(deep(&slab, &stone, 0.2499).is_some());
@@ -147,7 +148,7 @@ fn depth_is_the_least_way_out() {
 const FAR: f64 = 1_125_899_906_842_624.0;
 
 #[test]
-fn pieces_cover_the_whole_once() {
+fn the_pieces_cover_the_polygon_exactly_once() {
     let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
     let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
     let frame = frame.expect("sound");
@@ -163,7 +164,7 @@ fn pieces_cover_the_whole_once() {
         area += part;
     }
     assert!((area - 71.0).abs() < 1e-12);
-    // So far away that only quarters of a metre have a number.
+    // At this distance from the origin, only multiples of a quarter of a metre can be represented.
     let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
     let corners = [
         [0.0, 0.0],
@@ -182,23 +183,23 @@ fn pieces_cover_the_whole_once() {
     assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
     let square = rectangle(0.0, 0.0, 1.0, 1.0);
     let pieces = ConvexPieces::new(&square);
-    let whole: Vec<usize> = pieces
+    let sizes: Vec<usize> = pieces
         .pieces()
         .iter()
         .map(|piece| piece.corners.len())
         .collect();
-    assert_eq!(whole, [4], "what is convex stays whole");
+    assert_eq!(sizes, [4], "a convex body is one piece");
 }
 
 #[test]
 fn bodies_that_only_touch_are_not_cut_into_pieces() {
-    // A block with a notch stands on the ground: their boxes share a line, so they cannot be deeper than 0.
+    // A block with a notch stands on the ground. The bounds of the two share only a line, so the depth is 0.
     let notched = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 1.0], [0.0, 2.0]];
     let (notched, ground) = (polygon(&notched), rectangle(-9.0, -1.0, 18.0, 1.0));
     let (a, b) = (ConvexPieces::new(&notched), ConvexPieces::new(&ground));
     assert_eq!(overlap(&a, &b, 0.0), None);
     assert!(a.pieces.get().is_none() && b.pieces.get().is_none());
-    // Above the notch their boxes overlap by half a metre, so the pieces decide.
+    // The bounds of the block above the notch overlap by half a metre, so the pieces are needed.
     let above = rectangle(1.5, 1.5, 1.0, 1.0);
     assert_eq!(overlap(&a, &ConvexPieces::new(&above), 1e-9), None);
     assert_eq!(a.pieces.get().map(Vec::len), Some(3));

@@ -1,4 +1,4 @@
-//! Outlines whose flaws, areas and sides can be named by looking at them.
+//! Tests of outlines whose errors, areas and edges are obvious.
 
 use super::*;
 
@@ -24,7 +24,7 @@ fn flaws(rings: &[&[[f64; 2]]]) -> Vec<PolygonError> {
     made(rings).expect_err("flawed")
 }
 
-/// The corner on one side and on the other at which two sides of an outline meet, and where.
+/// The error that two edges of the outline cross at a point. Each edge is given by the number of its first corner.
 fn crossing(corners: [usize; 2], at: [f64; 2]) -> PolygonError {
     PolygonError::Crossing {
         rings: [0, 0],
@@ -51,7 +51,7 @@ fn an_edge_has_its_material_on_the_left() {
 }
 
 #[test]
-fn a_box_is_as_large_as_what_it_is_around() {
+fn bounds_fit_the_points_exactly() {
     assert_eq!(Bounds::from_points([]), None);
     let found =
         Bounds::from_points(points(&[[4.0, -1.0], [1.0, 2.0], [3.0, 3.0]])).expect("three points");
@@ -85,7 +85,7 @@ fn a_box_is_as_large_as_what_it_is_around() {
 }
 
 #[test]
-fn boxes_meet_where_they_share_a_point() {
+fn bounds_intersect_if_they_share_a_point() {
     let own = Bounds {
         min: Point::new(0.0, 0.0),
         max: Point::new(2.0, 1.0),
@@ -118,7 +118,7 @@ fn boxes_meet_where_they_share_a_point() {
 }
 
 #[test]
-fn rings_are_turned_so_that_the_material_is_on_their_left() {
+fn rings_are_reversed_so_that_the_material_is_on_their_left() {
     let (mut outline, mut hole) = (square(0.0, 0.0, 4.0), square(1.0, 1.0, 2.0));
     let wanted = sound(&[&outline, &hole]);
     assert_eq!(wanted.outline(), points(&outline));
@@ -131,7 +131,7 @@ fn rings_are_turned_so_that_the_material_is_on_their_left() {
 }
 
 #[test]
-fn repeated_corners_are_dropped_and_straight_ones_stay() {
+fn repeated_corners_are_dropped_and_corners_on_straight_edges_stay() {
     let [a, b, c, d] = square(0.0, 0.0, 2.0);
     let middle = [1.0, 0.0];
     let found = sound(&[&[a, a, middle, b, b, b, c, d, a, a]]);
@@ -141,7 +141,7 @@ fn repeated_corners_are_dropped_and_straight_ones_stay() {
     assert_eq!(flaws(&[&[a, a, a]]), few(0, 1));
     assert_eq!(flaws(&[&[a, b, a]]), few(0, 2));
     assert_eq!(flaws(&[&[a, b, c, d], &[middle, c]]), few(1, 2));
-    // Every ring is told, and numbered as listed.
+    // Every ring has its error, with the number of the ring in the list.
     let both = [few(0, 2), few(1, 1)].concat();
     assert_eq!(flaws(&[&[a, b], &[c]]), both);
 }
@@ -160,13 +160,14 @@ fn a_ring_on_a_line_encloses_nothing() {
     );
     let line = [[1.0, 1.0], [2.0, 1.0], [3.0, 1.0]];
     assert_eq!(flaws(&[&square(0.0, 0.0, 4.0), &line]), flat(1));
-    // A needle: half its height times its length, in parts of its circumference of twice its length.
+    // A needle: its area is half its height times its length, and its perimeter is twice its length. The area is h/8 of the
+    // squared perimeter.
     for size in [1.0, 1e3, 1e-3] {
         let needle = |h: f64| [[0.0, 0.0], [size, 0.0], [0.5 * size, h * size]];
         assert_eq!(flaws(&[&needle(6e-15)]), flat(0));
         assert_eq!(sound(&[&needle(1e-14)]).outline().len(), 3);
     }
-    // Where the areas on both sides of a crossing cancel the crossing is told.
+    // A bow tie has zero area, because its two halves cancel. Only its crossing is reported.
     let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
     assert_eq!(flaws(&[&bow]), [crossing([0, 2], [1.0, 1.0])]);
 }
@@ -184,16 +185,17 @@ fn a_hole_lies_inside_the_outline_and_outside_other_holes() {
     let (hole, within) = (square(1.0, 1.0, 4.0), square(2.0, 2.0, 1.0));
     assert_eq!(flaws(&[&outline, &hole, &within]), outside(2));
     assert_eq!(flaws(&[&outline, &within, &hole]), outside(1));
-    // Around the outline.
+    // A ring around the outline.
     assert_eq!(flaws(&[&within, &outline]), outside(1));
     let found = sound(&[&outline, &hole, &square(6.0, 6.0, 2.0)]);
     assert_eq!((found.area(), found.rings().len()), (81.0 - 16.0 - 4.0, 3));
 }
 
 #[test]
-fn areas_and_centroids_are_without_the_holes() {
+fn areas_and_centroids_do_not_include_the_holes() {
     for (x, y) in [(0.0, 0.0), (-30.0, 50.0)] {
-        // 16 around (2, 2) less 1 around (3.5, 0.5), and less 2 of a triangle around (1, 2).
+        // An area of 16 around (2, 2), minus a square of 0.25 around (3.25, 0.5), minus a triangle of 1.875 around
+        // (1, 2).
         let moved = |ring: &[[f64; 2]]| {
             ring.iter()
                 .map(|p| [p[0] + x, p[1] + y])
@@ -221,8 +223,8 @@ fn areas_and_centroids_are_without_the_holes() {
 }
 
 #[test]
-fn inside_is_what_a_ray_leaves_once() {
-    // A comb with teeth at its top, and a hole; asked at the heights of corners as well.
+fn only_points_in_the_material_are_inside() {
+    // A comb with teeth at its top, and a hole. Some of the points are at the height of a corner.
     let comb = [
         [0.0, 0.0],
         [6.0, 0.0],
@@ -265,12 +267,12 @@ fn inside_is_what_a_ray_leaves_once() {
 }
 
 #[test]
-fn convex_is_what_never_turns_right() {
+fn a_convex_outline_never_turns_right() {
     assert!(sound(&[&square(0.0, 0.0, 1.0)]).is_convex());
     let straight = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]];
     assert!(sound(&[&straight]).is_convex());
     assert!(!sound(&[&square(0.0, 0.0, 4.0), &square(1.0, 1.0, 1.0)]).is_convex());
-    // A dent, wherever the corners are begun to be listed.
+    // A dent, with every corner as the first of the list.
     let mut dented = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]];
     for _ in 0..dented.len() {
         assert!(!sound(&[&dented]).is_convex());
@@ -279,7 +281,7 @@ fn convex_is_what_never_turns_right() {
 }
 
 #[test]
-fn placing_turns_about_the_origin_and_then_moves() {
+fn placing_rotates_about_the_origin_and_then_moves() {
     let polygon = sound(&[&[[1.0, 0.0], [3.0, 0.0], [1.0, 4.0]]]);
     let placed = polygon.clone().placed(90.0, Vector::new(10.0, 20.0));
     assert_eq!(
@@ -305,8 +307,8 @@ fn placing_turns_about_the_origin_and_then_moves() {
 }
 
 #[test]
-fn sides_that_meet_are_told_by_the_corners_where_they_begin() {
-    // The first side is crossed by the third one, which is listed behind a repeated corner.
+fn a_crossing_names_the_corners_where_its_edges_begin() {
+    // The first edge is crossed by the edge that begins at corner 3. Corner 2 repeats corner 1 and is dropped.
     let crossed = [
         [0.0, 0.0],
         [6.0, 3.0],
@@ -322,7 +324,7 @@ fn sides_that_meet_are_told_by_the_corners_where_they_begin() {
     // x = 6 − 4s, y = 9 − 14s on y = x / 2: s = 1/2.
     assert_eq!((rings, corners), ([0, 0], [0, 3]), "listed numbers");
     assert!((at - Point::new(4.0, 2.0)).norm() < 1e-12);
-    // A corner on a side, on either of the two; and a corner on a corner.
+    // A corner that lies on an edge, and then two corners at the same point.
     let touching = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 0.0], [0.0, 3.0]];
     assert_eq!(
         flaws(&[&touching]),
@@ -339,7 +341,7 @@ fn sides_that_meet_are_told_by_the_corners_where_they_begin() {
     let at = [2.0, 2.0];
     let wanted = [[0, 3], [0, 4], [1, 3], [1, 4]].map(|corners| crossing(corners, at));
     assert_eq!(flaws(&[&pinched]), wanted);
-    // Near, but apart.
+    // The corner is close to the edge, but does not touch it.
     let near = [
         [0.0, 0.0],
         [4.0, 0.0],
@@ -361,7 +363,7 @@ fn a_path_may_not_turn_back_on_itself() {
         [3.0, 4.0],
     ];
     assert_eq!(flaws(&[&spike])[0], crossing([2, 3], [6.0, 2.0]));
-    // The first side and the last: the fold is where the ring is closed.
+    // The first and the last edge: the ring folds back where it closes.
     let closing = [
         [6.0, 2.0],
         [5.0, 2.0],
@@ -374,7 +376,7 @@ fn a_path_may_not_turn_back_on_itself() {
 }
 
 #[test]
-fn holes_may_not_touch_what_is_around_them_nor_each_other() {
+fn holes_may_touch_neither_the_outline_nor_each_other() {
     let outline = square(0.0, 0.0, 9.0);
     let rings = |flaws: Vec<PolygonError>| {
         let all = flaws.into_iter().map(|flaw| match flaw {
@@ -394,8 +396,8 @@ fn holes_may_not_touch_what_is_around_them_nor_each_other() {
 }
 
 #[test]
-fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
-    // A zigzag of many teeth and one line back through all of them.
+fn the_first_twenty_crossings_are_listed_in_the_order_of_the_edges() {
+    // A zigzag of many teeth, and a line back through all of them.
     let zigzag = |teeth: usize| {
         let mut ring: Vec<[f64; 2]> = (0..=teeth)
             .map(|k| [k as f64, if k % 2 == 0 { -1.0 } else { 1.0 }])
@@ -411,7 +413,7 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
             .collect();
         assert_eq!(found, wanted, "{teeth}");
     }
-    // The line first.
+    // The list begins with the line.
     let mut ring = zigzag(31);
     ring.rotate_right(2);
     let found = flaws(&[&ring]);
@@ -424,7 +426,7 @@ fn the_first_twenty_crossings_are_told_in_the_order_of_the_sides() {
 #[test]
 fn crossings_are_found_at_any_size() {
     let crossed = [[0.0, 0.0], [4.0, 4.0], [4.0, 1.0], [0.0, 3.0]];
-    // A U with a corner below its right inner side, on the line of that side, and two upper sides on one line.
+    // A U with a corner below its right inner side, on the line of this side. Its two upper sides lie on one line.
     let apart = [
         [0.0, 0.0],
         [3.0, 0.0],

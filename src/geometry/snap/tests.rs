@@ -1,4 +1,4 @@
-//! Walls and arches whose corners are off by a little, healed.
+//! Tests of snapping: walls and arches whose corners are slightly off.
 
 use super::*;
 
@@ -12,7 +12,7 @@ fn ring(corners: &[(f64, f64)]) -> Rings {
     vec![corners.iter().map(corner).collect()]
 }
 
-/// All bodies with one gap, in metres; an overlap of 10⁻⁶ m is none.
+/// Snaps all bodies with one gap, in metres. An overlap of 10⁻⁶ m does not count.
 fn brought(bodies: &[Rings], gap: f64) -> Outcome<'static> {
     let count = bodies.len();
     let outcome = snapped(
@@ -32,7 +32,7 @@ fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Rings {
     ring(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)])
 }
 
-/// Numbers between −1 and 1 that look like chance.
+/// Pseudo-random numbers between −1 and 1.
 fn noise(seed: &mut u64) -> f64 {
     *seed = seed
         .wrapping_mul(6_364_136_223_846_793_005)
@@ -51,7 +51,7 @@ fn shaken(bodies: Vec<Rings>, by: f64) -> Vec<Rings> {
     bodies.into_iter().map(shake).collect()
 }
 
-/// Farthest that a corner near a side of another body lies from it.
+/// The largest distance of a corner from a nearby side of another body.
 fn misfit(bodies: &[Rings], gap: f64) -> f64 {
     let mut worst = 0.0_f64;
     for (i, a) in bodies.iter().enumerate() {
@@ -85,7 +85,7 @@ fn wall(columns: usize, rows: usize) -> Vec<Rings> {
 }
 
 #[test]
-fn a_wall_with_every_corner_off_by_a_little_closes_its_joints() {
+fn the_joints_of_a_wall_with_slightly_wrong_corners_are_closed() {
     let drawn = shaken(wall(12, 7), 0.004);
     let outcome = brought(&drawn, 0.02);
     assert!(outcome.kept.is_empty(), "{:?}", outcome.kept);
@@ -105,14 +105,14 @@ fn a_wall_with_every_corner_off_by_a_little_closes_its_joints() {
 }
 
 #[test]
-fn what_is_exact_stays_as_it_is_to_the_last_bit() {
+fn exact_bodies_stay_the_same_to_the_last_bit() {
     let drawn = wall(5, 4);
     let outcome = brought(&drawn, 0.02);
     assert!(outcome.moved.is_empty() && outcome.kept.is_empty());
     assert_eq!(outcome.bodies, drawn);
 }
 
-/// The bodies with their axes exchanged.
+/// The bodies with x and y exchanged.
 fn transposed(bodies: &[Rings]) -> Vec<Rings> {
     let mut bodies = bodies.to_vec();
     for corner in bodies.iter_mut().flatten().flatten() {
@@ -122,7 +122,7 @@ fn transposed(bodies: &[Rings]) -> Vec<Rings> {
 }
 
 #[test]
-fn upright_joints_are_healed_as_level_ones() {
+fn upright_joints_are_closed_like_level_joints() {
     let gap = 0.02;
     for drawn in [wall(5, 4), wall(12, 7), steps()] {
         let drawn = shaken(drawn, 0.004);
@@ -149,10 +149,10 @@ fn steps() -> Vec<Rings> {
 }
 
 #[test]
-fn an_exact_upright_joint_does_not_move_its_corners() {
+fn the_corners_of_an_exact_upright_joint_do_not_move() {
     let drawn = steps();
     assert!(brought(&drawn, 0.0015).moved.is_empty());
-    // Nor do the others where one stone is off.
+    // If one stone is off, the others do not move either.
     let mut off = drawn.clone();
     off[5][0][0].at.y += 0.0004;
     let outcome = brought(&off, 0.0015);
@@ -186,7 +186,7 @@ fn a_body_thinner_than_the_gap_is_not_flattened() {
 }
 
 #[test]
-fn the_earlier_body_stays_and_the_later_comes_to_it() {
+fn the_earlier_body_stays_and_the_later_body_moves_to_it() {
     let drawn = vec![
         rectangle(-1.0, -1.0, 9.0, 1.0),
         rectangle(2.0, 0.003, 1.0, 2.0),
@@ -198,12 +198,12 @@ fn the_earlier_body_stays_and_the_later_comes_to_it() {
     assert_eq!(outcome.moved.len(), 1);
     assert_eq!((outcome.moved[0].body, outcome.moved[0].corners), (1, 2));
     assert!((outcome.moved[0].distance - 0.003).abs() < 1e-12);
-    // Beyond the gap it is a gap.
+    // A distance of more than the gap stays open.
     assert!(brought(&drawn, 0.002).moved.is_empty());
 }
 
 #[test]
-fn an_overlap_of_less_than_the_gap_is_healed_and_a_deep_one_stays_as_it_is() {
+fn an_overlap_of_less_than_the_gap_is_closed_and_a_deep_overlap_stays() {
     let shallow = vec![
         rectangle(0.0, 0.0, 4.0, 1.0),
         rectangle(1.0, 0.996, 2.0, 1.0),
@@ -215,7 +215,7 @@ fn an_overlap_of_less_than_the_gap_is_healed_and_a_deep_one_stays_as_it_is() {
 }
 
 #[test]
-fn a_curve_takes_in_the_corners_of_the_curve_that_lies_on_it() {
+fn a_curve_gets_the_corners_of_the_curve_that_lies_on_it() {
     let arc = |steps: usize, radius: f64, back: bool| {
         let mut points: Vec<Corner> = (0..=steps)
             .map(|k| {
@@ -253,9 +253,9 @@ fn a_curve_takes_in_the_corners_of_the_curve_that_lies_on_it() {
 }
 
 #[test]
-fn what_moved_says_how_many_corners_how_far_and_to_what() {
-    // Two stones side by side on a slab, the second 4 mm beside the first; a third on the ground beyond, and one whose
-    // corner meets the upper corner of the second.
+fn each_move_lists_its_corners_its_distance_and_its_targets() {
+    // Two stones side by side on a slab, the second 4 mm too far to the right. A third stone stands farther away. A
+    // triangle has a corner close to the upper right corner of the second stone.
     let bodies = [
         rectangle(-5.0, -1.0, 20.0, 1.0),
         rectangle(0.0, 0.0, 1.0, 1.0),
@@ -275,7 +275,7 @@ fn what_moved_says_how_many_corners_how_far_and_to_what() {
     let last = moved(4).expect("the last one moves");
     assert_eq!((last.corners, &last.to), (1, &BTreeSet::from([2])));
     assert!((last.distance - libm::hypot(0.001, 0.004)).abs() < 1e-12);
-    // An earlier body goes to the side of a later one.
+    // An earlier body moves to a side of a later body.
     let tip = ring(&[(2.0, 1.004), (3.0, 5.0), (1.0, 5.0)]);
     let outcome = brought(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);
     let wanted = Moved {
@@ -290,7 +290,7 @@ fn what_moved_says_how_many_corners_how_far_and_to_what() {
 }
 
 #[test]
-fn a_body_without_a_gap_takes_no_part() {
+fn a_body_without_a_gap_does_not_take_part() {
     let drawn = vec![
         rectangle(0.0, 0.0, 4.0, 1.0),
         rectangle(0.003, 1.003, 1.0, 1.0),
@@ -303,18 +303,18 @@ fn a_body_without_a_gap_takes_no_part() {
 }
 
 #[test]
-fn what_is_fixed_stays_and_is_not_said_to_be_kept() {
+fn a_fixed_body_stays_and_is_not_listed_as_kept() {
     let drawn = vec![
         rectangle(0.0, 0.003, 4.0, 1.0),
         rectangle(-1.0, -1.0, 9.0, 1.0),
     ];
-    // The later one is fixed: the earlier one comes to it.
+    // The later body is fixed, so the earlier body moves to it.
     let outcome = snapped(&drawn, Gaps::new(&[0.01; 2]), &[false, true], 1e-4);
     assert_eq!((outcome.moved.len(), outcome.kept.len()), (1, 0));
     assert_eq!(outcome.moved[0].body, 0);
     assert_eq!(outcome.bodies[1], drawn[1]);
     assert!(outcome.bodies[0][0][0].at.coords.norm() < 1e-12);
-    // A sliver of 1 mm beside the stone would be flattened: it stays, and that is said.
+    // A sliver 1 mm away from the stone would be flattened. It stays, and is listed as kept.
     let mut sliver = drawn.clone();
     sliver.push(ring(&[
         (4.001, 0.5),
@@ -329,8 +329,8 @@ fn what_is_fixed_stays_and_is_not_said_to_be_kept() {
 }
 
 #[test]
-fn a_curve_takes_in_a_corner_that_lies_on_it_already() {
-    // On a straight side there is nothing to do; a side that stands for a curve may not run past the corner.
+fn a_curve_gets_a_corner_that_already_lies_on_it() {
+    // A straight side needs no further corner. A side that approximates a curve gets one.
     let tip = ring(&[(1.5, 1.0), (2.5, 5.0), (0.5, 5.0)]);
     let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip];
     assert_eq!(brought(&drawn, 0.01).bodies, drawn);
@@ -348,7 +348,7 @@ fn a_curve_takes_in_a_corner_that_lies_on_it_already() {
 }
 
 #[test]
-fn several_corners_come_into_a_curve_in_their_order() {
+fn several_corners_are_inserted_into_a_curve_in_order() {
     let tip = |x: f64| ring(&[(x, 1.004), (x + 0.5, 5.0), (x - 0.5, 5.0)]);
     let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip(1.0), tip(3.0), tip(2.0)];
     drawn[0][0][2].curved = true;

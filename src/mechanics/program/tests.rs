@@ -1,12 +1,12 @@
-//! A box of 4 m by 3 m on the ground, held by a robot, in numbers worked out by hand: L = 2 m, 2 N to the unit of
-//! force.
+//! Tests with a box of 4 m by 3 m on the ground, held by a robot. The numbers are computed by hand, with L = 2 m and
+//! a unit of force of 2 N.
 
 use super::*;
 use crate::effect::EffectName;
 
 mod pose;
 
-/// The unknowns of contacts, friction, corner contacts, robots' forces, robots' torques and sticking.
+/// The numbers of unknowns of contacts, friction, corner contacts, robots' forces, robots' torques and adhesion.
 fn by_effect(counts: &UnknownCounts) -> [usize; 6] {
     [
         EffectName::Contact,
@@ -21,7 +21,8 @@ fn by_effect(counts: &UnknownCounts) -> [usize; 6] {
 
 const THIRD: f64 = 1.0 / 3.0;
 
-/// The box with 1 N to the right, 8 N down and 3 N·m, and a robot at its upper left corner, with limits in N and N·m.
+/// The box with loads of 1 N to the right, 8 N down and 3 N·m. A robot holds its upper left corner, with limits in N
+/// and N·m.
 fn held(fx: f64, fy: f64, torque: f64) -> Program {
     Program {
         blocks: 1,
@@ -63,7 +64,7 @@ fn assert_entries(column: &Column, expected: &[(usize, f64)]) {
     );
 }
 
-/// A conic's row as dense numbers.
+/// A row of a quadratic program as dense numbers.
 fn row(conic: &QuadraticProgram, number: usize) -> Vec<f64> {
     let mut row = vec![0.0; conic.unknowns];
     for (_, column, value) in conic.matrix.iter().filter(|e| e.0 == number) {
@@ -79,11 +80,11 @@ fn dense(column: &Column, length: usize) -> Vec<f64> {
 }
 
 #[test]
-fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
+fn columns_are_the_edges_of_friction_cones_and_the_components_of_robots() {
     let program = example();
     let columns = columns(&program);
-    // About the centroid, L/2 to the side and 3/4 L above the joint, a unit straight up turns by 1/2; of a unit with
-    // all its friction 2/3 press and 1/3 rub.
+    // The points of the joint are L/2 to either side of the centroid and 3/4 L below it. A vertical unit force has a
+    // moment of ±1/2. A unit on the edge of the friction cone consists of 2/3 normal force and 1/3 friction.
     let expected: [&[(usize, f64)]; 12] = [
         &[(1, 1.0), (2, 0.5)],
         &[(0, -THIRD), (1, 2.0 * THIRD), (2, 1.0 / 12.0)],
@@ -110,12 +111,12 @@ fn columns_are_the_edges_of_friction_cones_and_what_robots_give() {
     assert!(columns[..6].iter().all(|c| c.limit.is_infinite()));
     let count = UnknownCounts::new(&program, &columns);
     assert_eq!(by_effect(&count), [2, 4, 0, 4, 2, 0]);
-    // What may not be given has no column.
+    // A component with limit 0 has no column.
     assert_eq!(super::columns(&held(0.0, 1.0, 0.0)).len(), 8);
 }
 
 #[test]
-fn adhesion_columns_pull_hold_on_and_go_beyond_limits() {
+fn adhesion_columns_allow_tension_any_friction_and_unlimited_robots() {
     let program = example();
     let columns = adhesion_columns(&program);
     let expected: [&[(usize, f64)]; 10] = [
@@ -142,7 +143,7 @@ fn adhesion_columns_pull_hold_on_and_go_beyond_limits() {
 }
 
 #[test]
-fn what_acts_between_two_bodies_is_opposite_on_the_other() {
+fn a_contact_force_acts_on_the_other_body_in_the_opposite_direction() {
     let program = Program {
         blocks: 2,
         loads: vec![0.0; 6],
@@ -158,7 +159,8 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
         scale: Scale::new(2.0, 600.0),
     };
     let columns = columns(&program);
-    // A corner has one point. Half of L above the joint here, three quarters below it there.
+    // A corner contact has one point. It is half of L below the centroid of block 1, and three quarters of L
+    // above the centroid of block 0.
     assert_eq!(columns.len(), 3);
     assert_entries(
         &columns[1],
@@ -177,7 +179,7 @@ fn what_acts_between_two_bodies_is_opposite_on_the_other() {
 }
 
 #[test]
-fn columns_multiply_as_rows_of_numbers_do() {
+fn products_of_columns_equal_products_of_dense_vectors() {
     let program = example();
     let mut all = columns(&program);
     all.extend(adhesion_columns(&program));
@@ -203,7 +205,7 @@ fn columns_multiply_as_rows_of_numbers_do() {
     assert_eq!(sum, [1.0, -1.0, 0.0]);
 }
 
-/// The squares are those of N1, N2 and T of the joint and of each component of a grip.
+/// The squared forces are N1, N2 and T of the joint, and each component of a grip.
 #[test]
 fn the_quadratic_form_sums_squares_of_forces() {
     let program = example();
@@ -262,7 +264,7 @@ fn the_quadratic_form_sums_squares_of_forces() {
 }
 
 #[test]
-fn bounds_keep_amounts_and_corrected_amounts_from_zero_to_their_limits() {
+fn bounds_keep_amounts_and_corrected_amounts_between_zero_and_their_limits() {
     let program = example();
     let columns = columns(&program);
     let amounts: Vec<f64> = (0..columns.len()).map(|k| 0.125 * k as f64).collect();
@@ -306,7 +308,8 @@ fn bounds_keep_amounts_and_corrected_amounts_from_zero_to_their_limits() {
 fn the_kinematic_dual_has_a_row_for_every_column() {
     let program = example();
     let columns = columns(&program);
-    // Two limits of x and two of the torque: four unknowns more, each with a row of its own.
+    // The robot's force along x and its torque are limited in both directions: four more unknowns, each with a row of
+    // its own.
     let (conic, row_of) = kinematic_dual(&program.loads, &columns, |c| c.cost);
     assert_eq!((conic.unknowns, conic.equalities), (7, 0));
     assert_eq!(conic.bound.len(), 12 + 4);
@@ -325,7 +328,7 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
             (expected, 1.0)
         );
     }
-    // Without cost the pair of the free vertical force is one equality.
+    // Without cost, the pair of columns of the unlimited vertical force is one equality.
     let (conic, row_of) = kinematic_dual(&program.loads, &columns, |_| 0.0);
     assert_eq!((conic.equalities, conic.bound.len()), (1, 11 + 4));
     assert_eq!((row_of[8], row_of[9]), (0, usize::MAX));
@@ -351,7 +354,7 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
 }
 
 #[test]
-fn shortest_and_smallest_changes_meet_their_rows() {
+fn the_programs_of_least_change_and_least_norm_have_the_expected_rows() {
     let program = example();
     let columns = columns(&program);
     let rows = [(&columns[0], 2.0), (&columns[2], 3.0)];
@@ -374,7 +377,7 @@ fn shortest_and_smallest_changes_meet_their_rows() {
 
 #[test]
 fn limits_of_more_than_ten_times_all_loads_do_not_bind() {
-    // The loads come to 5.25 units, a limit to 52.5 units at most.
+    // The loads are 5.25 units in total, so a limit above 52.5 units does not bind.
     assert!(
         held(105.0, f64::INFINITY, 8.0)
             .without_non_binding_limits()

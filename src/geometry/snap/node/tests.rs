@@ -1,4 +1,4 @@
-//! Which corners become one place, and where that lies.
+//! Tests of which corners are merged into one node, and of the place of the node.
 
 use super::*;
 use crate::geometry::snap::Corner;
@@ -13,7 +13,7 @@ fn bodies(all: &[&[[f64; 2]]]) -> Vec<Rings> {
     all.iter().map(ring).collect()
 }
 
-/// Single corners on a line, each of a body of its own, and the node of each.
+/// One corner for each body, all on a line. Also returns the node of each corner.
 fn along(places: &[f64], gaps: &[f64], kept: &[bool]) -> (Nodes, Vec<usize>) {
     let corners: Vec<[[f64; 2]; 1]> = places.iter().map(|x| [[*x, 7.0]]).collect();
     let all: Vec<&[[f64; 2]]> = corners.iter().map(|c| &c[..]).collect();
@@ -27,7 +27,7 @@ fn free(places: &[f64], gaps: &[f64]) -> (Nodes, Vec<usize>) {
 }
 
 #[test]
-fn the_smaller_gap_counts_and_reaches_to_its_end() {
+fn corners_are_merged_up_to_and_including_the_smaller_gap() {
     for (gaps, one) in [
         ([0.25, 0.25], true),
         ([0.25, 9.0], true),
@@ -35,7 +35,7 @@ fn the_smaller_gap_counts_and_reaches_to_its_end() {
         ([0.125, 9.0], false),
         ([9.0, 0.125], false),
     ] {
-        // A quarter apart, to the last bit.
+        // Exactly a quarter apart.
         let (nodes, numbers) = free(&[1.0, 1.25], &gaps);
         assert_eq!(numbers, if one { [0, 0] } else { [0, 1] }, "{gaps:?}");
         assert_eq!(nodes.all.len(), if one { 1 } else { 2 });
@@ -43,7 +43,7 @@ fn the_smaller_gap_counts_and_reaches_to_its_end() {
         assert_eq!(nodes.all[0].gap, if one { 0.25 } else { gaps[0] });
         assert_eq!(nodes.all[0].at, Point::new(1.0, 7.0), "the earlier stays");
     }
-    // Across as well as along, and in both directions.
+    // The distance counts in any direction.
     for [x, y] in [
         [0.0, 0.25],
         [0.0, -0.25],
@@ -63,30 +63,31 @@ fn the_smaller_gap_counts_and_reaches_to_its_end() {
 
 #[test]
 fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
-    // In a row of equal steps the second joins the first, and the third is too far from that one.
+    // Corners at equal steps: the second is merged with the first, but the third is too far from the first.
     let (nodes, numbers) = free(&[0.0, 0.75, 1.5, 2.25], &[1.0; 4]);
     assert_eq!(numbers, [0, 0, 1, 1]);
     assert_eq!(nodes.bodies(&nodes.all[1]), [2, 3]);
     assert!(!nodes.exact);
-    // The nearest come together first, whatever their order.
+    // The closest corners are merged first, whatever their order.
     let (_, numbers) = free(&[0.0, 0.75, 1.25], &[1.0; 3]);
     assert_eq!(numbers, [0, 1, 1]);
     let (nodes, numbers) = free(&[1.25, 0.0, 0.75, 0.25], &[1.0, 1.0, 1.0, 0.5]);
     assert_eq!(numbers, [0, 1, 0, 1]);
     assert_eq!(nodes.all[1].gap, 0.5);
-    // Two and two become four where all are near enough.
+    // Two nodes of two corners become one node if all four are close enough.
     let (nodes, numbers) = free(&[0.0, 0.875, 0.125, 1.0], &[1.0; 4]);
     assert_eq!(numbers, [0; 4]);
     assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2, 3]);
     assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
-    // Nor does a corner with a small gap join others that lie beyond it.
+    // A corner with a small gap is not merged with corners that are farther away than this gap.
     let (_, numbers) = free(&[0.0, 0.25, 0.75], &[1.0, 1.0, 0.5]);
     assert_eq!(numbers, [0, 0, 1]);
 }
 
 #[test]
-fn of_pairs_that_are_as_near_the_earlier_bodies_come_together() {
-    // 5 from the third to the first, and from either to one more; those two are 11 apart and all others 8.9.
+fn of_pairs_at_the_same_distance_the_earlier_bodies_are_merged() {
+    // The distance is 5 from the third to the first and the second, and from the first to the fourth. The second and
+    // the fourth are 11 apart, the other pairs 8.9.
     let all = bodies(&[&[[5.0, 0.0]], &[[-3.0, 4.0]], &[[0.0, 0.0]], &[[8.0, 4.0]]]);
     let nodes = Nodes::new(&all, Gaps::new(&[9.0; 4]), &[false; 4]);
     assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2]);
@@ -94,20 +95,20 @@ fn of_pairs_that_are_as_near_the_earlier_bodies_come_together() {
 }
 
 #[test]
-fn corners_of_one_body_stay_apart() {
+fn corners_of_one_body_are_not_merged() {
     let both = bodies(&[
         &[[0.0, 0.0], [0.5, 0.0], [9.0, 9.0]],
         &[[0.25, 0.0], [0.25, 0.125], [-9.0, 9.0]],
     ]);
     let nodes = Nodes::new(&both, Gaps::new(&[1.0; 2]), &[false; 2]);
     let numbers = [0, 1].map(|body| [0, 1, 2].map(|corner| nodes.number(body, 0, corner)));
-    // Each of the first corners has one of the other body, and none of its own.
+    // Each of the first two corners is merged with a corner of the other body, not with each other.
     assert_eq!(numbers, [[0, 1, 2], [0, 1, 3]]);
     assert_eq!(nodes.all[1].at, Point::new(0.5, 0.0));
 }
 
 #[test]
-fn what_has_to_stay_is_where_the_others_come_to() {
+fn other_corners_move_to_a_fixed_corner() {
     let (nodes, numbers) = along(&[0.0, 0.5], &[1.0; 2], &[false, true]);
     assert_eq!(numbers, [0, 0]);
     assert_eq!(nodes.all[0].at, Point::new(0.5, 7.0));
@@ -115,14 +116,14 @@ fn what_has_to_stay_is_where_the_others_come_to() {
     let (nodes, _) = along(&[0.0, 0.5], &[1.0; 2], &[true, false]);
     assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
     assert!(!free(&[0.0, 0.5], &[1.0; 2]).0.all[0].fixed);
-    // Two that have to stay are one place only where they are one already.
+    // Two fixed corners are merged only if their places are equal.
     let (nodes, numbers) = along(&[0.0, 0.0, 0.5], &[1.0; 3], &[true; 3]);
     assert_eq!(numbers, [0, 0, 1]);
     assert!(nodes.exact && nodes.all.iter().all(|n| n.fixed));
 }
 
 #[test]
-fn corners_are_counted_through_all_rings_of_all_bodies() {
+fn corners_are_numbered_through_all_rings_of_all_bodies() {
     let ring = |x: f64| {
         let all = [[x, 0.0], [x + 1.0, 0.0], [x, 1.0]];
         bodies(&[&all]).remove(0).remove(0)

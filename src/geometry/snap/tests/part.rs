@@ -1,9 +1,9 @@
-//! What snapping is made of: areas, sides, corners beside them, and what came out worse.
+//! Tests of the parts of snapping: areas, sides, nodes near sides, and damaged bodies.
 
 use super::*;
 
 #[test]
-fn areas_are_positive_anticlockwise() {
+fn the_area_of_an_anticlockwise_ring_is_positive() {
     let at = |x: f64, y: f64| Corner {
         at: Point::new(x, y),
         curved: false,
@@ -14,14 +14,15 @@ fn areas_are_positive_anticlockwise() {
         at(14.0, -3.0),
         at(9.0, -1.0),
     ];
-    // Of the box of 5 by 4 two triangles are missing: 2 · 4 / 2 and 5 · 2 / 2.
+    // A box of 5 by 4 minus two triangles: 2 · 4 / 2 and 5 · 2 / 2.
     assert_eq!(area(&ring), 11.0);
     ring.reverse();
     assert_eq!(area(&ring), -11.0);
     assert_eq!(area(&[]), 0.0);
 }
 
-/// What lies beside the sides of the first body: of a body, how far along and off which side.
+/// The nodes near the sides of the first body: the node's body, the side's first corner, the distance along the side,
+/// and the distance from it.
 fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, usize, f64, f64)> {
     let nodes = Nodes::new(bodies, Gaps::new(gaps), kept);
     let sides = sides(bodies, &nodes);
@@ -39,14 +40,14 @@ fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, us
         .collect()
 }
 
-/// A box of 4 by 1, and the tip of a triangle somewhere.
+/// A box of 4 by 1, and a triangle whose tip is (x, y).
 fn box_and_tip(x: f64, y: f64) -> Vec<Rings> {
     let tip = ring(&[(x, y), (x + 1.0, y + 4.0), (x - 1.0, y + 4.0)]);
     vec![rectangle(0.0, 0.0, 4.0, 1.0), tip]
 }
 
 #[test]
-fn a_corner_lies_beside_a_side_within_its_ends_and_the_smaller_gap() {
+fn a_node_is_near_a_side_between_its_ends_and_within_the_smaller_gap() {
     let free = [false; 2];
     for (y, off) in [(1.25, 0.25), (0.75, 0.25), (1.0, 0.0)] {
         for gaps in [[0.25, 0.25], [9.0, 0.25], [0.25, 9.0]] {
@@ -66,13 +67,13 @@ fn a_corner_lies_beside_a_side_within_its_ends_and_the_smaller_gap() {
             assert!(beside_first(&box_and_tip(x, y), &gaps, &free).is_empty());
         }
     }
-    // Beyond the ends of a side it is beside nothing, however near their line.
+    // Beyond the ends of a side, a node on the line of the side is not near it.
     for x in [-0.5, 4.5] {
         assert!(beside_first(&box_and_tip(x, 1.0), &[0.25; 2], &free).is_empty());
     }
     let right = beside_first(&box_and_tip(4.125, 0.25), &[0.25; 2], &free);
     assert_eq!(right, [(1, 1, 0.25, 0.125)]);
-    // A slanted side, from (6, 0) to (2, 3): the tip is 2 along and 1/4 off it, on either side.
+    // An inclined side, from (6, 0) to (2, 3). The tip is 2 along it and 1/4 away from it, on either side.
     for (side, off) in [(1.0, 0.25), (-1.0, 0.25)] {
         let mut bodies = box_and_tip(6.0 - 1.6 + side * 0.15, 1.2 + side * 0.2);
         bodies[0] = ring(&[(0.0, 0.0), (6.0, 0.0), (2.0, 3.0)]);
@@ -84,27 +85,27 @@ fn a_corner_lies_beside_a_side_within_its_ends_and_the_smaller_gap() {
 }
 
 #[test]
-fn a_curve_that_has_to_stay_takes_nothing_in() {
+fn a_fixed_curve_gets_no_corners() {
     for (curved, kept, found) in [(false, true, 1), (true, false, 1), (true, true, 0)] {
         let mut bodies = box_and_tip(1.5, 1.25);
         bodies[0][0][2].curved = curved;
         let all = beside_first(&bodies, &[0.25; 2], &[kept, false]);
         assert_eq!(all.len(), found, "{curved} {kept}");
-        // That the other has to stay does not matter.
+        // It makes no difference whether the other body is fixed.
         assert_eq!(beside_first(&bodies, &[0.25; 2], &[false, true]).len(), 1);
     }
 }
 
 const NONE: [usize; 0] = [];
 
-/// Which of two bodies came out worse, an overlap of a millionth being none.
+/// Which of two bodies are damaged. An overlap of a millionth does not count.
 fn worse(before: [Rings; 2], after: [Rings; 2]) -> Vec<usize> {
     let wrong = damaged_bodies(&before, &after, &[0.001, 1.0], 0.001);
     wrong.into_iter().collect()
 }
 
 #[test]
-fn worse_is_what_is_turned_over_or_half_gone() {
+fn a_body_is_damaged_if_it_is_turned_over_or_loses_half_its_area() {
     let far = || rectangle(9.0, 9.0, 1.0, 1.0);
     let to = |after: Rings| worse([rectangle(0.0, 0.0, 2.0, 2.0), far()], [after, far()]);
     assert_eq!(to(rectangle(0.0, 0.0, 2.0, 1.0)), [0]);
@@ -124,7 +125,7 @@ fn worse_is_what_is_turned_over_or_half_gone() {
         (3.0, 1.0),
     ];
     assert_eq!(to(ring(&crossed)), [0], "not an outline any more");
-    // Drawn clockwise it is as good.
+    // A body drawn clockwise is judged in the same way.
     let clockwise = |h: f64| rectangle(2.0, 0.0, -2.0, h);
     assert_eq!(
         worse([far(), clockwise(2.0)], [far(), clockwise(2.0)]),
@@ -142,14 +143,14 @@ fn worse_is_what_is_turned_over_or_half_gone() {
 }
 
 #[test]
-fn worse_is_what_lies_deeper_in_its_neighbour_than_it_was_drawn() {
+fn a_body_is_damaged_if_it_overlaps_its_neighbour_more_than_before() {
     let deep = |by: f64| {
         [
             rectangle(0.0, 0.0, 2.0, 1.0),
             rectangle(0.0, 1.0 - by, 2.0, 1.0),
         ]
     };
-    // A thousandth of the smaller gap, a millionth, may be gained.
+    // The overlap may grow by a thousandth of the smaller gap, which is a millionth.
     for (before, after, wrong) in [
         (0.0, 1e-5, true),
         (0.0, 0.5e-6, false),

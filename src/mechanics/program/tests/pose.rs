@@ -1,7 +1,7 @@
-//! Programs posed from assemblies, and forms of them, in numbers worked out by hand.
+//! Tests of programs for two blocks, and of other forms of programs, with numbers computed by hand.
 
 use super::*;
-/// A box on the ground, a board on a corner of it, a robot at the board's upper left corner.
+/// A box on the ground, a board on a corner of the box, and a robot at the upper left corner of the board.
 fn stacked() -> Program {
     let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
     let joint = |on, from, kind, points| ContactTerm {
@@ -34,19 +34,19 @@ fn stacked() -> Program {
 }
 
 #[test]
-fn a_scale_counts_by_lengths_and_by_the_heaviest_load() {
+fn the_unit_of_force_is_a_300th_of_the_heaviest_load() {
     let scale = Scale::new(5.0, 3.0);
     assert_eq!(
         (scale.length, scale.force, scale.moment()),
         (5.0, 0.01, 0.05)
     );
-    // Without loads a unit is a three hundredth of a newton.
+    // Without loads the unit of force is 1/300 N.
     assert_eq!(Scale::new(2.0, 0.0).force, 1.0 / 300.0);
 }
 
-/// Smooth joints have no friction, and what passes by a centroid does not turn its block.
+/// Frictionless joints have no friction columns. A force through the centroid of a block has no moment.
 #[test]
-fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
+fn products_of_columns_of_several_blocks_equal_products_of_dense_vectors() {
     let mut program = stacked();
     program.contacts[0].on.1[1].x = 0.0;
     program.contacts[1].on.1[0].x = 0.0;
@@ -73,7 +73,7 @@ fn columns_of_several_blocks_multiply_as_rows_of_numbers_do() {
 }
 
 #[test]
-fn forces_of_other_contacts_and_robots_are_other_places() {
+fn products_of_forces_at_different_contacts_or_robots_do_not_exist() {
     let ray = |contact, point| Force::Ray {
         contact,
         point,
@@ -101,9 +101,9 @@ fn forces_of_other_contacts_and_robots_are_other_places() {
     assert_eq!(product(&ray(1, 0), &stick(1, 0)), None);
 }
 
-/// Two robots hold one block, the first with a limited force along x: only pairs without limits are one equality.
+/// Two robots hold one block. Only the first has limits. Only a pair of columns without limits becomes one equality.
 #[test]
-fn pairs_of_free_forces_are_one_row_each_and_no_others() {
+fn only_pairs_of_unlimited_forces_are_one_row_each() {
     let mut program = example();
     let other = GripTerm {
         limits: [f64::INFINITY; 3],
@@ -114,7 +114,7 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
     let all = columns(&program);
     assert_eq!(all.len(), 3 + 6 + 6);
     let (conic, row_of) = kinematic_dual(&program.loads, &all, |_| 0.0);
-    // The first robot's vertical force, then all of the second one's.
+    // The pairs are the vertical force of the first robot and all three components of the second.
     assert_eq!(conic.equalities, 4);
     let pairs = [(5, 6), (9, 10), (11, 12), (13, 14)];
     for (number, (plus, minus)) in pairs.into_iter().enumerate() {
@@ -122,7 +122,7 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
     }
     let others = [0, 1, 2, 3, 4, 7, 8].map(|k| row_of[k]);
     assert_eq!(others, [4, 5, 6, 7, 8, 9, 10]);
-    // The last of all columns has no partner behind it; a pair the other way round is none.
+    // The last column has no partner after it. A pair in the reverse order does not count as a pair.
     let (conic, _) = kinematic_dual(&program.loads, &all[..14], |_| 0.0);
     assert_eq!(conic.equalities, 3);
     let turned = [all[12], all[11]];
@@ -130,9 +130,10 @@ fn pairs_of_free_forces_are_one_row_each_and_no_others() {
     assert_eq!(conic.equalities, 0);
 }
 
-/// The source's program of the box: six unknowns for the joint, six for the robot, and a partner of each.
+/// The program of the box as in the reference: six unknowns for the joint, six for the robot, and the opposite of
+/// each.
 #[test]
-fn the_source_poses_every_unknown_with_its_opposite() {
+fn the_program_of_the_reference_contains_the_opposite_of_every_unknown() {
     let beta = 1e6;
     let program = held(0.0, f64::INFINITY, 8.0);
     let conic = vallat_program(&program, beta);
@@ -161,7 +162,8 @@ fn the_source_poses_every_unknown_with_its_opposite() {
         }
         assert_eq!(conic.bound[place], program.loads[place]);
     }
-    // f⁺ + f⁻ ≤ μN at both points; then a limit each way of x and of the torque; then all are at least 0.
+    // Friction: f⁺ + f⁻ ≤ μN at both points. Then come the limits of x and of the torque in both directions. In the last
+    // rows all unknowns are at least 0.
     let entries = |number: usize| {
         let entries = conic.matrix.iter().filter(|e| e.0 == number);
         entries.map(|e| (e.1, e.2)).collect::<Vec<_>>()
@@ -181,7 +183,7 @@ fn the_source_poses_every_unknown_with_its_opposite() {
 }
 
 #[test]
-fn the_form_in_forces_sums_costs_and_caps_another_sum() {
+fn the_force_program_minimises_costs_and_can_limit_another_sum() {
     let program = example();
     let all = columns(&program);
     let free = force_primal(&program.loads, &all, |c| 2.0 * c.cost, None);
@@ -197,9 +199,10 @@ fn the_form_in_forces_sums_costs_and_caps_another_sum() {
     assert_eq!(row(&capped, last), expected);
 }
 
-/// Joints that are parallel but for a millionth, one square to them, and one that is meant to lean.
+/// Joints that are parallel up to a few millionths, a joint perpendicular to them, and a joint that is inclined on
+/// purpose.
 #[test]
-fn joints_nearly_parallel_or_square_are_made_so_together() {
+fn joints_that_are_nearly_parallel_or_perpendicular_are_aligned() {
     let turned = |angle: f64| Vector::new(libm::cos(angle), libm::sin(angle));
     let mut program = stacked();
     let (up, side) = (core::f64::consts::FRAC_PI_2, 0.0);
@@ -211,7 +214,7 @@ fn joints_nearly_parallel_or_square_are_made_so_together() {
     let normals = [up + 3e-6, up - 1e-6, side + 1e-6, 0.01].map(turned);
     (program.contacts.iter_mut().zip(normals)).for_each(|(c, n)| c.normal = n);
     let straight = program.with_parallel_joints().expect("some turn");
-    // All by the mean of 3, −1 and 1 millionths; the last one stays.
+    // The first three rotate to the mean of 3, −1 and 1 millionths. The last joint stays.
     let expected = [up + 1e-6, up + 1e-6, side + 1e-6, 0.01].map(turned);
     for (contact, normal) in straight.contacts.iter().zip(expected) {
         assert!((contact.normal - normal).norm() < 1e-15, "{contact:?}");

@@ -1,4 +1,4 @@
-//! Random trees of blocks against the programs, and the bounds of their motions.
+//! Tests of random trees of blocks against the programs, and of the bounds that their motions give.
 
 use super::*;
 use crate::geometry::quarter_turn;
@@ -9,7 +9,7 @@ use crate::solve::Conditioning;
 use crate::solve::least_adhesion::by_programs;
 use crate::solve::random_numbers::RandomNumbers;
 
-/// Blocks that each touch one earlier one or the ground, in any direction and with any load.
+/// Blocks that each touch one earlier block or the ground, in any direction and with any load.
 fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {
     let point =
         |numbers: &mut RandomNumbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
@@ -53,7 +53,7 @@ fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {
 }
 
 #[test]
-fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does() {
+fn the_least_adhesion_agrees_with_the_programs_and_its_motion_proves_the_minimum() {
     let mut numbers = RandomNumbers(3);
     let mut stuck_somewhere = 0;
     for blocks in [1, 2, 3, 5, 8].repeat(8) {
@@ -74,7 +74,8 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
             grip: Vec::new(),
         };
         assert!(sum.unbalanced(&program) < 1e-9 * (1.0 + total));
-        // Velocities at which no force gains: their power bounds from below what has to stick.
+        // At these velocities no force gains more power than it costs. The power of the loads is therefore a lower
+        // bound of the adhesion.
         let motion = found.motion.unwrap();
         let fastest = motion.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
         for column in &all {
@@ -102,7 +103,7 @@ fn what_sticks_is_what_the_programs_find_and_its_motion_shows_that_no_less_does(
 }
 
 #[test]
-fn its_forces_are_those_that_stick_nowhere() {
+fn determinate_forces_need_no_adhesion() {
     let mut numbers = RandomNumbers(11);
     for blocks in [1, 2, 4, 9].repeat(10) {
         let mut program = branches(blocks, &mut numbers);
@@ -116,7 +117,7 @@ fn its_forces_are_those_that_stick_nowhere() {
         let stuck = least_adhesion(&program).unwrap();
         assert!(stuck.adhesion.total() < 1e-10);
         assert_eq!(stuck.forces, forces);
-        // One contact that has to pull is enough.
+        // A single contact in tension is enough.
         let pulled = adhesion_columns(&program);
         pulled[0].add_to(&mut program.loads, 20.0);
         assert!(determinate(&program).is_none());
@@ -125,14 +126,14 @@ fn its_forces_are_those_that_stick_nowhere() {
 }
 
 #[test]
-fn where_forces_have_a_choice_it_says_nothing() {
+fn there_is_no_answer_if_forces_are_not_determinate() {
     let mut numbers = RandomNumbers(5);
     let tree = branches(4, &mut numbers);
     assert!(least_adhesion(&tree).is_some());
     let mut ring = tree.clone();
     ring.contacts.push(ring.contacts[3].clone());
     assert!(least_adhesion(&ring).is_none());
-    // As many contacts as blocks, but one block has two and another none.
+    // There are as many contacts as blocks, but one block has two contacts and another has none.
     ring.contacts.remove(0);
     assert!(least_adhesion(&ring).is_none());
     let mut rough = tree.clone();

@@ -1,11 +1,12 @@
-//! The normal equations against products, conditions of an optimum, and clarabel.
+//! Tests of the normal equations against products, optimality conditions, and clarabel.
 
 use super::*;
 use crate::clock::Instant;
 use crate::solve::random_numbers::RandomNumbers;
 use crate::solve::{Conditioning, TOLERANCE};
 
-/// Columns between neighbours on a lattice of blocks, and to the ground below the first row: five of each pair.
+/// Five random columns for each pair of neighbours in a lattice of blocks, and for each block of the first row and
+/// the ground.
 fn lattice(
     wide: usize,
     high: usize,
@@ -105,7 +106,7 @@ fn columns(problem: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
+fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
     let mut numbers = RandomNumbers(7);
     for (wide, high) in [(1, 1), (1, 30), (30, 1), (9, 12), (23, 5)] {
         let (unknowns, columns) = lattice(wide, high, &mut numbers);
@@ -115,7 +116,7 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
         let weights: Vec<f64> = columns.iter().map(|_| 1.5 + numbers.next()).collect();
         let mut doubled = weights.clone();
         doubled.iter_mut().for_each(|w| *w *= 2.0);
-        // A second factoring leaves nothing of the first.
+        // The second factorisation keeps nothing of the first.
         factor.factor(&posed, &doubled, 0.0);
         factor.factor(&posed, &weights, 0.0);
         let wanted: [Vec<f64>; 2] =
@@ -150,8 +151,8 @@ fn a_factor_solves_what_it_factored_for_one_right_hand_side_and_for_two() {
 }
 
 #[test]
-fn what_nothing_holds_does_not_move() {
-    // Block 1 of three has no column.
+fn an_unknown_without_columns_is_zero() {
+    // The second of three blocks, with unknowns 3 to 5, has no column. Unknowns 7 and 8 of the third have none either.
     let columns = vec![
         vec![(0, 2.0)],
         vec![(1, 1.0)],
@@ -176,11 +177,11 @@ fn what_nothing_holds_does_not_move() {
 }
 
 #[test]
-fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds() {
+fn an_optimum_of_either_form_meets_its_conditions_and_has_the_cost_of_clarabel() {
     let mut numbers = RandomNumbers(11);
     for (wide, high) in [(6, 4), (13, 9)] {
         let (unknowns, list) = lattice(wide, high, &mut numbers);
-        // Amounts that balance and velocities within every cost: so there is an optimum.
+        // Some amounts balance the loads, and some velocities respect every cost. Therefore an optimum exists.
         let mut loads = vec![0.0; unknowns];
         let y: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
         let mut cost = Vec::new();
@@ -203,7 +204,7 @@ fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds()
         for (k, row) in rows(&problem, &answer.x).iter().enumerate() {
             assert!((row + answer.s[k] - cost[k]).abs() < 1e-6, "row {k}");
             assert!(answer.s[k] >= 0.0 && answer.z[k] >= 0.0);
-            assert!(answer.s[k] * answer.z[k] < 1e-5, "one of the two of {k}");
+            assert!(answer.s[k] * answer.z[k] < 1e-5, "complementarity of {k}");
         }
         let other = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
         let (ours, theirs) = (
@@ -236,11 +237,11 @@ fn an_optimum_meets_its_conditions_in_both_forms_and_costs_what_clarabel_finds()
 }
 
 #[test]
-fn where_there_is_no_optimum_a_direction_shows_it() {
+fn a_program_without_an_optimum_gets_a_certificate() {
     let mut numbers = RandomNumbers(5);
     let (unknowns, list) = lattice(7, 5, &mut numbers);
     let cost: Vec<f64> = list.iter().map(|_| 1.0).collect();
-    // No column pulls at unknown 4, and the load wants it.
+    // All columns have a positive coefficient for unknown 4, but its load is negative.
     let pressing: Vec<Vec<(usize, f64)>> = list
         .iter()
         .map(|column| {
@@ -259,10 +260,10 @@ fn where_there_is_no_optimum_a_direction_shows_it() {
     let problem = forces(&loads, &pressing, &cost);
     let answer = solved(&problem);
     assert_eq!(answer.status, Status::Infeasible);
-    // The multipliers of the balance, with the other sign.
+    // The multipliers of the balance have the opposite sign.
     assert!((product(&loads, &answer.z[..unknowns]) + 1.0).abs() < 1e-9);
 
-    // Two columns that undo each other and cost less than nothing.
+    // Two opposite columns whose total cost is negative.
     let mut both = list.clone();
     both.push(list[40].iter().map(|(i, v)| (*i, -v)).collect());
     let mut cheap = cost.clone();
@@ -279,7 +280,7 @@ fn where_there_is_no_optimum_a_direction_shows_it() {
 }
 
 #[test]
-fn it_gives_up_after_its_iterations_and_at_its_deadline() {
+fn the_solver_stops_after_its_iterations_and_at_its_deadline() {
     let mut numbers = RandomNumbers(3);
     let (unknowns, list) = lattice(6, 6, &mut numbers);
     let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
@@ -327,7 +328,7 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let mut limited = forces(&loads, &list, &cost);
     limited.matrix.push((limited.bound.len(), 0, 1.0));
     limited.bound.push(2.0);
-    // Squares that couple all columns, and squares of columns that have a limit beside their floor.
+    // A quadratic form that couples all columns, and squares of columns that have an upper limit and a floor.
     let mut coupled = forces(&loads, &list, &cost);
     coupled.quadratic = (0..list.len()).map(|k| (0, k, 1.0)).collect();
     let mut capped = limited.clone();
@@ -338,10 +339,10 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
 }
 
 #[test]
-fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
+fn the_least_norm_velocities_and_amounts_are_those_of_clarabel() {
     let mut numbers = RandomNumbers(17);
     let (unknowns, list) = lattice(8, 6, &mut numbers);
-    // Some rows hold at y = 0, others push away from it.
+    // Some rows hold at y = 0, others do not.
     let y: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
     let bound = list.iter().map(|column| {
         let along: f64 = column.iter().map(|(i, v)| v * y[*i]).sum();
@@ -377,13 +378,14 @@ fn the_shortest_velocities_and_the_smallest_amounts_are_those_of_clarabel() {
 }
 
 #[test]
-fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds() {
+fn least_squares_with_floors_meet_their_conditions_and_have_the_cost_of_clarabel() {
     let mut numbers = RandomNumbers(19);
-    // Amounts ≥ 0; then corrections of amounts of which some are next to nothing and some immense.
+    // Amounts ≥ 0; then corrections of amounts, of which some are tiny and some huge.
     for floors in [[0.0, 0.0, 0.0], [1e-3, 1.0, 1e9]] {
         let (unknowns, list) = lattice(9, 7, &mut numbers);
         let mut problem = forces(&vec![0.0; unknowns], &list, &vec![0.0; list.len()]);
-        // The five columns of a pair are coupled, by G·Gᵀ of three rows each.
+        // The quadratic form couples the five columns of a pair. It is G·Gᵀ with three random numbers per column,
+        // plus 0.1 on the diagonal.
         for first in (0..list.len()).step_by(5) {
             let rows: Vec<[f64; 3]> = (0..5).map(|_| [(); 3].map(|()| numbers.next())).collect();
             for j in 0..5 {
@@ -425,7 +427,7 @@ fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds
         }
         let floors = ours.z[unknowns..].iter().filter(|z| **z > 1e-3).count();
         assert!(floors > 20, "{floors} amounts at their floors");
-        // Floors far below everything are as good as those a hundred below, with which clarabel ends.
+        // Floors far below all amounts give the same result as floors at −100. With these, clarabel converges.
         problem.bound[unknowns..]
             .iter_mut()
             .for_each(|floor| *floor = floor.min(100.0));
@@ -438,13 +440,13 @@ fn least_squares_above_floors_meet_their_conditions_and_cost_what_clarabel_finds
 }
 
 #[test]
-fn columns_of_the_same_two_bodies_are_one_group_and_act_as_before() {
+fn columns_of_the_same_two_bodies_form_one_group_with_the_same_products() {
     let mut numbers = RandomNumbers(3);
     let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
         unknowns.iter().map(|i| (*i, numbers.next())).collect()
     };
-    // Bodies 0 and 1: normal forces, friction and both; body 1 and the ground; bodies 1 and 2; nobody; one unknown of
-    // body 2.
+    // Bodies 0 and 1: a normal force, a friction force, and both together. Then body 1 and the ground, bodies 1 and
+    // 2, no body, and a single unknown of body 2.
     let columns = vec![
         column(&[1, 2, 4, 5]),
         column(&[0, 2, 3, 5]),

@@ -1,4 +1,4 @@
-//! What touches in scenes whose contacts can be named by looking at them.
+//! Tests of contacts in scenes whose contacts are obvious.
 
 use super::*;
 use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, Pair};
@@ -8,7 +8,8 @@ mod edge;
 mod pinned;
 mod lattice;
 
-/// Coordinates times this have all their digits, so that no scene here takes them for rounded and moves corners.
+/// Coordinates that are multiplied by this number have all their digits. They do not count as rounded, so that no
+/// corner is moved.
 const ODD: f64 = 1.023_456_789_012_345_6;
 
 fn odd(corners: &[Pair]) -> Vec<Pair> {
@@ -24,7 +25,7 @@ fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Pair> {
     ])
 }
 
-/// Parts of the ground, then blocks, with corner contacts.
+/// A scene with these parts of the ground and these blocks, and with corner contacts.
 fn scene(ground: Vec<Vec<Pair>>, blocks: Vec<Vec<Pair>>) -> Scene {
     let mut scene = Scene::builder().friction(0.5).corner_contacts(true);
     for part in ground {
@@ -39,7 +40,7 @@ fn scene(ground: Vec<Vec<Pair>>, blocks: Vec<Vec<Pair>>) -> Scene {
 const FIRST: BodyId = BodyId::Block(BlockId(0));
 const SECOND: BodyId = BodyId::Block(BlockId(1));
 
-/// The gap within which the first block touches what it stands by.
+/// The gap within which the first block touches the other body.
 fn gap(scene: &Scene, other: BodyId) -> f64 {
     scene.tolerance_between(FIRST, other).gap
 }
@@ -50,8 +51,8 @@ fn near(found: Vector, expected: [f64; 2]) -> bool {
 
 #[test]
 fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
-    // A triangle whose tip points at the ground; the ground lies below, above, left and right of it, its outward normal
-    // as given.
+    // A triangle whose tip points at the ground. The ground lies below, above, left and right of it; `outward` is the
+    // outward normal of the ground.
     let tip = [[0.0, 0.0], [1.0, 2.0], [-1.0, 2.0]];
     let turned = |[x, y]: Pair, [nx, ny]: Pair| [x * ny + y * nx, y * ny - x * nx];
     let slab = [[-5.0, -1.0], [5.0, -1.0], [5.0, 0.0], [-5.0, 0.0]];
@@ -85,7 +86,8 @@ fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
 
 #[test]
 fn tips_that_meet_press_along_their_bisector() {
-    // The block's lower left corner at the ground's upper right one, and likewise on the other side.
+    // The block's lower left corner meets the ground's upper right corner. Then its lower right corner meets the
+    // ground's upper left corner.
     for (x, normal) in [
         (0.0, core::f64::consts::FRAC_1_SQRT_2),
         (-3.0, -core::f64::consts::FRAC_1_SQRT_2),
@@ -101,12 +103,12 @@ fn tips_that_meet_press_along_their_bisector() {
 }
 
 #[test]
-fn corners_of_an_edge_that_touches_are_no_contacts_of_their_own_and_others_are() {
+fn only_corners_away_from_edge_contacts_are_contacts_of_their_own() {
     let floor = || vec![rectangle(-20.0, -1.0, 40.0, 1.0)];
     let alone = Interfaces::new(&scene(floor(), vec![rectangle(0.0, 0.0, 2.0, 1.0)])).all;
     let kinds: Vec<ContactKind> = alone.iter().map(|i| i.kind).collect();
     assert_eq!(kinds, [ContactKind::Edge]);
-    // A table with a flat leg and a pointed one, 2 m away from it.
+    // A table with a flat leg, and a pointed leg 2 m away from it.
     let table = odd(&[
         [0.0, 0.0],
         [1.0, 0.0],
@@ -127,8 +129,9 @@ fn corners_of_an_edge_that_touches_are_no_contacts_of_their_own_and_others_are()
 }
 
 #[test]
-fn interfaces_stand_in_the_order_of_bodies_and_of_places() {
-    // A bridge on five piers, with two feet on each: places of a pair from left to right, pairs by number.
+fn interfaces_are_sorted_by_bodies_and_then_by_position() {
+    // A bridge on five piers, with two feet on each pier. The interfaces of a pair are sorted from left to right, and
+    // the pairs by their numbers.
     let mut outline = vec![[0.0, 3.0]];
     for k in 0..10 {
         let x = 2.0 * f64::from(k);
@@ -153,7 +156,7 @@ fn interfaces_stand_in_the_order_of_bodies_and_of_places() {
 }
 
 #[test]
-fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
+fn edges_touch_within_the_tolerance_and_are_near_misses_beyond_it() {
     let at = |apart: f64, more: f64| {
         let ground = vec![rectangle(-2.0, -1.0, 3.0, 1.0)];
         let mut block = rectangle(-0.75, 0.0, 4.0, 2.0);
@@ -167,7 +170,7 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
     let found = Interfaces::new(&at(0.9 * gap, 0.0));
     assert_eq!((found.all.len(), found.near_misses.len()), (2, 0));
     assert!(found.notices.is_empty(), "{:?}", found.notices);
-    // The shared stretch, from x = −0.75 to 1, half way up the gap.
+    // The shared stretch extends from x = −0.75 to 1, halfway between the two edges.
     let stretch = &found.all[0];
     assert!((stretch.length() - 1.75 * ODD).abs() < 1e-9);
     assert!((stretch.middle().x - 0.125 * ODD).abs() < 1e-9);
@@ -190,7 +193,8 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
         both.notices,
         [words + ", and so do 1 other pair(s) of edges"]
     );
-    // Farther apart is told without a notice, and beyond a hundredth of the block not at all.
+    // At a larger distance there is a near miss without a notice. Beyond a hundredth of the block's size there is
+    // none.
     let apart = Interfaces::new(&at(31.0 * gap, 0.0));
     assert_eq!((apart.near_misses.len(), apart.notices.len()), (1, 0));
     let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
@@ -203,9 +207,8 @@ fn edges_meet_within_the_tolerance_and_beyond_it_are_told_apart() {
 }
 
 #[test]
-fn a_stretch_too_short_to_count_is_told_with_its_length() {
-    // Two bricks on a floor, the second half a brick higher: what they share at their sides is all of it, what the third
-    // shares with the second by reaching over it is 10⁻⁷ m.
+fn a_contact_too_short_to_count_is_reported_with_its_length() {
+    // A brick on a floor. A second brick, one layer higher, overlaps the first by only 10⁻⁷ m.
     let scene = scene(
         vec![rectangle(-5.0, -1.0, 10.0, 1.0)],
         vec![
@@ -226,9 +229,9 @@ fn a_stretch_too_short_to_count_is_told_with_its_length() {
     assert_eq!(edges(&found.all), [[FIRST, BodyId::Ground(0)]]);
 }
 
-/// A short edge may lie askew by as much as puts its ends off by a gap each; a long one by no more.
+/// Short and long edges may be inclined by the gap. At three times the gap they have no joint.
 #[test]
-fn short_edges_face_each_other_askew_and_long_ones_do_not() {
+fn edges_of_any_length_may_be_inclined_by_the_gap() {
     let at = |width: f64, rise: f64| {
         let block = odd(&[[0.0, 0.0], [width, 0.0], [1.0, 1.0], [-1.0, 1.0]]);
         let mut block = block;
@@ -247,7 +250,7 @@ fn short_edges_face_each_other_askew_and_long_ones_do_not() {
 }
 
 #[test]
-fn a_corner_set_into_a_straight_edge_changes_nothing() {
+fn an_additional_corner_in_a_straight_edge_changes_nothing() {
     let floor = odd(&[
         [-5.0, -1.0],
         [5.0, -1.0],
@@ -265,8 +268,8 @@ fn a_corner_set_into_a_straight_edge_changes_nothing() {
 }
 
 #[test]
-fn runs_of_unit_edges_of_a_lattice_are_one_interface_each() {
-    // Two rows of three cells far from the origin, the upper shifted by one; a column beside both.
+fn a_row_of_lattice_edges_is_one_interface() {
+    // Two rows of three cells, the upper row shifted by one cell, and a third block next to both.
     let cells = |list: [(f64, f64); 3]| list.map(|(x, y)| CellEntry::Square(x, y));
     let row = |x: f64, y: f64| cells([(x, y), (x + 1.0, y), (x + 2.0, y)]);
     let scene = Scene::builder()

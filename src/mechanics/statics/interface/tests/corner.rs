@@ -1,10 +1,10 @@
-//! Tips on edges and tips on tips, of whichever body.
+//! Contacts of tips with edges and with other tips.
 
 use super::*;
 
 #[test]
-fn a_block_that_rests_on_the_tip_of_an_earlier_one_is_pressed_up_by_it() {
-    // A roof on the floor, a board on its ridge: the board is named first, and pushed upward.
+fn a_block_on_the_tip_of_an_earlier_block_is_pushed_upward() {
+    // A roof on the floor and a board on its ridge. The contact names the board first and pushes it upward.
     let roof = odd(&[[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]);
     let board = rectangle(-1.0, 1.0, 5.0, 1.0);
     let there = scene(vec![rectangle(-5.0, -1.0, 20.0, 1.0)], vec![roof, board]);
@@ -62,10 +62,10 @@ fn a_tip_in_a_notch_presses_along_the_notch() {
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
 }
 
-/// A pointed post on a slope of 3 : 4, wherever along it; beside it there is no contact.
+/// A pointed post stands anywhere on a slope of 3 : 4. Posts next to the slope have no contact.
 #[test]
-fn a_tip_on_a_slope_is_pushed_square_to_it_wherever_it_stands() {
-    // The slope runs from (0, 0) up to (8, 6), on a part of the ground that falls off behind it.
+fn a_tip_anywhere_on_a_slope_is_pushed_perpendicular_to_the_slope() {
+    // The slope rises from (0, 0) to (8, 6). The ground ends there with a vertical face.
     let slope = odd(&[[0.0, 0.0], [8.0, 0.0], [8.0, 6.0]]);
     let post = |along: f64| {
         let [x, y] = [0.8 * along, 0.6 * along];
@@ -86,10 +86,10 @@ fn a_tip_on_a_slope_is_pushed_square_to_it_wherever_it_stands() {
     }
 }
 
-/// A corner contact beyond the end of a joint by less than four gaps belongs to it, one farther off does not.
+/// A corner contact less than four gaps beyond the end of a joint belongs to the joint. Farther away it does not.
 #[test]
-fn a_tip_beside_a_joint_is_part_of_it_up_to_four_gaps() {
-    // A block with a flat foot of 0.3 m and beside it, past a slit, a pointed one.
+fn a_tip_next_to_a_joint_belongs_to_it_up_to_four_gaps() {
+    // A block with a flat foot 0.3 m wide and, after a slit, a pointed foot.
     let at = |slit: f64| {
         let foot = odd(&[
             [0.0, 0.0],

@@ -1,15 +1,15 @@
-//! Edges that lie beside each other: how far, how askew, how long, and in which direction.
+//! Edges that face each other: their distance, inclination, length and direction.
 
 use super::*;
 
-/// A quarter turn anticlockwise, so many times.
+/// Rotates a point anticlockwise by this number of quarter turns.
 fn quarters(p: Pair, times: usize) -> Pair {
     (0..times).fold(p, |[x, y], _| [-y, x])
 }
 
 #[test]
-fn points_of_a_seam_lie_inward_of_its_ends() {
-    // 5 m long, from right to left and upward.
+fn application_points_lie_inward_of_the_ends() {
+    // The interface is 5 m long, from the lower right to the upper left.
     let seam = Interface {
         bodies: [FIRST, BodyId::Ground(0)],
         kind: ContactKind::Edge,
@@ -26,7 +26,7 @@ fn points_of_a_seam_lie_inward_of_its_ends() {
     assert_eq!(points(1.0), [seam.middle(); 2]);
 }
 
-/// A block above a ledge, left of it, below it and right of it: as near, as far, and in the same place of it.
+/// A block above a ledge, and the same scene rotated by quarter turns: the distance and the place are the same.
 #[test]
 fn edges_are_found_on_every_side_of_a_block() {
     for times in 0..4 {
@@ -59,9 +59,9 @@ fn edges_are_found_on_every_side_of_a_block() {
     }
 }
 
-/// What is too far apart for the smaller of two blocks is, whichever of them comes first.
+/// The smaller of two blocks decides whether edges are too far apart, whatever the order of the blocks.
 #[test]
-fn edges_are_apart_by_the_smaller_blocks_size() {
+fn the_size_of_the_smaller_block_limits_near_misses() {
     let (small, large) = (
         |apart: f64| rectangle(0.0, 4.0 + apart, 1.0, 1.0),
         rectangle(0.0, 0.0, 4.0, 4.0),
@@ -75,9 +75,9 @@ fn edges_are_apart_by_the_smaller_blocks_size() {
     }
 }
 
-/// The second of two blocks lies above the first, and beyond its right end but for `shared` gaps.
+/// The second block lies higher than the first by `apart`. It begins at the first block's right end, minus `shared`.
 #[test]
-fn edges_that_share_less_than_they_are_apart_do_not_face_each_other() {
+fn edges_whose_overlap_is_shorter_than_their_distance_do_not_face_each_other() {
     let at = |shared: f64, apart: f64| {
         let other = rectangle(2.0, 1.0, 2.0, 1.0);
         let other = other.iter().map(|p| [p[0] - shared, p[1] + apart]);
@@ -102,7 +102,7 @@ fn edges_that_share_less_than_they_are_apart_do_not_face_each_other() {
     }
 }
 
-/// A box of which one end is up by some gaps, on a floor of the given width from its left corner.
+/// A box whose right end is raised by some gaps. The floor ends at the given distance from the box's left end.
 fn askew(rise: f64, width: f64) -> (Scene, f64) {
     let at = |rise: f64| {
         let mut block = rectangle(0.0, 0.0, 2.0, 2.0);
@@ -114,7 +114,7 @@ fn askew(rise: f64, width: f64) -> (Scene, f64) {
 }
 
 #[test]
-fn a_joint_that_opens_to_one_side_is_apart_by_its_wider_end() {
+fn the_distance_of_inclined_edges_is_that_of_the_wider_end() {
     let (scene, gap) = askew(5.0, 4.0);
     let found = Interfaces::new(&scene);
     assert_eq!(found.near_misses.len(), 1);
@@ -124,9 +124,9 @@ fn a_joint_that_opens_to_one_side_is_apart_by_its_wider_end() {
     assert!(found.all.iter().all(|i| i.kind == ContactKind::Corner));
 }
 
-/// Where they share a hundredth of their length even these are within the gap of each other, and yet no joint.
+/// Over the shared 10 mm the edges are closer than the gap even at a rise of 50 gaps. This is still not a joint.
 #[test]
-fn long_edges_that_lie_askew_share_no_joint_however_short() {
+fn strongly_inclined_edges_have_no_joint_even_over_a_short_overlap() {
     for (rise, joints) in [(1.9, 1), (50.0, 0)] {
         let (scene, gap) = askew(rise, 0.01);
         let found = Interfaces::new(&scene).all;
@@ -136,8 +136,8 @@ fn long_edges_that_lie_askew_share_no_joint_however_short() {
 }
 
 #[test]
-fn two_stretches_are_joined_as_many_are_and_opposite_ones_are_not() {
-    // A corner set into the floor just under the block.
+fn two_stretches_of_one_line_are_joined_and_opposite_faces_are_not() {
+    // A corner in the floor, below the block.
     let floor = odd(&[
         [-5.0, -1.0],
         [5.0, -1.0],
@@ -150,7 +150,8 @@ fn two_stretches_are_joined_as_many_are_and_opposite_ones_are_not() {
     assert_eq!(found.len(), 1, "{found:?}");
     let ends = found[0].ends.map(|p| p.x);
     assert!((ends[0] - 2.0 * ODD).abs() < 1e-9 && ends[1].abs() < 1e-9);
-    // A fin thinner than what joins stretches, in a slot: its two faces are pressed in opposite directions.
+    // A fin in a slot. It is thinner than the distance over which stretches are joined. Its two faces are pressed in
+    // opposite directions.
     let width = 8e-6;
     let (left, right) = (1.0, 1.0 + width);
     let slotted = odd(&[
@@ -186,7 +187,7 @@ fn two_stretches_are_joined_as_many_are_and_opposite_ones_are_not() {
     assert!((faces[0] + faces[1]).abs() < 1e-9, "{faces:?}");
 }
 
-/// Steps of a stair are not one joint, however near each other; nor is a stretch joined round a corner.
+/// Two stretches that meet at a corner are not joined.
 #[test]
 fn stretches_are_joined_only_in_one_line() {
     let stair = odd(&[[-5.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-5.0, 3.0]]);
@@ -206,7 +207,7 @@ fn stretches_are_joined_only_in_one_line() {
 }
 
 #[test]
-fn slivers_count_as_interfaces_where_they_are_asked_for() {
+fn slivers_count_as_interfaces_on_request() {
     let at = |shared: f64, tolerance: Option<f64>| {
         let mut scene = Scene::builder().friction(0.5);
         if let Some(tolerance) = tolerance {
@@ -227,10 +228,10 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
     assert_eq!((counted.all.len(), counted.slivers.len()), (2, 0));
     let pairs: Vec<[BodyId; 2]> = counted.all.iter().map(|i| i.bodies).collect();
     assert_eq!(pairs, [[FIRST, BodyId::Ground(0)], [SECOND, FIRST]]);
-    // What touches in a point up to the rounding of numbers is not even short.
+    // A contact at a point, up to the rounding of numbers, is not even a sliver.
     let found = Interfaces::new(&at(1e-10, None));
     assert_eq!((found.slivers.len(), found.notices.len()), (0, 0));
-    // Three of them are told as three, with the longest.
+    // Three slivers are reported together, with the length of the longest.
     let row = |shared: f64, x: f64| {
         [
             rectangle(x, 0.0, 1.0, 1.0),
@@ -243,9 +244,9 @@ fn slivers_count_as_interfaces_where_they_are_asked_for() {
     assert!(found.notices[0].starts_with(begin), "{:?}", found.notices);
 }
 
-/// A box whose left end is up by ten gaps, on a floor that begins at its middle: there it is up by five.
+/// A box whose left end is raised by ten gaps. On a floor that begins below its middle, the distance is five gaps.
 #[test]
-fn how_far_edges_are_apart_counts_where_both_are() {
+fn the_distance_of_edges_is_measured_only_where_they_overlap() {
     let at = |rise: f64, begin: f64| {
         let mut block = rectangle(0.0, 0.0, 2.0, 2.0);
         block[0][1] += rise;

@@ -8,7 +8,7 @@ fn squares(list: &[(f64, f64)]) -> Vec<CellEntry> {
     cells.collect()
 }
 
-/// A U of cells, a bar in it that touches it on three sides, and a lid on both.
+/// A U of cells, a bar inside it that touches it on three sides, and a lid on both.
 fn lidded() -> Scene {
     Scene::builder()
         .grid(GridKind::Square, 2.0)
@@ -28,7 +28,7 @@ fn lidded() -> Scene {
 }
 
 #[test]
-fn edges_looked_up_one_body_at_a_time_are_those_found_at_once() {
+fn interfaces_of_one_body_at_a_time_are_those_of_all_bodies_together() {
     let scene = lidded();
     let all = Interfaces::new(&scene);
     assert!(all.near_misses.is_empty() && all.slivers.is_empty() && all.notices.is_empty());
@@ -109,7 +109,7 @@ fn tips_of_cells_touch_sides_and_tips_at_nodes() {
     }
 }
 
-/// The slope's side of 0.6 m that a row of cells beside it shares, with all its digits, is one interface.
+/// A row of cells next to the slope shares its side of 0.6 m. This is one interface with exact coordinates.
 #[test]
 fn rows_of_triangles_share_slanted_sides() {
     let triangles = |list: &[(f64, f64, CellHalf)]| {
@@ -131,14 +131,14 @@ fn rows_of_triangles_share_slanted_sides() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].length() - 0.6).abs() < 1e-12);
     assert!(near(found[0].normal, [-libm::sqrt(0.75), 0.5]));
-    // From one node to the other, to the last digit.
+    // The interface extends from node to node, to the last digit.
     let lattice = scene.lattice.expect("a lattice");
     let ends = [(7, 7), (7, 5)].map(|node| lattice.node(node));
     assert_eq!(found[0].ends, ends);
     assert!(near(ends[1].coords, [0.3 * 9.5, 1.5 * libm::sqrt(0.75)]));
 }
 
-/// Parts of the ground press each other however they like: that is nobody's question.
+/// Forces between parts of the ground have no influence, so there are no contacts between them.
 #[test]
 fn parts_of_the_ground_have_no_contacts_with_each_other() {
     let part = |x: f64, y: f64| GroundEntry::default().cells(squares(&[(x, y)]));

@@ -1,4 +1,4 @@
-//! Which stone keeps a gap open, and in which frames it does.
+//! Which stone keeps a gap open, and in which frames.
 
 use super::*;
 use crate::interface::pinned::{ContactsByBody, pinning_stone};
@@ -6,7 +6,7 @@ use crate::interface::pinned::{ContactsByBody, pinning_stone};
 const GROUND: BodyId = BodyId::Ground(0);
 const STONE: BodyId = BodyId::Block(BlockId(1));
 
-/// A level stretch 1 m long whose middle lies here, with a unit normal.
+/// An interface 1 m long with this middle and this unit normal.
 fn stretch(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface {
     let along = Vector::new(-normal[1], normal[0]) / 2.0;
     let middle = Point::new(middle[0], middle[1]);
@@ -19,7 +19,7 @@ fn stretch(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface
     }
 }
 
-/// The gap of 2 m between the first block above and the ground below.
+/// A gap of 2 m between the first block and the ground below it.
 fn gap() -> NearMiss {
     NearMiss {
         bodies: [FIRST, GROUND],
@@ -41,7 +41,7 @@ fn keeps(all: &[Interface], stands: bool, tolerance: f64) -> Option<BlockId> {
 }
 
 #[test]
-fn a_stone_as_high_as_the_gap_keeps_it_open_give_or_take_a_tenth() {
+fn a_stone_between_half_and_eleven_tenths_of_the_gap_keeps_it_open() {
     for (height, tolerance, holds) in [
         (2.0, 0.0, true),
         (-2.0, 0.0, true),
@@ -53,7 +53,7 @@ fn a_stone_as_high_as_the_gap_keeps_it_open_give_or_take_a_tenth() {
         (0.99, 0.0, false),
         (0.0, 0.0, false),
     ] {
-        // However far along the gap it is touched: the height counts.
+        // The place of the upper contact along the gap has no influence. Only its height counts.
         for x in [0.0, 30.0] {
             let found = keeps(&[below(), above(x, height)], true, tolerance);
             assert_eq!(found, holds.then_some(BlockId(1)), "{height} {tolerance}");
@@ -62,17 +62,17 @@ fn a_stone_as_high_as_the_gap_keeps_it_open_give_or_take_a_tenth() {
 }
 
 #[test]
-fn what_keeps_a_gap_open_stands_there_and_touches_both_on_opposite_sides() {
+fn a_stone_that_keeps_a_gap_open_stands_there_and_touches_both_sides() {
     assert_eq!(keeps(&[below(), above(0.0, 2.0)], false, 0.0), None);
     assert_eq!(keeps(&[below()], true, 0.0), None);
     assert_eq!(keeps(&[above(0.0, 2.0)], true, 0.0), None);
-    // Its upper side is inclined: by a twentieth it still counts, by 3/4 it does not.
+    // The upper side of the stone is inclined: at 1/20 it still counts, at 3/4 it does not.
     for (normal, holds) in [([0.05, 0.998_75], true), ([0.6, 0.8], false)] {
         let inclined = stretch([FIRST, STONE], [0.0, 2.0], normal);
         let found = keeps(&[below(), inclined], true, 0.0);
         assert_eq!(found.is_some(), holds, "{normal:?}");
     }
-    // A stone beneath another block, and two parts of the ground, keep nothing apart.
+    // A stone below another block does not keep this gap open, and neither does a part of the ground.
     let third = BodyId::Block(BlockId(2));
     let other = stretch([third, STONE], [0.0, 2.0], [0.0, 1.0]);
     assert_eq!(keeps(&[below(), other], true, 0.0), None);
@@ -84,7 +84,8 @@ fn what_keeps_a_gap_open_stands_there_and_touches_both_on_opposite_sides() {
     assert_eq!(keeps(&parts, true, 0.0), None);
 }
 
-/// A brick on a brick, apart by less than counts as a contact, and two stones of which the first is as high as the gap.
+/// A brick above a brick at a distance that still counts as contact, and two stones. The first stone is as high as
+/// the gap.
 fn pinned() -> Scene {
     let height = 1e-6;
     let mut bricks = [
@@ -115,7 +116,7 @@ fn frame(placed: &[usize]) -> Frame {
 }
 
 #[test]
-fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
+fn a_frame_has_its_own_contacts_except_gaps_that_its_stones_keep_open() {
     let scene = pinned();
     let found = Interfaces::new(&scene);
     assert_eq!(found.pinned_gaps.len(), 1, "{:?}", found.pinned_gaps);
@@ -137,13 +138,14 @@ fn a_frame_has_what_touches_in_it_and_no_gap_that_its_stones_keep_open() {
 }
 
 #[test]
-fn a_gap_is_where_it_lies_and_no_other_seam_of_the_two_bodies() {
+fn a_gap_contains_only_interfaces_of_its_bodies_near_its_place() {
     let pinned_gaps = PinnedGap {
         gap: gap(),
         stone: BlockId(1),
     };
     let seam = |x: f64, y: f64| stretch([FIRST, GROUND], [x, y], [0.0, 1.0]);
-    // It is 1 m long: along the gap by as much, across it by the gap's 2 m.
+    // The interface may be as far from the gap as it is long, here 1 m. Across the gap it may be no farther away than
+    // the gap's 2 m.
     for (x, y, inside) in [
         (0.0, 2.0, true),
         (0.9, 2.0, true),
