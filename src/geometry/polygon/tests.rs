@@ -160,8 +160,8 @@ fn a_ring_on_a_line_encloses_nothing() {
     );
     let line = [[1.0, 1.0], [2.0, 1.0], [3.0, 1.0]];
     assert_eq!(flaws(&[&square(0.0, 0.0, 4.0), &line]), flat(1));
-    // A needle: its area is half its height times its length, and its perimeter is twice its length. The area is h/8 of the
-    // squared perimeter.
+    // A needle: its area is half its height times its length, and its perimeter is twice its length. The area is h/8
+    // of the squared perimeter.
     for size in [1.0, 1e3, 1e-3] {
         let needle = |h: f64| [[0.0, 0.0], [size, 0.0], [0.5 * size, h * size]];
         assert_eq!(flaws(&[&needle(6e-15)]), flat(0));

@@ -1,4 +1,4 @@
-//! The contract, letter by letter.
+//! Tests that the JSON output follows its documented format exactly.
 
 use super::*;
 use crate::analysis::{
@@ -217,7 +217,7 @@ const LINES: &str = r#"{
 "#;
 
 #[test]
-fn the_names_are_the_contract_and_stay() {
+fn the_names_and_the_order_of_the_output_do_not_change() {
     let scene = scene();
     let analysis = Analysis {
         scene: scene.into(),
@@ -234,7 +234,7 @@ fn the_names_are_the_contract_and_stay() {
 }
 
 #[test]
-fn what_is_worth_saying_is_said() {
+fn doubts_notices_and_weak_proofs_are_in_the_output() {
     let scene = scene();
     let mut frame = frame();
     frame.doubts = vec![UndecidedReason::Late];

@@ -1,4 +1,4 @@
-//! Drawings into scenes, in small.
+//! Tests of small drawings that are imported as scenes.
 
 use super::naming::Naming;
 use super::scale::Scale;
@@ -32,7 +32,7 @@ fn bounds(imported: &Imported, block: usize) -> [f64; 4] {
 }
 
 #[test]
-fn layers_and_names_say_what_things_are() {
+fn layers_and_names_give_the_role_of_each_element() {
     let imported = taken(
         "<g id='Ground_layer'><rect y='9' width='20' height='1' fill='#777'/></g>
          <g inkscape:groupmode='layer' inkscape:label='Blocks'>
@@ -66,7 +66,7 @@ fn layers_and_names_say_what_things_are() {
 }
 
 #[test]
-fn transforms_copies_and_symbols_put_things_where_they_are_seen() {
+fn transforms_copies_and_symbols_place_elements_as_in_a_viewer() {
     let imported = taken(
         "<defs><rect id='brick' width='4' height='2'/>
            <symbol id='half' viewBox='0 0 10 10'><rect width='10' height='10'/></symbol></defs>
@@ -83,7 +83,7 @@ fn transforms_copies_and_symbols_put_things_where_they_are_seen() {
 }
 
 #[test]
-fn everything_that_cannot_be_taken_is_told_at_once() {
+fn everything_that_cannot_be_imported_is_reported_at_once() {
     let imported = taken(
         "<rect id='good' x='1' y='1' width='2' height='2' clip-path='url(#c)' mask='url(#m)' fill='url(#g)'/>
          <path id='open' d='M0 0L9 9L3 1'/><path d='M0 0L'/><text id='words' x='3'>no block</text><image id='photo'/>
@@ -147,7 +147,7 @@ fn holes_and_islands_come_from_the_fill_rule() {
 }
 
 #[test]
-fn blocks_in_each_other_are_refused_with_their_elements() {
+fn overlapping_blocks_are_refused_with_their_elements() {
     let refusal = import(
         &svg("<rect id='ground' y='8' width='20' height='2'/><rect id='a' x='1' y='5' width='3' height='4'/>
               <text>x</text>"),
@@ -201,16 +201,16 @@ fn an_empty_drawing_and_wrong_options_are_refused() {
 }
 
 #[test]
-fn numbers_beyond_all_reason_are_left_out() {
+fn elements_with_huge_coordinates_are_left_out() {
     let imported = taken("<rect id='a' width='3' height='3'/><rect id='b' x='1e200' width='3' height='3'/>
         <g transform='scale(1e300)'><g transform='scale(1e300)'><rect id='c' width='3' height='3'/></g></g>");
     assert_eq!(ids(&imported), ["a"]);
-    // The third remark: nothing is ground.
+    // The third remark states that nothing is ground.
     assert_eq!(imported.remarks.len(), 3, "{:?}", imported.remarks);
 }
 
 #[test]
-fn copies_of_copies_come_to_an_end() {
+fn too_many_copies_and_too_many_levels_are_refused() {
     let mut body = String::from("<defs><g id='g0'><rect width='1' height='1'/></g>");
     for k in 1..12 {
         let copies = format!("<use href='#g{}'/>", k - 1).repeat(10);
@@ -231,8 +231,8 @@ fn copies_of_copies_come_to_an_end() {
 }
 
 #[test]
-fn curves_of_neighbours_meet() {
-    // The same half circle from both sides: as one arc, and as two.
+fn the_common_curve_of_two_neighbours_has_no_gaps() {
+    // Both paths contain the same half circle: one as a single arc, the other as two arcs.
     let imported = taken(
         "<rect id='ground' y='9' width='20' height='1'/>
          <path id='cradle' d='M3 9V4H4A4 4 0 0 0 12 4H13V9Z'/>

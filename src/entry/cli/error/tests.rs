@@ -71,7 +71,7 @@ fn a_long_line_is_shown_around_the_problem_only() {
 
 /// Long lines, wide letters, long paths and long help, on terminals of 40 columns and more.
 #[test]
-fn a_problem_fits_the_terminal_and_is_marked_where_it_is() {
+fn a_problem_fits_the_terminal_and_is_marked_at_its_place() {
     let lines = [
         "{ \"weight\": -3 }".to_owned(),
         format!(
@@ -102,7 +102,7 @@ fn a_problem_fits_the_terminal_and_is_marked_where_it_is() {
                 .find(['^', '┬'])
                 .map(|at| seen(&lines[piece + 1][..at]));
             let off = mark.zip(place).map(|(mark, place)| mark.abs_diff(place));
-            // ariadne leads the arrow off from the middle of what is marked.
+            // ariadne draws the arrow from the middle of the marked text.
             assert!(off <= Some(1) && off.is_some(), "{width}: {shown}");
             for line in page.fitted(width).text().lines() {
                 assert!(seen(line) <= width, "{width}: {line}");
@@ -119,7 +119,7 @@ fn thirty_problems_are_shown_and_the_rest_is_counted() {
 }
 
 #[test]
-fn spans_at_the_edge_of_the_text_or_beyond_it_are_no_trouble() {
+fn spans_at_the_end_of_the_text_or_beyond_it_cause_no_panic() {
     let text = "{\n\"ä\":\n";
     for (start, end) in [
         (0, 0),

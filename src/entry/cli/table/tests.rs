@@ -12,7 +12,7 @@ fn assert_fits(name: &str, analysis: &Analysis) {
             assert!(seen(line) <= width, "{width}: {line}");
         }
     }
-    // A file or another program gets every row whole.
+    // Rows for a file or for another program are not shortened.
     let page = of(name, analysis, Detail::Short, None);
     assert!(page.text().contains("between"));
 }
@@ -58,8 +58,8 @@ fn every_scene_of_the_assets_fits_a_terminal() {
     assert!(seen > 30, "{seen}");
 }
 
-/// Long words and wide letters as titles and names, blocks that pull apart, robots that are not strong enough, and forces of
-/// many digits.
+/// Long words and wide letters in titles and names, blocks in tension, robots that are too weak, and forces of many
+/// digits.
 #[test]
 fn strange_names_and_many_robots_fit_a_terminal() {
     let names = [

@@ -162,8 +162,8 @@ fn the_program_of_the_reference_contains_the_opposite_of_every_unknown() {
         }
         assert_eq!(conic.bound[place], program.loads[place]);
     }
-    // Friction: f⁺ + f⁻ ≤ μN at both points. Then come the limits of x and of the torque in both directions. In the last
-    // rows all unknowns are at least 0.
+    // Friction: f⁺ + f⁻ ≤ μN at both points. Then come the limits of x and of the torque in both directions. In the
+    // last rows all unknowns are at least 0.
     let entries = |number: usize| {
         let entries = conic.matrix.iter().filter(|e| e.0 == number);
         entries.map(|e| (e.1, e.2)).collect::<Vec<_>>()

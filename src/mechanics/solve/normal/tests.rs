@@ -152,7 +152,8 @@ fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
 
 #[test]
 fn an_unknown_without_columns_is_zero() {
-    // The second of three blocks, with unknowns 3 to 5, has no column. Unknowns 7 and 8 of the third have none either.
+    // The second of three blocks, with unknowns 3 to 5, has no column. Unknowns 7 and 8 of the third block have none
+    // either.
     let columns = vec![
         vec![(0, 2.0)],
         vec![(1, 1.0)],

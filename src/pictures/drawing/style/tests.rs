@@ -1,22 +1,22 @@
-//! How far apart the colours of each theme are that can meet, and style files that are right and wrong.
+//! Tests of the distances between a theme's colours that can meet, and of valid and invalid style files.
 
 use super::super::difference::{Sight, contrast, difference, lightness, seen};
 use super::super::ramp;
 use super::format::Notation;
 use super::*;
 
-/// Least distances of a theme's colours that can meet.
+/// The least distances between colours of a theme that can meet.
 #[derive(Clone, Copy, Debug)]
 struct LeastDistances {
-    /// Arrows of blocks placed one after the other.
+    /// Between the arrows of blocks placed one after the other.
     neighbours: f64,
-    /// A force's arrow and a robot's.
+    /// Between the arrow of a force and the arrow of a robot.
     robots: f64,
-    /// What fails and any other arrow.
+    /// Between the colour of failures and any other arrow.
     failure: f64,
-    /// An arrow, or its seam where that is farther, and whatever can lie below it.
+    /// Between an arrow and anything below it. The casing counts instead of the arrow where its distance is larger.
     ground: f64,
-    /// Letters and what can lie below them.
+    /// Between letters and anything below them.
     letters: f64,
 }
 
@@ -32,7 +32,7 @@ impl LeastDistances {
     }
 }
 
-/// The least distances of a theme as eyes of this sort see it, by ΔE or, in grey, by lightness.
+/// The least distances of a theme as seen by these eyes: ΔE, or for grey the difference in lightness.
 fn least(theme: &Theme, sight: Sight) -> LeastDistances {
     let apart = |a: Colour, b: Colour| match sight {
         Sight::Grey => (lightness(a) - lightness(b)).abs(),
@@ -64,7 +64,7 @@ fn least(theme: &Theme, sight: Sight) -> LeastDistances {
     }
 }
 
-/// The least of several sights, one by one.
+/// Each least distance over several kinds of eyes.
 fn least_of(theme: &Theme, sights: &[Sight]) -> [f64; 5] {
     let mut all = [f64::INFINITY; 5];
     for sight in sights {
@@ -83,9 +83,9 @@ const ALL: &[Sight] = &[
     Sight::Tritanopia,
 ];
 
-/// The numbers of the table at [`Theme`], which this keeps true: a colour that is changed changes them, for better or worse.
+/// Checks the numbers in the table at [`Theme`]. A change of a colour changes them, for better or worse.
 #[test]
-fn colours_that_can_meet_are_as_far_apart_as_told() {
+fn distances_between_colours_are_those_of_the_documentation() {
     let described = [
         (Theme::thesis(), FULL, [13.1, 24.9, 35.5, 33.1, 38.8]),
         (
@@ -104,9 +104,10 @@ fn colours_that_can_meet_are_as_far_apart_as_told() {
     }
 }
 
-/// What the themes are for, in plain bounds: a grey print of `paper` and any eyes on `colourblind` tell everything apart.
+/// The purpose of the themes as simple bounds. All colours differ in a grey print of `paper`, and for any eyes with
+/// `colourblind`.
 #[test]
-fn the_themes_keep_what_they_promise() {
+fn the_themes_fulfil_their_purpose() {
     for theme in [Theme::paper(), Theme::colourblind(), Theme::dark()] {
         assert!(
             least_of(&theme, FULL).iter().all(|d| *d > 15.0),
@@ -122,14 +123,14 @@ fn the_themes_keep_what_they_promise() {
             "{theme:?}"
         );
     }
-    // The measure sees what is wrong: the source's red is one of its greens in grey.
+    // The measure detects a bad theme: the red of the reference has the same grey as one of its greens.
     let printed = Theme {
         failure: Colour::hex(0xff0000),
         ..Theme::thesis()
     };
     assert!(least(&printed, Sight::Grey).failure < 0.5);
     assert!(least(&Theme::thesis(), Sight::Grey).failure > 12.0);
-    // Robots beside each other too, and arrows that read as black on the page of `paper`.
+    // Two robots next to each other differ too, and the arrows appear black on the page of `paper`.
     let paper = Theme::paper();
     assert!((lightness(paper.robot(0)) - lightness(paper.robot(1))).abs() > 13.0);
     assert!(paper.arrows.iter().all(|a| lightness(*a) < 35.0));
@@ -141,7 +142,7 @@ fn the_themes_keep_what_they_promise() {
 }
 
 #[test]
-fn more_is_darker_on_a_light_page_and_lighter_on_a_dark_one() {
+fn larger_amplitudes_are_darker_on_a_light_page_and_lighter_on_a_dark_page() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
         let towards = (lightness(theme.ink) - lightness(theme.page)).signum();
@@ -150,9 +151,9 @@ fn more_is_darker_on_a_light_page_and_lighter_on_a_dark_one() {
             let step = towards * (lightness(pair[1]) - lightness(pair[0]));
             assert!(step > -0.4, "{name}: {pair:?}");
         }
-        let whole = lightness(theme.amplitudes[255]) - lightness(theme.amplitudes[0]);
-        assert!(towards * whole > 50.0, "{name}: {whole}");
-        // The mark of what falls is told from that of what stands in a grey print.
+        let range = lightness(theme.amplitudes[255]) - lightness(theme.amplitudes[0]);
+        assert!(towards * range > 50.0, "{name}: {range}");
+        // In a grey print, the mark of unstable blocks differs from the mark of stable blocks.
         let marks = lightness(theme.stands) - lightness(theme.falls);
         assert!(marks.abs() > 10.0, "{name}: {marks}");
         assert!(
@@ -166,7 +167,7 @@ fn more_is_darker_on_a_light_page_and_lighter_on_a_dark_one() {
 }
 
 #[test]
-fn letters_are_legible_on_whatever_they_can_lie_on() {
+fn letters_are_legible_on_every_possible_background() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
         let plain = [theme.page, theme.ground, theme.block];
@@ -196,12 +197,12 @@ fn letters_are_legible_on_whatever_they_can_lie_on() {
             assert!(reads >= 4.5, "{name}: {reads} of {}", words.css());
         }
     }
-    // The measure sees letters that do not read.
+    // The measure detects letters that are not legible.
     assert!(contrast(Colour::hex(0x999999), Colour::WHITE) < 4.5);
 }
 
 #[test]
-fn what_stands_and_what_falls_can_be_read_on_every_page() {
+fn the_marks_of_verdicts_are_legible_on_every_page() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
         for mark in [
@@ -218,7 +219,7 @@ fn what_stands_and_what_falls_can_be_read_on_every_page() {
 }
 
 #[test]
-fn every_theme_reads_back_from_what_is_written_of_it() {
+fn every_theme_can_be_written_and_read_again() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
         let text = theme.to_json();
@@ -227,7 +228,7 @@ fn every_theme_reads_back_from_what_is_written_of_it() {
             Ok(theme.clone()),
             "{text}"
         );
-        // Everything is reported: the theme it is read upon makes no difference.
+        // The file contains every value, so the base theme has no influence.
         for base in Theme::NAMES {
             let base = Theme::named(base);
             assert_eq!(
@@ -251,7 +252,7 @@ fn every_theme_reads_back_from_what_is_written_of_it() {
 }
 
 #[test]
-fn a_file_changes_what_it_tells_and_nothing_else() {
+fn a_style_file_changes_only_the_values_it_contains() {
     let json = r##"{ "theme": "paper", "failure": "#d00", "robots": ["#abcdef"], "amplitudes": ["#000", "#ffffff"],
         "widths": { "casing": 0, "force": 0.08 }, "sizes": { "title": 30 } }"##;
     let toml = "theme = \"paper\"\nfailure = '#d00'\nrobots = ['#abcdef'] # one\namplitudes = ['#000', '#ffffff']\n\
@@ -274,7 +275,7 @@ fn a_file_changes_what_it_tells_and_nothing_else() {
     for (text, notation) in [(json, Notation::Json), (toml, Notation::Toml)] {
         assert_eq!(Theme::read(text, notation, None), Ok(expected.clone()));
     }
-    // A theme that is asked for goes before the one that the file names.
+    // A requested theme takes precedence over the theme that the file names.
     let dark = Theme::read(json, Notation::Json, Some(&Theme::dark())).expect("sound");
     assert_eq!(
         (dark.page, dark.failure),
@@ -286,7 +287,7 @@ fn a_file_changes_what_it_tells_and_nothing_else() {
 }
 
 #[test]
-fn all_that_is_wrong_is_told_at_once_with_its_place() {
+fn all_problems_of_a_style_file_are_reported_at_once_with_their_places() {
     let text = r##"{ "theme": "drak", "failur": "#d00", "page": "white", "ink": 7, "arrows": [], "robots": ["#12", "#123456"],
         "amplitudes": "virdis", "widths": { "forec": 1, "force": 0, "robot": "thick" }, "sizes": 12, "page": "#fff" }"##;
     let problems = Theme::read(text, Notation::Json, None).expect_err("wrong");
@@ -325,7 +326,7 @@ fn all_that_is_wrong_is_told_at_once_with_its_place() {
 }
 
 #[test]
-fn texts_that_are_no_style_are_refused_in_words() {
+fn texts_that_are_not_a_style_are_refused_with_a_reason() {
     for (text, notation, words) in [
         ("{ \"page\": }", Notation::Json, "line 1"),
         ("a = 1\nb = ", Notation::Toml, "line 2"),

@@ -62,7 +62,7 @@ fn an_animated_png_begins_with_its_first_picture_and_counts_all() {
 }
 
 #[test]
-fn what_cannot_be_shown_is_refused_with_its_reason() {
+fn animations_that_cannot_be_shown_are_refused_with_a_reason() {
     let fonts = Fonts::default();
     let refused = |steps: &[Step]| {
         gif(steps, Size::Natural, &fonts)
@@ -79,7 +79,7 @@ fn what_cannot_be_shown_is_refused_with_its_reason() {
 }
 
 #[test]
-fn many_colours_are_reduced_to_like_ones() {
+fn many_colours_are_reduced_to_similar_ones() {
     let squares: String = (0..900)
         .map(|n| {
             let (x, y) = (n % 30, n / 30);

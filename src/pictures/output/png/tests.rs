@@ -1,4 +1,5 @@
-//! What pictures show, how they are compressed, and that an SVG for pixels alone shows the same as a full one.
+//! Tests of the content of pictures and of their compression. An SVG written only for pixels must give the same
+//! picture as the full SVG.
 
 use super::*;
 use crate::drawing::{
@@ -18,7 +19,7 @@ fn words(words: &str, face: Face) -> String {
     })
 }
 
-/// Share of dark pixels.
+/// The fraction of dark pixels.
 fn ink(svg: &str) -> f64 {
     let bytes = render(svg, Size::Natural).expect("a picture");
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
@@ -30,7 +31,7 @@ fn ink(svg: &str) -> f64 {
 }
 
 #[test]
-fn every_face_leaves_ink_and_bold_leaves_more() {
+fn every_face_draws_letters_and_bold_faces_are_darker() {
     for face in Face::ALL {
         assert!(ink(&words("Block 3", face)) > 0.02, "{face:?}");
     }
@@ -40,7 +41,7 @@ fn every_face_leaves_ink_and_bold_leaves_more() {
 }
 
 #[test]
-fn characters_no_font_has_leave_a_question_mark_and_no_box() {
+fn characters_in_no_font_become_a_question_mark() {
     let picture = |text: &str, face| render(&words(text, face), Size::Natural).expect("a picture");
     for face in [Face::Serif, Face::Sans] {
         for unknown in ["石", "🪨", "ア", "\u{e000}", "لوح"] {
@@ -60,10 +61,10 @@ fn decoded(bytes: Vec<u8>) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_has_the_pixels_drawn_however_it_is_packed() {
+fn compression_does_not_change_the_pixels() {
     let ramp = "<linearGradient id='r'><stop stop-color='#f00'/><stop offset='0.5' stop-color='#0f0'/><stop offset='1' stop-color='#00f'/></linearGradient>\
                 <rect width='600' height='40' fill='url(#r)'";
-    // A table of few colours, some half clear; many opaque ones; many half clear ones.
+    // A palette with a translucent colour; many opaque colours; many translucent colours.
     for (inside, colour_type) in [
         (
             "<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(),
@@ -97,7 +98,7 @@ fn the_same_text_gives_the_same_bytes() {
 }
 
 #[test]
-fn absurd_sizes_and_foreign_text_are_refused_in_words() {
+fn impossible_sizes_and_invalid_text_are_refused_with_a_reason() {
     let svg = words("x", Face::Serif);
     for size in [
         Size::Width(0),
@@ -158,7 +159,7 @@ fn shapes() -> Vec<Item> {
             .cased(Colour::WHITE, 2.5)
             .with_opacity(0.625)
             .into(),
-        // Nothing, and nearly nothing.
+        // A path without area and an empty path.
         Path::filled(Outline::line([p(1.0, 1.0), p(9.0, 1.0)]), ink).into(),
         Path::filled(Outline::default(), ink).into(),
         within

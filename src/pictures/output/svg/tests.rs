@@ -1,4 +1,4 @@
-//! Numbers that are none, hostile words, and names of several figures on a page.
+//! Tests of numbers that are not finite, of hostile text, and of the identifiers of several figures on a page.
 
 use super::*;
 
@@ -17,7 +17,7 @@ fn page(items: Vec<Item>) -> Drawing {
 
 #[test]
 #[should_panic(expected = "every number of a drawing is finite")]
-fn a_number_that_is_none_is_refused() {
+fn a_number_that_is_not_finite_is_refused() {
     write(&page(vec![
         Path::filled(
             Outline::circle(PagePoint::new(f64::NAN, 0.0), 1.0),
@@ -28,7 +28,7 @@ fn a_number_that_is_none_is_refused() {
 }
 
 #[test]
-fn hostile_words_stay_words() {
+fn hostile_text_is_escaped() {
     let nasty = "</text><script>'\"&\u{0}\u{1b}\u{fffe}\u{1ffff}石🪨";
     let text = Text::new(
         PagePoint::new(0.0, 9.0),
@@ -52,7 +52,7 @@ fn hostile_words_stay_words() {
 }
 
 #[test]
-fn names_carry_the_mark_of_their_figure() {
+fn figures_have_different_identifiers() {
     let clipped = |x: f64| {
         let clip = Some(PageRect {
             at: PagePoint::new(x, 0.0),

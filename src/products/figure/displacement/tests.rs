@@ -42,7 +42,7 @@ fn displaced_blocks_keep_their_areas_and_sides() {
 }
 
 #[test]
-fn no_block_overlaps_another_anywhere_along_the_way() {
+fn no_block_overlaps_another_during_the_displacement() {
     for scene in falling() {
         let analysis = Analysis::new(&scene).elementary();
         let course = Course::new(&analysis, 0, unit(&scene, None));
@@ -68,7 +68,7 @@ fn no_block_overlaps_another_anywhere_along_the_way() {
 }
 
 #[test]
-fn hinges_stay_closed_along_the_way() {
+fn hinges_stay_closed_during_the_displacement() {
     let scene = &falling()[0];
     let analysis = Analysis::new(scene).elementary();
     let displaced = Course::new(&analysis, 0, unit(scene, None)).at(1.0);
@@ -88,11 +88,11 @@ fn hinges_stay_closed_along_the_way() {
 }
 
 #[test]
-fn a_rotation_leaves_its_centre_and_all_distances_and_can_be_taken_back() {
+fn a_rotation_keeps_its_centre_and_all_distances_and_can_be_inverted() {
     let centroid = Point::new(3.0, 2.0);
     let corner = Point::new(4.0, 1.0);
     for spin in [0.8, -1e-9, 0.0] {
-        // Turning about the corner: the velocity of the centroid is spin × arm.
+        // The block rotates about the corner: the velocity of the centroid is spin × arm.
         let velocity = if spin == 0.0 {
             Vector::new(1.0, -0.5)
         } else {
@@ -117,7 +117,7 @@ fn a_rotation_leaves_its_centre_and_all_distances_and_can_be_taken_back() {
 }
 
 #[test]
-fn a_small_block_beside_a_large_scene_is_not_whirled_about() {
+fn a_small_block_far_from_a_large_block_does_not_rotate_too_far() {
     let brick = |id: &str, x: f64, size: f64| {
         format!(
             r#"{{ "id": "{id}", "weight": 6,
@@ -126,7 +126,7 @@ fn a_small_block_beside_a_large_scene_is_not_whirled_about() {
             x + size
         )
     };
-    // Each stands with a third of its width on its own piece of ground, and tips.
+    // Only the left third of each block stands on ground, so the block tips.
     let ground = |x: f64, size: f64| {
         format!(
             r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#,

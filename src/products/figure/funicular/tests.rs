@@ -1,4 +1,4 @@
-//! What lines of thrust do in structures known by hand.
+//! Tests of lines of thrust in structures whose lines are known by hand.
 
 use super::*;
 use crate::analysis::Analysis;
@@ -13,13 +13,14 @@ fn of(scene: &Scene) -> Vec<ThrustSegment> {
 }
 
 #[test]
-fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_centroid() {
+fn in_an_arch_the_line_bends_above_or_below_the_centroid_of_each_voussoir() {
     let scene = scene(include_str!("../../../../assets/study/arch-27.json"));
     let segments = of(&scene);
     let mut bends = 0;
     for pair in segments.chunk_by(|a, b| a.on == b.on) {
         let [a, b] = pair else {
-            // Low down the thrust is so steep that it meets the weight outside the voussoir: there it is schematic.
+            // Near the springing the thrust is so steep that it meets the weight outside the voussoir. There the line
+            // is schematic.
             assert!(pair.len() == 1 && !pair[0].through, "{pair:?}");
             continue;
         };
@@ -34,17 +35,17 @@ fn in_an_arch_the_line_runs_from_joint_to_joint_and_bends_in_line_with_each_cent
 }
 
 #[test]
-fn a_torque_moves_a_robots_line_aside() {
+fn a_torque_moves_the_line_of_a_robot_sideways() {
     let scene = scene(
         r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,2],[0,2]], "weight": 8 } ],
              "robots": [ { "id": "r", "limits": { "torque": 100 } } ],
              "steps": [ { "place": ["a"], "hold": { "r": { "block": "a", "at": [3, 1] } } } ] }"#,
     );
-    // 8 N at the grip with −8 N·m about it act along the line through the centroid: nothing is left to bend.
+    // 8 N at the grip and −8 N·m about it act along the line through the centroid, so the line does not bend.
     assert!(of(&scene).iter().all(|s| (s.from.x - 2.0).abs() < 1e-6));
 }
 
-/// A beam of 30 N on two posts, loaded.
+/// A beam of 30 N on two posts, with loads.
 fn beam(loads: &str) -> Scene {
     scene(&format!(
         r#"{{ "drystone": 1, "friction": 0.7,
@@ -55,7 +56,7 @@ fn beam(loads: &str) -> Scene {
 }
 
 #[test]
-fn in_a_loaded_beam_its_reactions_and_its_load_meet_in_one_point() {
+fn in_a_loaded_beam_the_reactions_and_the_load_meet_in_one_point() {
     let segments = of(&beam(
         r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
     ));
@@ -71,7 +72,7 @@ fn in_a_loaded_beam_its_reactions_and_its_load_meet_in_one_point() {
 }
 
 #[test]
-fn the_line_has_no_gap_at_any_joint_that_presses() {
+fn the_line_has_no_gap_at_any_joint_in_compression() {
     for text in [
         include_str!("../../../../assets/study/arch-27.json"),
         include_str!("../../../../tests/scenes/archload.json"),
@@ -102,14 +103,15 @@ fn the_line_has_no_gap_at_any_joint_that_presses() {
 }
 
 #[test]
-fn a_load_bends_the_line_where_its_own_line_meets_it() {
+fn a_load_bends_the_line_of_thrust_on_its_line_of_action() {
     let scene = scene(
         r#"{ "drystone": 1, "friction": 0.7, "ground": [ { "polygon": [[0,-1],[4,-1],[4,0],[0,0]] } ],
              "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,4],[0,4]], "weight": 40 } ],
              "loads": [ { "block": "a", "force": [10, 0], "at": [0, 3] } ] }"#,
     );
     let segments = of(&scene);
-    // 40 N down through x = 2 and 10 N at height 3 meet in (2, 3); from there the ground is reached at (2.75, 0).
+    // 40 N down through x = 2 and 10 N at height 3 meet at (2, 3). From there the line reaches the ground at (2.75,
+    // 0).
     let [main, load] = &segments[..] else {
         panic!("{segments:?}")
     };
@@ -138,6 +140,6 @@ fn a_stack_is_one_straight_line() {
             .all(|s| (s.from.x - 1.0).abs() + (s.to.x - 1.0).abs() < 1e-6)
     );
     let along: f64 = segments.iter().map(|s| (s.to - s.from).norm()).sum();
-    // Through the lower block and up to the centroid of the upper one.
+    // The line runs through the lower block and up to the centroid of the upper block.
     assert!((along - 2.0).abs() < 1e-6, "{segments:?}");
 }

@@ -175,7 +175,7 @@ fn layers_decide_what_is_read() {
 }
 
 #[test]
-fn texts_that_are_no_dxf_are_refused_with_the_reason() {
+fn texts_that_are_not_dxf_are_refused_with_a_reason() {
     for (text, why) in [
         ("AutoCAD Binary DXF\r\n", "binary DXF"),
         ("<svg/>", "line 1 is not a DXF group code"),
