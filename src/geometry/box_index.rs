@@ -298,7 +298,8 @@ mod tests {
         Aabb { min: at, max: at }
     }
 
-    /// A hundred needles side by side, all leaning by 45°: their upright boxes meet, the leaning ones do not.
+    /// A hundred parallel needles, all inclined by 45°. Their axis-parallel boxes intersect, the boxes with diagonals
+    /// do not.
     #[test]
     fn inclined_needles_do_not_intersect() {
         let needle = |n: usize| {
@@ -333,7 +334,7 @@ mod tests {
         }
     }
 
-    /// Boxes of several sizes with corners in whole numbers, so that many only touch.
+    /// Boxes of several sizes with integer corners, so that many boxes only touch.
     #[test]
     fn exactly_the_boxes_that_share_a_point_are_found() {
         let mut seed = 1_u64;

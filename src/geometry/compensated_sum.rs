@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sums_keep_what_large_forces_hide() {
+    fn small_terms_are_not_lost_in_large_ones() {
         let mut sum = CompensatedSum::default();
         for value in [1e16, 1.0, -1e16, 1e-16] {
             sum.add(value);
@@ -52,9 +52,9 @@ mod tests {
         assert_eq!(sum.value(), -f64::EPSILON * f64::EPSILON);
     }
 
-    /// Whole numbers of 50 binary digits with products of 100: the exact sums fit into 128.
+    /// Integers of 50 bits have products of 100 bits. Their exact sum fits into 128 bits.
     #[test]
-    fn sums_of_products_are_those_of_whole_numbers() {
+    fn sums_of_products_agree_with_integer_arithmetic() {
         let mut seed = 3_u64;
         let mut any = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -69,7 +69,7 @@ mod tests {
                 exact += i128::from(a) * i128::from(b) + i128::from(c);
                 size += (a as f64 * b as f64).abs();
             }
-            // What is left when almost all of it is taken away again.
+            // Subtract almost the entire sum, and compare what remains.
             let near = exact as f64;
             sum.add(-near);
             let left = (exact - near as i128) as f64;

@@ -59,7 +59,7 @@ mod tests {
     fn a_quarter_turn_goes_anticlockwise() {
         assert_eq!(quarter_turn(Vector::new(2.0, 5.0)), Vector::new(-5.0, 2.0));
         assert_eq!(quarter_turn(Vector::new(3.0, 0.0)), Vector::new(0.0, 3.0));
-        // Four make a whole, and a vector has its whole length as the arm of its turned self.
+        // Four quarter turns give the same vector. A vector and its quarter turn span the square of its length.
         let v = Vector::new(-0.3, 7.0);
         assert_eq!(quarter_turn(quarter_turn(quarter_turn(quarter_turn(v)))), v);
         assert_eq!(cross(v, quarter_turn(v)), v.norm_squared());

@@ -92,8 +92,8 @@ mod tests {
     }
 
     #[test]
-    fn edges_touch_within_a_millionth_of_the_reach() {
-        // A house of 20 m from bricks of half a metre; and two of them a thousand kilometres apart.
+    fn the_gap_is_a_millionth_of_the_extent_or_a_thousandth_of_the_block() {
+        // A house of 20 m made of bricks of half a metre, and two such bricks a thousand kilometres apart.
         assert!(close(Tolerance::new(20.0, 0.5).gap, 20e-6));
         assert!(close(Tolerance::new(1e6, 0.5).gap, 500e-6));
         assert_eq!(Tolerance::new(0.0, 0.0).gap, 0.0);
@@ -103,7 +103,7 @@ mod tests {
     fn the_shortest_stretch_is_a_quarter_of_the_gap_or_a_thousandth_of_the_edge() {
         let written = Tolerance::from_gap(0.004);
         assert!(close(written.min_length, 0.001) && close(written.rounding, 0.001));
-        // As long as nothing is known of the coordinates, they may be off by as much as counts as touching.
+        // While the rounding of the coordinates is unknown, the limit from the gap applies.
         assert!(close(written.min_contact_length(0.1), 0.001));
         let known = written.with_rounding(2e-5);
         assert_eq!((known.gap, known.angle), (written.gap, written.angle));
@@ -113,7 +113,7 @@ mod tests {
             close(known.min_contact_length(1e-3), 5e-6),
             "the rounding of coordinates"
         );
-        // Rounding never asks for more than the gap does.
+        // A large rounding does not make the minimum longer than the gap does.
         assert!(close(
             written.with_rounding(1.0).min_contact_length(3.0),
             0.001

@@ -203,7 +203,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_keeps_its_length_and_nothing_that_acts() {
+    fn a_line_keeps_its_length_but_no_control_characters() {
         let hostile = "a\u{1b}[31m\tb\r\n\u{9b}c\u{202e}d\u{2028}e\u{0}";
         assert_eq!(
             line(hostile),
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn xml_has_no_marks_and_no_forbidden_code_points() {
+    fn xml_escapes_markup_and_drops_forbidden_code_points() {
         assert_eq!(
             xml("<a b='\"'>&\u{fffe}\u{1ffff}\n"),
             "&lt;a b=&#39;&quot;&#39;&gt;&amp; "
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn markdown_stays_words() {
+    fn markdown_syntax_is_escaped() {
         for (text, written) in [
             ("[a](javascript:b)", "\\[a\\](javascript:b)"),
             ("# a", "\\# a"),
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn annotations_end_where_they_end_and_shells_read_one_word() {
+    fn annotations_stay_on_one_line_and_shells_read_one_word() {
         assert_eq!(github("50 %\n::error::x"), "50 %25%0A::error::x");
         assert_eq!(github_property("a,b:c\n\u{1b}"), "a%2Cb%3Ac \u{fffd}");
         assert_eq!(shell("scenes/arch.json"), "scenes/arch.json");
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_are_text() {
+    fn csv_cells_are_quoted_and_are_never_formulas() {
         assert_eq!(csv("a,\"b\""), "\"a,\"\"b\"\"\"");
         assert_eq!(csv(" =1+1"), "\"' =1+1\"");
         assert_eq!(csv("\t@a\nb"), "\"' @a b\"");

@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_name_is_the_one_meant() {
+    fn the_nearest_name_is_suggested() {
         let keys = ["friction", "kernel", "density", "blocks"];
         for (typed, meant) in [
             ("fricton", Some("friction")),
@@ -126,7 +126,7 @@ mod tests {
         );
     }
 
-    /// The whole table, as the definition has it.
+    /// The complete table, as in the definition.
     fn plain(a: &[char], b: &[char]) -> usize {
         let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
         for i in 0..=a.len() {
@@ -148,9 +148,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_of_the_table_changes_no_distance() {
-        // All words of up to four letters of three, and two of five: every way in which two can begin, end, swap and
-        // differ.
+    fn a_partial_table_gives_the_same_distances() {
+        // All words of up to four letters from an alphabet of three, and two words of five letters. They contain
+        // every case in which two words start or end alike, swap letters, or differ.
         let mut words = vec![String::new()];
         let mut first = 0;
         for _ in 0..4 {

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn endings_decide_the_format_and_may_not_contradict() {
+    fn the_file_extension_gives_the_format_and_must_not_contradict_an_option() {
         let file = |name: &str| Destination::from_path(Path::new(name));
         assert_eq!(file("a/b.PNG").format(None).ok(), Some(Format::Png));
         assert_eq!(

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_worst_is_told_in_the_order_2_4_1_3_0() {
+    fn exit_statuses_from_mild_to_severe_are_0_3_1_4_2() {
         let mut all = [
             ExitStatus::Done,
             ExitStatus::Unstable,

@@ -164,14 +164,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn foreign_words_begin_no_line_and_set_no_colour() {
+    fn foreign_text_cannot_break_lines_or_set_colours() {
         let mut page = Page::new("a\n\u{1b}[31mb\rc");
         page.literal("x\n");
         assert_eq!(page.text(), "a \u{fffd}[31mb c\nx\n");
     }
 
     #[test]
-    fn a_line_wider_than_the_terminal_goes_on_further_in_and_loses_nothing() {
+    fn a_line_wider_than_the_terminal_continues_indented_without_loss() {
         let mut page = Page::default();
         page.styled(Style::new().bold(), "one two");
         page.words(" three ");
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_keeps_lines_and_colours_alone() {
+    fn a_block_keeps_only_line_breaks_and_colours() {
         let mut page = Page::default();
         page.block("\u{1b}[1;31ma\u{1b}[0m\nb\u{1b}[2Jc\u{1b}]0;t\u{7}\u{1b}");
         let kept = "\u{1b}[1;31ma\u{1b}[0m\nb\u{fffd}[2Jc\u{fffd}]0;t\u{fffd}\u{fffd}\n";

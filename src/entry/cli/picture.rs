@@ -305,7 +305,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pages_are_clear_white_or_of_six_digits() {
+    fn a_background_is_none_or_a_colour_of_six_digits() {
         assert_eq!(background("none"), Ok(Background::Clear));
         assert_eq!(
             background("#F4f1ea"),
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_are_numbers_that_a_page_can_have() {
+    fn widths_are_limited_to_possible_pages() {
         assert_eq!(millimetres("84"), Ok(84.0));
         for wrong in ["0", "-84", "nan", "inf", "84mm", "1e9", ""] {
             let refused = millimetres(wrong).expect_err(wrong);

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn margins_count_the_frames_they_decide() {
+    fn the_progress_of_margins_counts_decided_frames() {
         let paper = Paper::default();
         let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
         let progress = Progress::on(1, Duration::ZERO, target);

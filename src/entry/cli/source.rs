@@ -265,7 +265,7 @@ mod tests {
             assert_eq!(typed.parse(), Ok(FrameChoice::Number(number)), "{typed}");
         }
         assert_eq!("last".parse(), Ok(FrameChoice::Last));
-        // A word is no number of some hundred thousand.
+        // The letters of a longer word are not the number of a frame.
         for typed in ["0", "", "-1", "A", "1.5", "abcde", "é", "next", "first"] {
             assert!(typed.parse::<FrameChoice>().is_err(), "{typed}");
         }

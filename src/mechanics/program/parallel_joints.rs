@@ -115,9 +115,9 @@ mod tests {
         Vector::new(libm::cos(angle), libm::sin(angle))
     }
 
-    /// In whatever direction a wall stands, halfway between the axes too.
+    /// The direction of the wall does not matter, not even halfway between the axes.
     #[test]
-    fn what_is_nearly_parallel_or_square_becomes_so_and_nothing_else_turns() {
+    fn nearly_parallel_or_perpendicular_joints_are_aligned_and_no_others() {
         for turn in [0.0, -0.7, 0.3, FRAC_PI_2 / 2.0, -FRAC_PI_2 / 2.0] {
             let off = [1e-6, -2e-6, 5e-7, 0.0, -1e-6];
             let mut directions: Vec<Vector> = (0..5_u8)

@@ -152,7 +152,7 @@ mod tests {
     use crate::scene::format;
     use crate::scene::tree::{Node, NodeKind, Tree};
 
-    /// What serde makes of a text, which knows the types only.
+    /// Reads a text with serde, which knows only the types.
     fn by_types(text: &str) -> Option<SceneFile> {
         format::parse(text)
     }
@@ -178,7 +178,7 @@ mod tests {
             "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
 
     #[test]
-    fn the_tree_and_the_types_read_the_same() {
+    fn both_readers_give_the_same_scene() {
         let file = by_tree(EVERYTHING).expect("it fits");
         assert_eq!(Some(&file), by_types(EVERYTHING).as_ref());
         assert_eq!(by_tree(&file.to_json()), Some(file));
@@ -191,8 +191,8 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_and_the_types_refuse_the_same() {
-        // Every value in turn is replaced, or its key changed.
+    fn both_readers_refuse_the_same_texts() {
+        // Replace every value in turn, and every key.
         let source = Source::parse(EVERYTHING).expect("JSON");
         let mut places = Vec::new();
         let tree = source.tree.as_ref().expect("there");
@@ -218,7 +218,7 @@ mod tests {
                     &EVERYTHING[..range.start],
                     &EVERYTHING[range.end..]
                 );
-                // serde takes the values of an object's keys as a list, too; the format does not.
+                // serde also accepts a list of an object's values instead of the object. The format does not.
                 let is_list = other.starts_with('[') && by_tree(&text).is_none();
                 assert!(is_list || by_tree(&text) == by_types(&text), "{text}");
                 refused += usize::from(by_tree(&text).is_none());

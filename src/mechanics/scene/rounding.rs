@@ -217,7 +217,7 @@ mod tests {
         digits.rounding()
     }
 
-    /// Numbers between −20 and 20 that look like chance.
+    /// Irregular numbers between −20 and 20.
     fn numbers() -> impl Iterator<Item = f64> {
         (1..200).map(|i| 20.0 * libm::sin(f64::from(i * i)))
     }
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn floats_of_32_bits_are_known_in_full_and_in_short() {
+    fn floats_of_32_bits_are_recognised_in_exact_and_in_short_notation() {
         let full = numbers().map(|x| f64::from(x as f32));
         let short = numbers().map(|x| format!("{}", x as f32).parse().unwrap_or(f64::NAN));
         for found in [rounding(full), rounding(short)] {
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_in_full_or_by_hand_with_one_fine_number_is_not_rounded() {
+    fn exact_numbers_and_simple_numbers_with_one_fine_number_are_not_rounded() {
         assert_eq!(rounding(numbers()), None);
         let by_hand = (0..40).map(|i| 0.5 * f64::from(i)).chain([1.000001]);
         assert_eq!(rounding(by_hand), None);

@@ -120,8 +120,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_crossing_is_found_where_the_body_stands() {
-        // A bow tie that crosses at (1, 1), turned by a quarter and moved by (10, 0).
+    fn a_crossing_is_reported_at_the_position_of_the_placed_body() {
+        // A bow tie that crosses itself at (1, 1), rotated by a quarter turn and moved by (10, 0).
         let text = br#"{ "drystone": 1, "blocks": [{ "at": [10, 0], "angle": 90,
             "polygon": [[0, 0], [2, 2], [2, 0], [0, 2]] }] }"#;
         let sketch = Sketch::from_bytes(text, None);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_leaves_the_rest_to_be_drawn() {
+    fn unreadable_parts_do_not_prevent_a_drawing_of_the_rest() {
         let text =
             br#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]], "wieght": 3 },
             { "id": "b", "polygon": "none" }, { "id": "c", "polygon": [[5, 5], [6, 5]] }] }"#;

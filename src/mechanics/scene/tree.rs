@@ -337,7 +337,7 @@ mod tests {
     use crate::scene::format::agrees;
 
     #[test]
-    fn a_text_is_taken_where_serde_json_takes_it_and_means_the_same() {
+    fn the_same_texts_are_accepted_as_by_serde_json_with_the_same_values() {
         let sound = [
             r#"{ "a": [1, -2.5e3, 0, -0, 1E+2, 0.1e-7], "é\n\u00e9\ud83d\ude00\/": { "b": [] }, "c": {} }"#,
             "\t[ true , false, null, \"\", [[[]]], \"\\\"\\\\\\b\\f\\r\\t\" ]\r\n",
@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn brackets_may_be_open_as_deep_as_said() {
+    fn brackets_may_be_nested_up_to_the_limit() {
         let nested = |depth: usize| format!("{}{}", "[".repeat(depth), "]".repeat(depth));
         assert!(parse(&nested(MAX_DEPTH)).is_ok());
         let fault = parse(&nested(MAX_DEPTH + 1)).expect_err("too deep");

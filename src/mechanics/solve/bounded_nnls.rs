@@ -334,8 +334,8 @@ mod tests {
     use crate::interface::ContactKind;
     use crate::program::{ContactTerm, GripTerm, Scale};
 
-    /// A block 2 wide and 1 high, pressed down by 10 at `x` from its middle and pushed by `push` at its centre, on
-    /// ground of friction 0.5.
+    /// A block 2 wide and 1 high, pressed down by 10 at a distance `x` from its middle, and pushed by `push` at its
+    /// centre. The friction coefficient of the ground is 0.5.
     fn block(x: f64, push: f64, grips: Vec<GripTerm>) -> Program {
         let arms = [Vector::new(1.0, -0.5), Vector::new(-1.0, -0.5)];
         Program {
@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_within_the_base_is_balanced_and_one_beyond_it_is_not() {
+    fn a_load_above_the_base_is_balanced_and_a_load_outside_it_is_not() {
         let (rest, amounts) = found(&block(0.25, 1.0, vec![]));
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
         assert!((amounts.normal[0].iter().sum::<f64>() - 10.0).abs() < 1e-9);
@@ -384,13 +384,13 @@ mod tests {
     }
 
     #[test]
-    fn a_limit_is_kept_and_left_again() {
+    fn a_limit_is_never_exceeded() {
         let grip = |limit: f64| GripTerm {
             block: 0,
             arm: Vector::new(0.0, 0.0),
             limits: [limit, 0.0, 0.0],
         };
-        // A push of 9 meets friction of at most 5; the robot must give 4.
+        // Friction resists at most 5 of the push of 9, so the robot must give 4.
         let (rest, amounts) = found(&block(0.0, 9.0, vec![grip(6.0)]));
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
         assert!(amounts.grip[0][0].abs() <= 6.0 + 1e-12);

@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn inside_the_first_octant_a_ray_along_one_axis_is_found() {
+    fn in_the_first_octant_the_extreme_ray_is_an_axis() {
         let rows = rows(&[&[1.0, 0.0, 0.0], &[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]]);
         let power = dense(&[1.0, 2.0, -1.0]);
         let y = extreme_ray(&rows, &power, &[3.0, 1.0, 0.5]).expect("it has power");
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_on_a_ray_stays_there_and_one_without_power_has_none() {
+    fn a_motion_on_an_extreme_ray_stays_there_and_a_motion_without_power_has_no_ray() {
         let rows = rows(&[&[1.0, -1.0], &[0.0, 1.0]]);
         let y = extreme_ray(&rows, &dense(&[1.0, 0.0]), &[2.0, 2.0]).expect("it has power");
         assert!((y[0] - y[1]).abs() < 1e-9 && y[0] > 0.1);
@@ -253,11 +253,11 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_motion_obeys_every_row() {
+    fn the_projection_is_orthogonal_to_every_row() {
         let rows = rows(&[&[1.0, 1.0, 0.0], &[0.0, 1.0, 1.0], &[1.0, 0.0, -1.0]]);
         let y = project_onto_null_space(&rows, &[1.0, 0.0, 0.0]);
         assert!(rows.iter().all(|r| dot(r, &y).abs() < 1e-12));
-        // (1, −1, 1)/√3 spans what is left.
+        // The null space is spanned by (1, −1, 1)/√3.
         assert!((y[0] - 1.0 / 3.0).abs() < 1e-12 && (y[1] + 1.0 / 3.0).abs() < 1e-12);
     }
 }

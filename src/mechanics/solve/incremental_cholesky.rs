@@ -141,7 +141,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A matrix of two chains that share no product but through its last row.
+    /// A matrix of two chains that are coupled only by its last row.
     fn entry(i: usize, j: usize) -> f64 {
         match (i.max(j), i.abs_diff(j)) {
             (_, 0) => 4.0 + 0.3 * i as f64,
@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// Whether x = A⁻¹·v comes out, where A has only these rows and columns.
+    /// True if the factor solves A·x = v, where A consists of these rows and columns of the matrix.
     fn solves(factor: &IncrementalCholesky, kept: &[usize]) -> bool {
         let wanted: Vec<f64> = (0..kept.len()).map(|k| 1.0 - 0.4 * k as f64).collect();
         let row = |i: &usize| -> f64 {
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_come_and_go_in_any_order() {
+    fn rows_can_be_added_and_removed_in_any_order() {
         let add = |factor: &mut IncrementalCholesky, kept: &mut Vec<usize>, i: usize| {
             let products = kept.iter().map(|j| entry(i, *j)).collect();
             assert!(factor.append(products, entry(i, i), 1e-9));
@@ -188,12 +188,12 @@ mod tests {
     }
 
     #[test]
-    fn a_row_that_is_a_sum_of_others_is_refused() {
+    fn a_linearly_dependent_row_is_refused() {
         let mut factor = IncrementalCholesky::default();
         assert!(factor.append(vec![], 1.0, 1e-9));
         assert!(factor.append(vec![0.0], 1.0, 1e-9));
         assert!(!factor.append(vec![1.0, 2.0], 5.0, 1e-9));
         assert_eq!(factor.rows.len(), 2);
-        assert_eq!(factor.rows[1].first, 1, "what is 0 is not kept");
+        assert_eq!(factor.rows[1].first, 1, "leading zeros are not stored");
     }
 }

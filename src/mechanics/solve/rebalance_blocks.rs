@@ -340,7 +340,7 @@ mod tests {
     use crate::interface::ContactKind;
     use crate::program::{ContactTerm, Scale};
 
-    /// Blocks 1 wide and high in a tower, with these weights.
+    /// A tower of blocks with these weights. Each block is 1 wide and 1 high.
     fn tower(weights: &[f64], friction: f64) -> Program {
         let foot = [Vector::new(0.5, -0.5), Vector::new(-0.5, -0.5)];
         let head = [Vector::new(0.5, 0.5), Vector::new(-0.5, 0.5)];
@@ -365,7 +365,7 @@ mod tests {
         }
     }
 
-    /// Forces that balance a tower from the top down, each off by a billionth of the whole.
+    /// Normal forces that carry the weights of a tower, each with an error of about a billionth of the total weight.
     fn rough(weights: &[f64]) -> Amounts {
         let above = |k: usize| weights[k..].iter().sum::<f64>();
         let off = |k: usize| 1e-9 * ((7 * k % 5) as f64 - 2.0) * above(0);
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_block_on_heavy_ones_gets_its_own_digits() {
+    fn a_light_block_on_heavy_blocks_is_balanced_relative_to_its_own_weight() {
         let weights = [300.0, 300.0, 1.0, 1e-4, 1e-5];
         let program = tower(&weights, 0.5);
         let start = rough(&weights);
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn a_correction_balances_and_pulls_nowhere() {
+    fn a_correction_balances_without_tension() {
         let program = tower(&[1.0], 0.0);
         let start = Amounts {
             normal: vec![[0.9, 0.0]],
@@ -403,7 +403,7 @@ mod tests {
         for normal in found.normal[0] {
             assert!((normal - 0.5).abs() < 1e-12, "{normal}");
         }
-        // Pushed up, it has no balance.
+        // A block that is pulled upward has no balance.
         let mut lifted = program.clone();
         lifted.loads[1] = -1.0;
         assert!(rebalance_absolute(&lifted, &start, &mut effort).is_none());

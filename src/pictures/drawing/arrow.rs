@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn from_tail_to_tip_an_arrow_is_as_long_as_it_is_told_to_be() {
+    fn an_arrow_has_the_requested_length_from_tail_to_tip() {
         for length in [0.01, 0.5, 3.0, 8.9, 9.0, 9.1, 40.0, 1e4] {
             assert!((reach((0.0, -length), 2.0) - length).abs() < 1e-9 * length);
             assert!((reach((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn below_the_heads_own_length_the_head_shrinks_with_the_arrow() {
+    fn an_arrow_shorter_than_its_head_gets_a_smaller_head() {
         assert_eq!(head_size(100.0, 2.0), (9.0, 6.0));
         assert_eq!(head_size(4.5, 2.0), (4.5, 3.0));
         let wide = |length: f64| {

@@ -174,8 +174,8 @@ fn between([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Pairs of the supplement to Sharma, Wu and Dalal (2005), chosen for the corners of the formula: blue, hues on
-    /// either side of 0, greys, large distances, and near black.
+    /// Pairs of colours from the supplement to Sharma, Wu and Dalal (2005), for the special cases of the formula:
+    /// blue, hues on either side of 0, greys, large distances, and near black.
     #[test]
     fn differences_are_those_published() {
         let pairs = [
@@ -215,7 +215,7 @@ mod tests {
     fn lightness_runs_from_black_to_white() {
         assert!(lightness(Colour::BLACK).abs() < 1e-9);
         assert!((lightness(Colour::WHITE) - 100.0).abs() < 1e-4);
-        // Red, as every table of sRGB has it.
+        // Red, from published tables of sRGB.
         let [l, a, b] = lab(Colour::hex(0xff0000));
         assert!((l - 53.24).abs() < 0.01 && (a - 80.09).abs() < 0.02 && (b - 67.20).abs() < 0.02);
         assert!(
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn greys_look_alike_to_all_and_a_grey_print_keeps_the_lightness() {
+    fn all_eyes_see_greys_unchanged_and_a_grey_print_keeps_the_lightness() {
         use Sight::{Deuteranopia, Full, Grey, Protanopia, Tritanopia};
         for value in [0, 40, 128, 200, 255] {
             let grey = Colour([value; 3]);

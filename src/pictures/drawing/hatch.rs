@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_keep_inside_and_out_of_holes() {
+    fn lines_lie_inside_the_outline_and_outside_holes() {
         let square = |from: f64, to: f64| {
             vec![
                 PagePoint::new(from, from),

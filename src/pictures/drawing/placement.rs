@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slanting_line_bars_what_it_crosses_and_not_its_box() {
+    fn an_inclined_line_blocks_labels_that_it_crosses_not_its_bounding_box() {
         let mut ink = Ink::default();
         ink.line(PagePoint::new(0.0, 0.0), PagePoint::new(100.0, 100.0), 2.0);
         assert!(!ink.clear(centred(PagePoint::new(50.0, 52.0), (10.0, 10.0))));
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_keep_clear_of_each_other_and_those_far_off_get_a_leader() {
+    fn labels_do_not_overlap_and_distant_labels_get_a_leader() {
         let requests = vec![request(50.0, 50.0); 12];
         let placed = place(&mut Ink::default(), PAGE, &requests);
         let rects: Vec<Placed> = placed.into_iter().flatten().collect();

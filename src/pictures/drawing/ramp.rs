@@ -50,13 +50,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_name_has_its_ramp_and_no_other_has_one() {
+    fn only_known_names_have_a_ramp() {
         for name in NAMES {
             let ramp = named(name).expect(name);
             assert_eq!(ramp.len(), LENGTH, "{name}");
         }
         assert_eq!(named("jet"), None);
-        // The ends as matplotlib prints them.
+        // The first and the last colour as printed by matplotlib.
         let ends = |name| named(name).map(|r| (r[0], r[255]));
         assert_eq!(
             ends("viridis"),
@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn stops_are_met_and_as_many_stops_as_colours_are_the_colours() {
+    fn a_ramp_contains_its_stops() {
         let viridis = named("viridis").expect("known");
         assert_eq!(between(&viridis), viridis);
         let two = between(&[Colour::BLACK, Colour::WHITE]);

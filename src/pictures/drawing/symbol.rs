@@ -200,7 +200,7 @@ mod tests {
     use crate::drawing::Item;
 
     #[test]
-    fn small_signs_widen_a_symbol_and_stand_one_above_the_other() {
+    fn subscripts_widen_a_symbol_and_superscripts_stand_above_them() {
         let plain = Symbol::new("F", Accent::Arrow, "");
         let below = Symbol::new("F", Accent::Arrow, "fl1");
         let both = below.clone().raised("(2)");

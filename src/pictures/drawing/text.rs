@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_grow_with_size_and_words_and_know_the_letters() {
+    fn widths_depend_on_the_letters_and_are_proportional_to_the_size() {
         for face in Face::ALL {
             assert!(
                 width("W", face, 20.0) > 2.0 * width("i", face, 20.0),
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn balanced_lines_are_as_few_and_leave_no_word_alone() {
+    fn balanced_lines_are_not_more_and_leave_no_word_alone() {
         let words = "A flying buttress that takes a vault's thrust";
         let greedy = wrap(words, Face::SerifBold, 20.0, 380.0);
         let balanced = balanced(words, Face::SerifBold, 20.0, 380.0, 5);
@@ -372,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn every_character_that_our_own_words_use_is_in_every_face() {
+    fn every_face_has_all_characters_of_our_own_texts() {
         let ours = "ABCXYZabcxyz0123456789 .,;:·–—…()[]|/+-−×=±°²³½≤≥→∑√μΣφθ∞“”‘’□";
         for face in Face::ALL {
             for c in ours.chars() {

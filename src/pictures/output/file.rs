@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_whole_and_nothing_is_left_beside_it() {
+    fn a_file_is_replaced_completely_and_no_other_file_is_left() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("picture.svg");
         for bytes in [b"first, and longer".to_vec(), b"second".to_vec()] {
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn one_bad_place_leaves_all_places_as_they_were() {
+    fn if_one_file_cannot_be_written_no_file_changes() {
         let folder = tempfile::tempdir().expect("a folder");
         let good = folder.path().join("good.svg");
         fs::write(&good, "before").expect("writable");
@@ -296,7 +296,7 @@ mod tests {
             assert_eq!(
                 fs::read_dir(folder.path()).expect("listed").count(),
                 1,
-                "nothing is left lying about"
+                "no temporary file is left"
             );
         }
     }
@@ -332,7 +332,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn one_file_is_known_by_all_its_names() {
+    fn all_names_of_one_file_are_recognised() {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
         fs::write(at("a"), "").expect("writable");

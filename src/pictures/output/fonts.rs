@@ -96,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_no_font_has_is_spelled_out_and_two_names_stay_two() {
+    fn characters_in_no_font_are_spelled_out_so_that_names_stay_different() {
         let fonts = Fonts::default();
         let names = ["石", "塔", "لوح", "पत्थर", "돌", "🪨", "a\u{202e}b", "\u{7}"];
         let mut spelled: Vec<String> = names

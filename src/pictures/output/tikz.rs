@@ -256,7 +256,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hostile_words_are_words_and_braces_pair() {
+    fn hostile_text_is_escaped_and_braces_are_balanced() {
         let nasty = "\\input{/etc/passwd} 50 % of #1 $x_2^3$ & ~ {{ } |<>\" 2×10⁻³ N·m\u{7}\n";
         let escaped = escaped(nasty);
         assert!(!escaped.contains("\\input") && !escaped.contains('\n'));

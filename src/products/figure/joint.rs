@@ -158,7 +158,8 @@ mod tests {
         let (_, joints) = of(include_str!("../../../assets/study/arch-27-thin.json"));
         assert!(joints.iter().all(|j| j.slip == 0.0));
         let mut hinges: Vec<Point> = joints.iter().filter_map(|j| j.hinge).collect();
-        // From one springing to the other; the arch is a half circle about the origin with a centreline of radius 1.
+        // Sorted from one springing to the other. The arch is a half circle about the origin, and its centreline has
+        // radius 1.
         let angle = |p: &Point| libm::atan2(p.y, -p.x);
         hinges.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
         let mut outside: Vec<bool> = hinges.iter().map(|p| p.coords.norm() > 1.0).collect();

@@ -342,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn only_all_of_it_is_100_percent() {
+    fn only_a_complete_share_is_100_percent() {
         let plain = |share: f64| percent(share).replace(NO_BREAK, " ");
         assert_eq!(plain(1.0 - 1e-9), "100 %");
         assert_eq!(plain(0.9999), "over 99 %");
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn round_numbers_lie_below() {
+    fn round_numbers_are_never_above_the_value() {
         for (value, expected) in [
             (9.99, 5.0),
             (5.0, 5.0),

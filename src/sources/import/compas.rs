@@ -222,7 +222,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// A box as `compas_assembly` writes it.
+    /// A box as written by `compas_assembly`.
     fn block(x: f64, z: f64, lean: f64) -> Value {
         let at = |i: usize| {
             let bits = [i & 1, (i >> 1) & 1, (i >> 2) & 1].map(|b| b as f64);
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_that_is_no_prism_is_named() {
+    fn a_block_that_is_not_a_prism_is_reported_by_name() {
         let problems =
             read(&assembly(block(0.0, 1.0, 0.3)), &Options::default()).expect_err("leans");
         assert!(

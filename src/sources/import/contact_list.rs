@@ -235,7 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_and_json_say_the_same() {
+    fn rows_and_json_give_the_same_contacts() {
         let rows = "x, y, mass\n25, 35, 2\n66 42 5 # the second\ncontact; 1; 2; 60; 60; pi; 0.5\n\
             1,0,0,0,pi/2,0.1\n2 0 60 0 1.5708 0.5\n[2, 0, 72, 0, 0.5*pi, 0.5]\n";
         let json = r#"{ "bodies": [[25, 35, 2], { "centre": [66, 42], "mass": 5 }],

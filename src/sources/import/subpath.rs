@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_track_is_none_unless_its_ends_nearly_meet() {
+    fn an_open_subpath_is_an_outline_only_if_its_ends_nearly_meet() {
         let mut subpath = Subpath::closed(
             &[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)),
         )

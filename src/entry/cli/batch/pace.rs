@@ -149,7 +149,7 @@ mod tests {
     use super::span;
 
     #[test]
-    fn times_are_said_in_two_units_at_most() {
+    fn times_are_written_in_at_most_two_units() {
         for (seconds, words) in [
             (0.4, "0 s"),
             (59.6, "1 min 0 s"),

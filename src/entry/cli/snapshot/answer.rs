@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pictures_are_sent_whole_and_only_where_they_are_shown() {
+    fn pictures_are_sent_completely_and_only_to_terminals_that_show_them() {
         let png: Vec<u8> = (0..10_000u32).map(|i| i as u8).collect();
         assert!(drawn(&png, Pictures::None).is_empty());
         let inline = String::from_utf8(drawn(&png, Pictures::Inline)).expect("ASCII");

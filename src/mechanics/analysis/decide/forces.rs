@@ -193,7 +193,7 @@ mod tests {
 
     /// A block of 2 N on the ground needs no robot: 2 N suffice. If the robot presses with 2 N, the sum is 6 N.
     #[test]
-    fn only_forces_that_reach_the_bound_are_said_to_be_the_least() {
+    fn only_forces_that_reach_the_bound_are_reported_as_the_least() {
         let scene = Scene::from_json(
             r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
                 "blocks": [{ "id": "a", "polygon": [[1, 0], [2, 0], [2, 1], [1, 1]], "weight": 2 }],

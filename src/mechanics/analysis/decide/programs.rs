@@ -250,7 +250,8 @@ mod tests {
     use crate::program::Scale;
     use crate::scene::{BlockId, Scene};
 
-    /// A proved motion that does little work is no verdict: forces that no program has looked for may balance.
+    /// A proved motion that does little work is not a verdict, because forces that no program has computed may
+    /// balance.
     #[test]
     fn a_weak_motion_without_a_program_that_excludes_a_balance_leaves_it_undecided() {
         let scene = Scene::from_json(

@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_value_is_excluded_only_beyond_a_confirmed_end() {
-        // At `beyond` the verdict may be undecided: the frame may stand there and farther on.
+        // At `beyond` the verdict may be undecided: the frame may be stable there and at larger distances.
         let open = Interval::Between {
             low: End::Unconfirmed {
                 stands: 2.0,
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_that_is_not_confirmed_makes_no_interval_empty() {
+    fn an_unconfirmed_end_never_makes_an_interval_empty() {
         let open = Interval::Between {
             low: End::natural(0.0),
             high: End::Unconfirmed {

@@ -74,7 +74,7 @@ mod tests {
     use crate::analysis::Margin;
 
     #[test]
-    fn what_no_verdict_confirms_is_withheld_in_words() {
+    fn margins_without_a_confirmed_verdict_are_withheld_with_a_reason() {
         let open = End::Unconfirmed {
             stands: 0.25,
             beyond: 0.5,
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(margins.kernel.at(), None);
         assert!(matches!(margins.tilt.left, Margin::Unconfirmed { stands, .. } if stands == 0.25));
         assert_eq!(margins.load_factor, Margin::NotApplicable);
-        // Falling at every value is another statement than an undecided interval.
+        // “Falls at every value” is a different statement from “undecided”.
         assert_eq!(margins.friction, Margin::None);
         assert_eq!(margins.robots[0].fx, Margin::None);
         assert_eq!(margins.robots[0].torque, Margin::Undecided);

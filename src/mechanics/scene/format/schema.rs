@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reading_knows_the_keys_of_the_types() {
+    fn the_reader_knows_the_keys_of_all_types() {
         let schema: Value = serde_json::from_str(&schema()).expect("JSON");
         let definitions = schema["$defs"].as_object().expect("types");
         let objects = definitions

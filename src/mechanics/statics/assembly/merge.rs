@@ -121,10 +121,10 @@ mod tests {
         }
     }
 
-    /// Of a motion of pieces the loads do the work that they do on the bodies, each with the velocity it has within its
+    /// If a piece moves, its load does the same work as the loads of its bodies, each with its own velocity in the
     /// piece.
     #[test]
-    fn the_loads_of_a_piece_do_the_work_of_those_of_its_bodies() {
+    fn the_load_of_a_piece_does_the_work_of_the_loads_of_its_bodies() {
         let bodies = vec![
             body(0, [0.0, 0.0], [1.0, -3.0], 0.5),
             body(1, [2.0, 1.0], [0.0, -2.0], 0.0),
@@ -146,7 +146,7 @@ mod tests {
             load_factor: 1.0,
             length: 1.0,
         };
-        // The last rests with the ground.
+        // The last body belongs to the ground.
         let joined = assembly.merged(&[Some(1), Some(0), Some(1), None]);
         let [one, two] = &joined.bodies[..] else {
             panic!("two pieces");
@@ -166,7 +166,8 @@ mod tests {
         let together = work(two.load, Vector::zeros());
         assert!((together - apart).abs() < 1e-12, "{together}, {apart}");
 
-        // On the second piece from the first, the other way, and from what rests, turned about.
+        // The contacts are: on the first piece from the second, the reverse, and two on the second piece from bodies
+        // at rest. One of these two is reversed.
         let seen: Vec<_> = joined
             .contacts
             .iter()

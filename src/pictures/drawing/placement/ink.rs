@@ -382,8 +382,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn with_a_grid_and_without_the_answers_are_the_same() {
-        // Lines, discs and labels strewn over a page and beyond it, by a rule without a pattern to the eye.
+    fn the_grid_does_not_change_the_answers() {
+        // Lines, discs and labels at random places on a page and outside it.
         let mut plain = Ink::default();
         let mut seed = 1_u64;
         let mut next = |most: f64| {
@@ -427,7 +427,7 @@ mod tests {
                 height: 1.0 + next(12.0),
             };
             assert_eq!(plain.clear(rect), sorted.clear(rect), "{rect:?}");
-            // A box is a piece like any other: tested corner by corner it meets the same ones.
+            // A test of the box as a convex piece finds the same intersections.
             let meets =
                 |p: &ConvexPiece| !separated(&plain.corners[p.first..p.end], &corners(rect));
             let max = at.moved(rect.width, rect.height);

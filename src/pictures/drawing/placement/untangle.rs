@@ -165,7 +165,7 @@ mod tests {
             &mut placed,
             &none
         ));
-        // Where ink lies in the way nothing is moved.
+        // If ink is in the way, no label is moved.
         let mut ink = Ink::default();
         ink.rect(centred(PagePoint::new(40.0, 80.0), (20.0, 10.0)));
         let mut crossed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_lead_where_the_outline_leads() {
+    fn path_data_follows_the_outline() {
         let p = PagePoint::new;
         let outline = Outline {
             segments: vec![

@@ -72,12 +72,12 @@ mod tests {
     use super::one_line;
 
     #[test]
-    fn only_arrows_that_share_a_stretch_of_one_line_are_in_each_others_way() {
+    fn only_arrows_that_overlap_on_one_line_hide_each_other() {
         let up = (0.0, -40.0);
         let down = (0.0, 20.0);
         assert!(one_line(up, down, (0.0, -30.0)));
-        assert!(!one_line(up, down, (9.5, -30.0)), "beside each other");
+        assert!(!one_line(up, down, (9.5, -30.0)), "side by side");
         assert!(!one_line(up, down, (0.0, 0.0)), "tail to tail");
-        assert!(!one_line(up, (20.0, 0.0), (0.0, -30.0)), "across");
+        assert!(!one_line(up, (20.0, 0.0), (0.0, -30.0)), "perpendicular");
     }
 }

@@ -67,7 +67,7 @@ mod tests {
     use super::names;
 
     #[test]
-    fn amounts_counts_and_parts_of_words_name_nothing() {
+    fn amounts_counts_and_parts_of_words_are_not_names() {
         let text = "missing: a pull of 2.5\u{a0}kN between 19.17 and 3, friction of 12 N between 4 and b-2; 5 more";
         for name in ["19.17", "3", "4", "b-2"] {
             assert!(names(text, name), "{name}");

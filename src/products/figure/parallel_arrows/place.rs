@@ -91,7 +91,7 @@ mod tests {
     use crate::geometry::Vector;
 
     #[test]
-    fn the_boxes_that_meet_are_those_of_a_look_at_all() {
+    fn the_grid_finds_the_same_boxes_as_a_linear_search() {
         let mut seed = 7_u64;
         let mut random = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -100,7 +100,7 @@ mod tests {
         let mut boxes = Vec::new();
         for number in 0..400 {
             let min = Point::new(40.0 * random() - 20.0, 9.0 * random());
-            // Some are long, and one would fill the grid.
+            // Some boxes are long, and would cover very many cells.
             let long = if number % 50 == 0 { 300.0 } else { 1.5 };
             let max = min + Vector::new(long * random(), random());
             boxes.push(Bounds { min, max });

@@ -387,7 +387,7 @@ mod tests {
 
     /// The README makes this statement about the picture.
     #[test]
-    fn what_is_proved_is_never_wrong_and_what_is_not_sometimes_is() {
+    fn proved_verdicts_are_never_wrong_and_others_sometimes_are() {
         let lines = printed();
         for method in Method::ALL {
             let wrong: usize = lines

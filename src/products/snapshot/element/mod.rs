@@ -216,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounding_is_no_change_and_counting_is() {
+    fn rounding_is_not_a_change_but_a_different_count_is() {
         assert!(same_words("6.91 N at 65°", "6.92 N at 66°"));
         assert!(!same_words("6.91 N", "6.93 N"));
         assert!(!same_words("3 hinges", "4 hinges") && !same_words("Block 3", "Block 4"));
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_files_have_messages_of_their_own() {
+    fn each_kind_of_broken_file_has_its_own_message() {
         let sound = page("");
         for (text, words) in [
             ("", "it is empty (0 bytes)"),

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn illustrators_escapes_are_undone() {
+    fn the_escapes_of_illustrator_are_decoded() {
         for (id, name) in [
             ("_x30_1", "01"),
             ("key_x5F_stone", "key_stone"),

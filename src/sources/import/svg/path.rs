@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn relative_commands_and_those_of_one_coordinate_come_to_the_same() {
+    fn relative_commands_and_commands_with_one_coordinate_give_the_same_outline() {
         let square = [(1.0, 2.0), (5.0, 2.0), (5.0, 5.0), (1.0, 5.0)];
         for d in [
             "M1 2 5 2 5 5 1 5Z",
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn what_follows_a_close_begins_where_the_closed_began() {
+    fn after_a_close_the_next_subpath_begins_at_the_start_of_the_closed_one() {
         let subpaths = subpaths("M1 1h2v2z l-5 0 0 -5z M9 9").expect("path data");
         assert_eq!(subpaths.len(), 2);
         assert_eq!(subpaths[1].start, Point::new(1.0, 1.0));
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn arcs_run_on_their_circle_whichever_of_the_four_they_are() {
+    fn each_of_the_four_arcs_lies_on_its_ellipse() {
         for (large, sweep, centre) in [
             (0, 0, (4.0, 3.0)),
             (0, 1, (0.0, 0.0)),
@@ -263,7 +263,7 @@ mod tests {
                 let reach = libm::hypot((p.0 - centre.0) / 4.0, (p.1 - centre.1) / 3.0);
                 assert!((reach - 1.0).abs() < 1e-12, "{d}: {p:?}");
             }
-            // A quarter of an ellipse, or three.
+            // The area of a quarter of an ellipse or of three quarters, minus or plus a triangle.
             let area = crate::geometry::snap::area(
                 &subpaths(&d).expect("data")[0]
                     .flattened(1e-4, 1e-9)
@@ -276,7 +276,7 @@ mod tests {
                 "{d}: {area}"
             );
         }
-        // Radii too small for their chord grow, a turned ellipse turns, none at all is a line.
+        // Radii that are too small for their chord are enlarged. A radius of 0 gives a line.
         assert!(
             corners("M0 0A1 1 0 0 1 10 0Z")
                 .iter()
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn smooth_curves_mirror_the_handle_before_them() {
+    fn smooth_curves_mirror_the_previous_control_point() {
         let smooth = corners("M0 0C0 2 2 4 4 4S8 2 8 0Z");
         let plain = corners("M0 0C0 2 2 4 4 4C6 4 8 2 8 0Z");
         assert_eq!(smooth, plain);

@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drawing_of_a_physical_size_tells_its_unit() {
+    fn a_physical_size_gives_the_unit_of_the_drawing() {
         assert_eq!(
             unit("width='210mm' height='297mm' viewBox='0 0 210 297'"),
             Some(0.001)
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_view_box_is_fitted_as_it_says() {
+    fn a_view_box_is_fitted_as_specified() {
         use crate::geometry::Point;
         let view = ViewBox::new(10.0, 0.0, 4.0, 2.0);
         let at = |ratio: &str| {
