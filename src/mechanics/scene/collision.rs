@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_stand_together_only_where_their_spans_meet() {
+    fn the_first_common_frame_of_two_bodies_is_found() {
         let frames = [
             frame(&[0]),
             frame(&[0, 1]),

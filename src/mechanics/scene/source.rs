@@ -122,7 +122,7 @@ mod tests {
     use crate::scene::path::Trail;
 
     #[test]
-    fn values_are_found_where_they_stand() {
+    fn values_and_keys_are_found_at_their_place_in_the_text() {
         let text = "{\n  \"é\": [1, {\"b\": 22}],\n  \"a\": 1, \"a\": 2\n}";
         let source = Source::parse(text).expect("JSON");
         let top = Trail::Top;

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn bars_and_courses_are_small_and_name_what_they_show() {
+    fn bar_charts_and_line_charts_are_small_files_with_labels() {
         let mut chart = Bars::counted(&[1.0, 2.0, 2.5], None);
         (chart.title, chart.x, chart.y) = ("t<".into(), "force, N".into(), "count".into());
         let svg = super::bars(&chart).expect("drawn");
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_run_over_whole_decades() {
+    fn axes_begin_and_end_at_powers_of_ten() {
         assert_eq!(plot::decades([2.0, 3.0].into_iter()), (0, 2));
         assert_eq!(plot::decades([1e-16, 0.5].into_iter()), (-17, 0));
         assert_eq!(plot::decades(std::iter::empty()), (-1, 1));

@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_for_the_ground_are_guessed_if_asked() {
+    fn words_for_the_ground_are_guessed_on_request() {
         let guess = Naming::new(&[], true);
         for name in ["Abutments", "support_2", "Pier base left", "SOL", "Boden"] {
             assert_eq!(guess.role(name), Some(Role::Ground), "{name}");

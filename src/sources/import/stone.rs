@@ -73,9 +73,10 @@ impl Stone {
 mod tests {
     use super::*;
 
-    /// The numbers follow from the ranges and angles in the sources.
+    /// The densities follow from the ranges of unit weights in the sources, the friction coefficients from the
+    /// angles.
     #[test]
-    fn numbers_follow_from_their_sources() {
+    fn densities_and_friction_coefficients_follow_from_the_sources() {
         for (name, low, high, angle) in [
             ("basalt", 27.0, 31.0, 35.0),
             ("gneiss", 30.0, 30.0, 26.0),

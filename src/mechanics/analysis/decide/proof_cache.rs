@@ -125,9 +125,9 @@ fn transfer_normal_forces(
 mod tests {
     use super::*;
 
-    /// 2 N and 6 N at 0 and 4 m have their resultant at 3 m.
+    /// The resultant of 2 N at 0 m and 6 N at 4 m lies at 3 m.
     #[test]
-    fn a_resultant_is_carried_by_other_points() {
+    fn normal_forces_move_to_other_points_with_the_same_resultant() {
         let contact_forces = ContactForces {
             normal: [2.0, 6.0],
             friction: 1.0,

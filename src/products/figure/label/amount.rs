@@ -246,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_too_many_magnitudes_the_largest_are_written() {
+    fn if_there_are_too_many_amounts_only_the_largest_are_labelled() {
         let few: Vec<f64> = (0..CROWDED_AMOUNTS).map(|k| k as f64).collect();
         assert_eq!(largest(few.iter().collect(), |v| *v).len(), CROWDED_AMOUNTS);
         // 0, 1, 2, …, 499 repeated: the largest 16 of 15 000 are the first 16 with the value 499.

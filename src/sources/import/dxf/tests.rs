@@ -111,14 +111,15 @@ fn blocks_are_inserted_with_scale_rotation_and_arrays() {
     // A layer with the name of a material sets density and friction.
     assert_eq!(draft.parts[0].values.density, Some(2910.0));
     assert_eq!(draft.parts[1].values.density, None);
-    // The base point (1, 0) goes to (10, 20); the corner (2, 1) is 1 to the right and 1 up of it: 2 and 3, then turned.
+    // The base point (1, 0) moves to (10, 20). The corner (2, 1) is 1 to the right of it and 1 above it. Scaling
+    // makes this 2 and 3, and then it is rotated.
     let hull = curves(&draft)[0].hull();
     assert!(
         hull.iter()
             .any(|p| (p - Point::new(7.0, 22.0)).norm() < 1e-12),
         "{hull:?}"
     );
-    // The last cell: column 2 of width 2, row 1 of height 1, minus the base point.
+    // The last copy is in column 2 of width 2 and row 1 of height 1. The base point is subtracted.
     let last = curves(&draft)[6].start;
     assert!((last - Point::new(3.0, 1.0)).norm() < 1e-12, "{last}");
     assert!(
