@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Counts the instructions of three tasks, in the profile of the tests. It fails if a count is more than a tenth above that
-# in tests/bench/instructions.txt. Counts, unlike times, do not depend on other load, but they depend on the compiler.
-# With a compiler other than that of the file, a message is printed and only counts more than a fifth above fail.
+# Counts the instructions of three tasks, in the profile of the tests. It fails if a count is more than a tenth above
+# that in tests/bench/instructions.txt. Counts, unlike times, do not depend on other load, but they depend on the
+# compiler. With a compiler other than that of the file, a message is printed and only counts more than a fifth above
+# fail.
 #
 #   cargo build --locked && bash tests/bench/instructions.sh            compares
 #   cargo build --locked && bash tests/bench/instructions.sh --accept   writes the counts of now into the file
 #
-# Needs valgrind. Tasks: only the verdicts of structures of ten blocks; a full check of a wall of a hundred blocks; check
-# and figures of the structures of ten blocks, as PNG of 400 pixels.
+# Needs valgrind. Tasks: only the verdicts of structures of ten blocks; a full check of a wall of a hundred blocks;
+# check and figures of the structures of ten blocks, as PNG of 400 pixels.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export LC_ALL=C

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Time and memory of a check of a thousand snapshots, and of other tools that compare the same thousand pairs of PNG in the
-# same run. Needs node with pixelmatch and pngjs installed in the folder $2, and `compare` of ImageMagick.
+# Time and memory of a check of a thousand snapshots, and of other tools that compare the same thousand pairs of PNG in
+# the same run. Needs node with pixelmatch and pngjs installed in the folder $2, and `compare` of ImageMagick.
 #   tests/bench/snapshots.sh target/release/drystone FOLDER_OF_NODE_MODULES
 set -eu
 drystone=$(realpath "$1")

@@ -33,6 +33,7 @@ struct Found {
     is_off: bool,
     /// The number of corners that healing moved.
     moved: usize,
+    /// The number of bodies left as written.
     kept: usize,
     /// The number of interfaces minus that of the outlines as written.
     more: i64,
