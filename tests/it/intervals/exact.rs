@@ -115,7 +115,8 @@ pub(super) fn compare(
 #[derive(Default)]
 pub(super) struct Problems {
     pub(super) list: Vec<String>,
-    /// Whether the tolerance of the verdicts is allowed, for example because a load is as small as this tolerance.
+    /// True if a wrong verdict within the tolerance of the verdicts is no error, for example because a load is as
+    /// small as this tolerance.
     pub(super) has_band: bool,
 }
 
@@ -134,7 +135,7 @@ impl Problems {
     }
 }
 
-/// Whether a changed file is within the tolerance of its limit.
+/// Whether the scene of a file is within the tolerance of its limit.
 pub(super) fn is_borderline(file: &Value) -> bool {
     let scene = exact_scene(file);
     let touches = touches(&scene);
@@ -153,7 +154,7 @@ fn expect(name: &str, file: &Value, standing: bool, problems: &mut Problems) {
 /// The tolerance of an end of friction, kernel or limit, relative to the end.
 const RELATIVE_TOL: f64 = 1e-6;
 /// The absolute tolerance of such an end. Friction and kernel change the forces in proportion to the loads, and
-/// verdicts are true to this share of the loads.
+/// verdicts are accurate to this fraction of the loads.
 const ABSOLUTE_TOL: f64 = 1e-7;
 
 pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {

@@ -1,11 +1,11 @@
-//! Random scenes of one to three parts, each on separate ground.
+//! Random scenes of one to three groups of blocks, each on separate ground.
 
 use serde_json::{Value, json};
 
 use crate::random::Random;
 use crate::structure::{block, rectangle};
 
-/// A scene of one to three parts, each on separate ground.
+/// A scene of one to three groups of blocks, each on separate ground.
 pub(super) fn random_scene(number: u64) -> Value {
     let mut chance = Random::new(0x1a7e_0000 + number);
     let mut file = json!({ "drystone": 1, "ground": [], "blocks": [], "robots": [], "loads": [] });
@@ -18,7 +18,7 @@ pub(super) fn random_scene(number: u64) -> Value {
         if is_loaded && chance.percent(75) {
             for _ in 0..chance.whole(1, 2) {
                 let id = &ids[chance.whole(0, ids.len() as i64 - 1) as usize];
-                // A corner's place is exact, a centroid is rounded.
+                // The load acts at a corner, because corners are exact and centroids are rounded.
                 let mut load = json!({ "block": id, "at": corner(&file, id) });
                 let quarter = |chance: &mut Random| chance.whole(-24, 24) as f64 / 4.0;
                 let force = [quarter(&mut chance), quarter(&mut chance)];
@@ -66,14 +66,14 @@ fn push(file: &mut Value, list: &str, entry: Value) {
     file[list].as_array_mut().expect("a list").push(entry);
 }
 
-/// Adds the ground and the blocks of one part at a place of its own; the names of its blocks.
+/// Adds the ground and the blocks of one group to the right of `x`. Returns the names of its blocks.
 fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<String> {
     let eighth =
         |chance: &mut Random, least: i64, most: i64| chance.whole(least, most) as f64 / 8.0;
     let mut ground = vec![rectangle(x - 2.0, -1.0, 12.0, 1.0)];
     let mut bodies = Vec::new();
     match chance.whole(0, 5) {
-        // A block pressed against a wall, or next to one on the floor.
+        // A block next to a wall, without a floor. It stands only if a load presses it against the wall.
         0 => {
             ground = vec![rectangle(x - 1.0, 0.0, 1.0, 9.0)];
             bodies.push(rectangle(x, 4.0, 1.0, eighth(chance, 4, 16)));
@@ -100,7 +100,7 @@ fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<Str
             bodies.push(rectangle(x + 4.0, 0.0, 1.0, high));
             bodies.push(rectangle(x + eighth(chance, 0, 4), high, 4.5, 0.5));
         }
-        // A block on a slope of 3 in 4 or 1 in 2, either way.
+        // A block on a slope of 3 in 4 or 1 in 2, rising to the right or to the left.
         4 => {
             let steep = chance.one_of(&[0.75, 0.5, -0.75, -0.5]);
             let y = |at: f64| at * steep;
@@ -112,7 +112,7 @@ fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<Str
             let top = [[x + far, y(far) + up], [x + at, y(at) + up]];
             bodies.push(json!([base[0], base[1], top[0], top[1]]));
         }
-        // A wide block, a tall one, and perhaps one that nothing carries.
+        // A wide block, a tall block, and sometimes a block in the air.
         _ => {
             bodies.push(rectangle(x, 0.0, eighth(chance, 8, 24), 1.0));
             bodies.push(rectangle(x + 4.0, 0.0, 1.0, eighth(chance, 8, 32)));

@@ -127,8 +127,8 @@ fn intervals_are_exact_if_loads_are_far_smaller_or_larger_than_weights() {
     );
 }
 
-/// A load factor that must be 0 was once 10⁻⁶ or withheld, because a verdict may be stable just beyond 0. The exact
-/// program had then a limit of 10⁷ and no tolerance.
+/// A load factor that must be 0 was once 10⁻⁶ or withheld, because a verdict may be stable just beyond 0. At that
+/// time, the exact program had a limit of 10⁷ and no tolerance.
 #[test]
 fn very_small_loads_that_cannot_be_carried_have_a_load_factor_of_zero() {
     for number in [50069, 50118, 50214, 50274, 50293, 50297] {
@@ -139,7 +139,7 @@ fn very_small_loads_that_cannot_be_carried_have_a_load_factor_of_zero() {
 
 /// The counterweight of the plank is divided by up to 10¹². A load factor of 9·10⁹ once counted as unbounded.
 #[test]
-fn a_counterweight_given_as_a_tiny_load_is_found() {
+fn the_load_factor_of_a_tiny_counterweight_is_found() {
     let (file, margins) = known("plank");
     let ordinary = margins.intervals.load_factor.expect("there is a load");
     let low = ordinary

@@ -15,9 +15,9 @@ use crate::proof::Motion;
 /// The side of the threshold on which the component stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StableSide {
-    /// It stands below: the threshold is the largest admissible value.
+    /// The component stands below the threshold, which is the largest admissible value.
     Below,
-    /// It stands above: the threshold is the least sufficient value.
+    /// The component stands above the threshold, which is the least sufficient value.
     Above,
 }
 
@@ -69,8 +69,8 @@ impl Threshold {
 
     /// The smallest relative distance from the threshold at which verdicts are computed, on both sides.
     pub(super) const MIN_OFFSET: f64 = 1e-6;
-    /// Newton's root is accepted if a stable and an unstable value on both sides of it are at most this far apart,
-    /// relative.
+    /// Newton's root is accepted if a stable value on one side and an unstable value on the other side are at most
+    /// this far apart, relative to their size.
     pub(super) const BRACKET_TOL: f64 = 512e-6;
     /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong
     /// enough.
@@ -78,8 +78,9 @@ impl Threshold {
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const MAX_OFFSET: f64 = 256e-6;
 
-    /// Below this fraction of its typical value, distances on the falling side are relative to this fraction: a verdict
-    /// may be stable beyond the threshold by the tolerance of the proofs, which does not shrink with the threshold.
+    /// If the threshold is below this fraction of the typical value, the width of a bracket and the largest distance
+    /// on the falling side are relative to this fraction of the typical value. Within the tolerance of the proofs, a
+    /// verdict may be stable beyond the threshold, and this tolerance does not shrink with the threshold.
     const MIN_TYPICAL_SHARE: f64 = 0.1;
 
     /// Searches for the threshold between 0 and `max_value`, by Newton's method and bisection. Returns the interval of
@@ -276,11 +277,11 @@ impl Threshold {
 
 /// Two values between which the threshold lies.
 struct Bracket {
-    /// Here the component stands.
+    /// A value at which the component stands.
     inside: f64,
-    /// Here it falls, or is undecided.
+    /// A value at which the component falls or is undecided.
     outside: f64,
-    /// The mechanism at the latest value at which a fall was proved.
+    /// The mechanism at the last value at which a fall was proved; `None` if no fall was proved.
     mechanism: Option<Vec<Motion>>,
 }
 

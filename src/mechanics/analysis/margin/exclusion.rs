@@ -1,11 +1,11 @@
 //! [`Exclusion`]: a range of values of a parameter in which a frame falls by the same motion.
 //!
-//! A frame that stands at no value of a parameter has a few of them, which cover all values: one motion that no value
-//! stops, two parts of the structure that need values apart from each other, or arcs of tilts.
+//! If a frame stands at no value of a parameter, a few exclusions cover all values: one exclusion of all values, two
+//! exclusions of parts that need different values, or arcs of tilts.
 
 use crate::proof::Motion;
 
-/// Values of a parameter at which a frame falls by one motion. An end of `None` means that there is none.
+/// The values of a parameter at which a frame falls by one motion. An end is `None` if the range is unbounded there.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Exclusion {

@@ -1,10 +1,10 @@
 //! [`robots`]: computes the values of each robot limit at which a component stands.
 //!
-//! Each limit is changed alone. If a component stands with several limits set to 0 at once, it stands with each of them
-//! set to 0 alone, because admissible forces only become more. In the same way, a component that falls with several
+//! Each limit is changed alone. If a component stands with several limits set to 0 at once, it stands with each of
+//! them set to 0 alone, because larger limits admit more forces. In the same way, a component that falls with several
 //! limits removed falls with each of them removed alone, by the same motion. One verdict therefore settles a whole
-//! group of limits that do not matter. A group that it does not settle is halved, so that k limits that matter among n
-//! take about k·log₂(n/k) verdicts, and k searches.
+//! group of limits that do not matter. A group that it does not settle is halved, so that k limits that matter among
+//! n take about k·log₂(n/k) verdicts, and k searches.
 
 use super::interval::{End, Interval, RobotIntervals};
 use super::line::Line;
@@ -35,8 +35,9 @@ pub(super) fn robots(trial: &mut Trial, stands: bool) -> Vec<RobotIntervals> {
     robots.into_iter().filter_map(of_robot).collect()
 }
 
-/// Appends the intervals of the limits from `first` to before `end`. The limits are counted over all grips; limit
-/// 3g + c is component c of grip g.
+/// Computes, for each robot limit with an index in `first..end`, the values of this limit at which the component
+/// stands, and appends the intervals to `found`. Limit 3g + c is component c of grip g. `stands` is true if the
+/// component stands with the limits of the scene.
 fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut Vec<Interval>) {
     let count = end - first;
     if count < MIN_GROUP {

@@ -13,16 +13,16 @@ use crate::scene::RobotId;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
-    /// It stands at no value: these exclude all.
+    /// The frame stands at no value: together, these exclusions cover all values.
     Empty(Vec<Exclusion>),
-    /// It stands from one value to another.
+    /// The frame stands at every value from the lower to the upper end.
     Between {
         /// The lower end.
         low: End,
         /// The upper end.
         high: End,
     },
-    /// No verdict shows at which values it stands.
+    /// No verdict shows at which values the frame stands.
     Undecided,
 }
 
@@ -36,15 +36,15 @@ pub enum End {
     At {
         /// The value, in the unit of the parameter.
         value: f64,
-        /// How the blocks begin to move just beyond; empty if the range of the parameter ends here, as that of
-        /// friction does at 0.
+        /// How the blocks begin to move just beyond the end; empty if the range of the parameter ends here, such as
+        /// friction at 0.
         mechanism: Vec<Motion>,
     },
-    /// The end lies between two values, but no verdicts were reached that are closer to it.
+    /// The end lies between two values. No values closer to the end were decided.
     Unconfirmed {
-        /// Here the frame stands.
+        /// A value at which the frame stands.
         stands: f64,
-        /// Here it falls, or its verdict is undecided.
+        /// A value at which the frame falls or is undecided.
         beyond: f64,
     },
 }
@@ -195,7 +195,7 @@ impl Interval {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Intervals {
-    /// One friction coefficient for every interface: from the least sufficient one, without an upper end.
+    /// The friction coefficient, the same at every interface. The interval has no upper end.
     pub friction: Option<Interval>,
     /// The rotation of gravity in degrees. It is positive if the tip of the gravity vector moves to the right. Listed
     /// loads do not rotate.
@@ -203,7 +203,7 @@ pub struct Intervals {
     /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; negative to the
     /// left.
     pub horizontal_load: Option<Interval>,
-    /// The safety kernel: from 0 up to the largest admissible one, without end if the frame stands at 1.
+    /// The safety kernel, from 0 upwards. The upper end is unbounded if the frame stands with a kernel of 1.
     pub kernel: Option<Interval>,
     /// The factor on the listed loads, at least 0; `None` in a frame without loads.
     pub load_factor: Option<Interval>,
@@ -213,7 +213,7 @@ pub struct Intervals {
     pub notes: Vec<String>,
 }
 
-/// The values of each limit of a robot at which a frame stands, if the other limits are those of the scene.
+/// The values of each limit of a robot at which a frame stands, while all other limits are as in the scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RobotIntervals {

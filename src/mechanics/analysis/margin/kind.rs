@@ -61,7 +61,7 @@ pub struct MarginKinds {
 }
 
 impl MarginKinds {
-    /// All of them.
+    /// The set of all margins.
     pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
 
     /// Creates a set of margins from a list.

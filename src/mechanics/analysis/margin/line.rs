@@ -31,16 +31,16 @@ pub(super) struct Line<'a> {
 
 /// Two values between which an end lies.
 struct Bracket {
-    /// Here the component stands.
+    /// A value at which the component stands.
     inside: f64,
-    /// The fall that is proved from the innermost value outward.
+    /// The fall that is proved from a value nearest to `inside`; `None` if no fall is known.
     beyond: Option<Fall>,
 }
 
 /// A fall that is proved from a value outward.
 struct Fall {
-    /// From here outward the mechanism proves the fall. The component may have been found to stand slightly beyond,
-    /// within the tolerance of a proof by forces; a mechanism has no such tolerance.
+    /// The mechanism proves that the component falls at this value and at every value farther out. A proof by forces
+    /// has a tolerance, and may have called the component stable slightly farther out. A mechanism has no tolerance.
     from: f64,
     /// The value at which the mechanism was found.
     at: f64,
@@ -54,7 +54,7 @@ enum ExcludedRange {
     All,
 }
 
-/// An end is found if the component stands and falls within this distance, relative to the value.
+/// An end is found if a stable and an unstable value are at most this far apart, relative to the end.
 const END_TOL: f64 = 1e-6;
 /// The end from a linear program is accepted if verdicts within this relative distance, on both sides, agree with it.
 const CONFIRMATION_TOL: f64 = 256e-6;

@@ -14,8 +14,7 @@ use crate::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
 /// A value at which the component stands.
 struct Start {
     value: f64,
-    /// The end on the side of the present value, according to the linear program; `None` if the component stands
-    /// there.
+    /// The end that faces the present value, according to the linear program; `None` if the component stands there.
     facing_end: Option<f64>,
 }
 
@@ -53,7 +52,7 @@ pub(super) fn linear(
         }
     });
     match (low, high) {
-        // It stands at one value only, and rounding exchanged the ends.
+        // The component stands at one value only, and rounding exchanged the ends.
         (
             End::At {
                 value: low,
@@ -101,7 +100,7 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         _ => line.test_values(at, toward_present),
     };
     trial.cache_extreme(&program, &found, beyond, line.setting, None);
-    // Verdicts confirm it.
+    // Verdicts confirm the predicted value.
     let facing_end = matches!(found.limit, Limit::At(_)).then_some(at);
     Ok(Start {
         value: line.nearest(trial, present, facing_end)?,

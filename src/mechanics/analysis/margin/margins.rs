@@ -10,11 +10,12 @@ use crate::scene::RobotId;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Margin {
-    /// The frame stands up to this value, or from it on if the parameter must not be too small.
+    /// The frame stands up to this value, or from this value on if the parameter must not be too small.
     Value {
         /// The limit of stability, in the unit of the margin.
         at: f64,
-        /// How the blocks begin to move just beyond; empty if there are no values beyond, as below a friction of 0.
+        /// How the blocks begin to move just beyond the limit; empty if no value lies beyond it, such as a friction
+        /// below 0.
         mechanism: Vec<Motion>,
     },
     /// The frame falls at every value.
@@ -23,16 +24,16 @@ pub enum Margin {
     Unbounded,
     /// The limit lies between two values, but no verdicts closer to it were proved.
     Unconfirmed {
-        /// Here it stands.
+        /// A value at which the frame stands.
         stands: f64,
-        /// Here it falls, or is undecided.
+        /// A value at which the frame falls or is undecided.
         beyond: f64,
     },
     /// No verdict shows at which values the frame stands.
     Undecided,
     /// The margin was not requested.
     NotAsked,
-    /// The parameter has no meaning in this scene: it lists no loads.
+    /// The scene lists no loads, so a load factor has no meaning.
     NotApplicable,
 }
 
@@ -76,10 +77,10 @@ pub struct Sides {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Margins {
-    /// The values of each parameter at which it stands. All other fields follow from them.
+    /// The values of each parameter at which the frame stands. All other fields follow from them.
     pub intervals: Intervals,
-    /// The smallest friction coefficient, the same at every interface, with which it stands; 0 if it needs none.
-    /// [`Margin::None`] if it falls at [`Margins::MAX_FRICTION`].
+    /// The smallest friction coefficient, the same at every interface, with which the frame stands; 0 if it needs no
+    /// friction. [`Margin::None`] if it falls at [`Margins::MAX_FRICTION`].
     pub friction: Margin,
     /// The largest rotation of gravity to each side, in degrees; loads do not rotate. To the right means that the tip
     /// of the gravity vector moves to the right. [`Margin::None`] if the frame falls without rotation, even if it
@@ -88,7 +89,7 @@ pub struct Margins {
     /// The largest fraction of each weight that may act at right angles to gravity, in addition to the weight.
     /// [`Margin::None`] if the frame falls without it.
     pub horizontal_load: Sides,
-    /// The largest safety kernel; [`Margin::Unbounded`] if it stands at 1.
+    /// The largest safety kernel with which the frame stands; [`Margin::Unbounded`] if it stands with a kernel of 1.
     pub kernel: Margin,
     /// The largest factor on the listed loads; 1 means the loads as listed. [`Margin::NotApplicable`] without loads.
     pub load_factor: Margin,
@@ -113,8 +114,8 @@ impl Margins {
     }
 }
 
-/// A robot's least sufficient limits. Each limit is changed alone; the robot's other limits and those of other robots
-/// are as in the scene.
+/// A robot's least sufficient limits. Each limit is changed alone; the robot's other limits and the limits of other
+/// robots are as in the scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RobotMargins {

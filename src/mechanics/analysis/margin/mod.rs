@@ -1,5 +1,5 @@
-//! [`Margins`]: how far a frame is from collapse. For friction, tilt, loads, kernel and robot limits, they give the
-//! range of values at which the frame stands.
+//! [`Margins`]: how far a frame is from collapse. For friction, tilt, loads, kernel and robot limits, this module
+//! computes the range of values at which the frame stands.
 //!
 //! The balance equations are linear in the forces, in a factor on loads and in a horizontal fraction of the weights.
 //! The bounds on forces are linear in a robot's limit. More friction and a smaller kernel only add admissible forces.
@@ -7,9 +7,9 @@
 //! components stand: its interval is the intersection of theirs.
 //!
 //! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
-//! [`edge`] and [`newton`] search the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] those for the
-//! rotation of gravity, and [`grip_limit`] those for the limits of robots. An end is accepted only if it is
-//! proved that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
+//! [`edge`] and [`newton`] find the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] the ends for the
+//! rotation of gravity, and [`grip_limit`] the ends for the limits of robots. An end is accepted only if it is proved
+//! that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
 //! mechanism just beyond it. [`Margins`] are derived from the intervals.
 
 mod edge;

@@ -88,7 +88,7 @@ struct Excluded {
     low: f64,
     high: f64,
     arcs: Vec<Exclusion>,
-    /// Whether it covers tilts at which no verdict was reached.
+    /// Whether the range contains tilts at which no verdict was reached.
     has_gaps: bool,
 }
 
@@ -145,7 +145,7 @@ fn max_joined_gap(tilt: f64) -> f64 {
 enum FrameVerdict {
     Stands,
     Undecided,
-    /// It falls at these tilts by one mechanism.
+    /// The frame falls at these tilts by one mechanism.
     Falls(Exclusion),
 }
 

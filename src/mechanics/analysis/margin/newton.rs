@@ -12,26 +12,29 @@ const MAX_STEPS: usize = 24;
 /// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
 const BRACKET_TOL: f64 = 1e-6;
 
-/// It has also converged if the roots of two tangents, one of them much closer to the threshold, differ by this at
-/// most, relative to their size.
+/// Newton's method has also converged if the roots of two tangents, one of them much closer to the threshold, differ
+/// by at most this, relative to their size.
 const ROOT_TOL: f64 = 1e-7;
 
 /// The error of a least residual, relative to the largest load: a few times the solver's tolerance.
 const RESIDUAL_NOISE: f64 = 2e-9;
 
-/// Where the root of a tangent lies beyond the threshold, the next tangent is this much closer to the threshold. The
-/// error of its root falls with the square of that.
+/// If the component stands at the root of a tangent, the next tangent is computed at this fraction of the bracket
+/// from its stable end. The error of its root falls with the square of this fraction.
 const APPROACH_SHARE: f64 = 1.0 / 16.0;
 
 /// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
 /// load.
 const MAX_STABLE_RESIDUAL: f64 = 1e-8;
 
+/// A least residual above this fraction of the largest load is no noise of the solver.
+const MIN_SURE_RESIDUAL: f64 = 1e-6;
+
 /// The bracket of Newton's method.
 struct NewtonBracket {
-    /// Here the component stands.
+    /// A value at which the component stands.
     inside: f64,
-    /// Here it falls.
+    /// A value at which the component falls.
     outside: f64,
     /// The tangent at `outside`.
     tangent: Tangent,
@@ -49,13 +52,33 @@ impl NewtonBracket {
         value: f64,
     ) -> Option<bool> {
         let tangent = trial.tangent(&setting(value))?;
-        let falls = tangent.residual_sum > MAX_STABLE_RESIDUAL;
+        // A residual this small may be noise of the solver: the component falls only if the motion proves it.
+        let falls = match tangent.residual_sum {
+            residual if residual <= MAX_STABLE_RESIDUAL => false,
+            residual if residual < MIN_SURE_RESIDUAL => {
+                trial.proved_motion(&tangent, &setting(value)).is_some()
+            }
+            _ => true,
+        };
         if falls {
             (self.outside, self.tangent) = (value, tangent);
         } else {
             (self.inside, self.standing) = (value, Some((value, tangent)));
         }
         Some(falls)
+    }
+
+    /// Tests a value like [`NewtonBracket::test`], but only if it lies inside the bracket.
+    fn test_within(
+        &mut self,
+        trial: &mut Trial,
+        setting: &dyn Fn(f64) -> Setting,
+        value: f64,
+    ) -> Option<()> {
+        if self.contains(value) {
+            self.test(trial, setting, value)?;
+        }
+        Some(())
     }
 
     fn contains(&self, value: f64) -> bool {
@@ -126,9 +149,7 @@ impl Threshold {
                 (reached, share) = (Some([root, outside]), APPROACH_SHARE);
                 // The component stands at the root. Test whether it falls just beyond the root.
                 let just_beyond = root + 0.4 * BRACKET_TOL * size * (outside - root).signum();
-                if bracket.contains(just_beyond) {
-                    bracket.test(trial, setting, just_beyond)?;
-                }
+                bracket.test_within(trial, setting, just_beyond)?;
             }
         }
         None

@@ -25,6 +25,8 @@ pub(super) const MIN_ARC: f64 = 1e-6;
 /// The step of the first search, degrees. A right angle is no multiple of it, because many structures are exactly at
 /// their limit of stability at right angles.
 const SEARCH_STEP: f64 = 77.7;
+/// The largest number of mechanisms that move an end inward by less than the tolerance of the proofs.
+const MAX_SHARPENINGS: usize = 8;
 /// The largest number of cuts of one search.
 pub(super) const MAX_CUTS: usize = 200;
 
@@ -55,8 +57,8 @@ pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     Interval::Between { low, high }
 }
 
-/// The tilts in one direction from a tilt at which a component stands. A *distance* of a tilt is measured from there,
-/// 0 to 360 degrees.
+/// The tilts in one direction from a tilt at which a component stands. The *distance* of a tilt is the angle from
+/// that tilt, from 0 to 360 degrees.
 struct TiltSearch<'t, 'a> {
     trial: &'t mut Trial<'a>,
     from: f64,
@@ -127,12 +129,14 @@ impl TiltSearch<'_, '_> {
         for _ in 0..MAX_CUTS {
             // The mechanism was found at `falls`. It excludes every tilt from `bound` to `falls`.
             let arc = excluded_arc(self.trial, self.from + self.outward * falls, &motion);
-            let bound = arc.map_or(stands, |[low, high]| {
-                let tilt = if self.outward > 0.0 { low } else { high };
-                ((tilt - self.from) * self.outward).clamp(stands, falls)
-            });
+            let bound = arc.map_or(stands, |arc| self.first_excluded(arc, falls));
+            // The mechanism may exclude even `stands`: that verdict holds only within the tolerance of a proof by
+            // forces, and a mechanism has no such tolerance. Search again from the start.
+            if stands - bound > MIN_ARC {
+                stands = 0.0;
+            }
             if bound - stands <= MIN_ARC {
-                return StableEnd::At(bound, motion);
+                return self.sharpened(bound, stands.min(bound), motion);
             }
             let size = tilt_scale(self.from + self.outward * bound);
             let near = offsets().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
@@ -156,7 +160,7 @@ impl TiltSearch<'_, '_> {
                 Some((distance, is_near, Verdict::Stable, _)) => {
                     match self.fall_between(stands, distance) {
                         Some(stable_end) => return stable_end,
-                        None if is_near => return StableEnd::At(bound, motion),
+                        None if is_near => return self.sharpened(bound, distance, motion),
                         None => (stands, is_slow) = (distance, false),
                     }
                 }
@@ -167,6 +171,37 @@ impl TiltSearch<'_, '_> {
             }
         }
         StableEnd::Unconfirmed(stands, falls)
+    }
+
+    /// Returns the end at the distance `bound`, moved inward if the component falls even at `stands`, just inside it. The
+    /// verdict there is stable only within the tolerance of a proof by forces, which may be more than 0.0001 degrees. A
+    /// mechanism has no such tolerance, and excludes an arc that begins farther inside.
+    fn sharpened(&mut self, bound: f64, stands: f64, motion: Vec<Motion>) -> StableEnd {
+        let (mut bound, mut motion) = (bound, motion);
+        let mut inside = stands;
+        for _ in 0..MAX_SHARPENINGS {
+            let tilt = self.from + self.outward * inside;
+            let Some(found) = self.trial.sure_fall(&tilted(tilt, 1.0)) else {
+                break;
+            };
+            let Some(arc) = excluded_arc(self.trial, tilt, &found) else {
+                break;
+            };
+            let closer = self.first_excluded(arc, inside);
+            if closer >= bound {
+                break;
+            }
+            let step = MIN_OFFSET * tilt_scale(tilt);
+            (bound, motion, inside) = (closer, found, (closer - step).max(0.0));
+        }
+        StableEnd::At(bound, motion)
+    }
+
+    /// Returns the distance at which an arc of excluded tilts begins, seen from the start of the search. The arc contains
+    /// the distance `inside_arc`.
+    fn first_excluded(&self, [low, high]: [f64; 2], inside_arc: f64) -> f64 {
+        let tilt = if self.outward > 0.0 { low } else { high };
+        ((tilt - self.from) * self.outward).clamp(0.0, inside_arc)
     }
 
     /// Finds the first tilt at which the component ceases to stand, between the distances `from` and `to` from the

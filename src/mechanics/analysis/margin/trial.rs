@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
 use crate::analysis::decide::{
-    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, verdict_from_cache,
+    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, proved_motion,
+    verdict_from_cache,
 };
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
@@ -47,16 +48,16 @@ pub(super) struct Setting {
 pub(super) enum LimitChange {
     /// The limits of the scene.
     None,
-    /// Every finite limit becomes 0. The rest is what robots can carry if the loads grow without end.
+    /// Every finite limit becomes 0. The unlimited forces remain, with which robots resist loads of any size.
     FiniteToZero,
     /// Consecutive limits, counted over all grips: limit 3g + c is component c of grip g. Component 0 is force x, 1 is
     /// force y, 2 is the torque.
     Replace {
-        /// The first of them.
+        /// The index of the first limit.
         first: usize,
-        /// The limit after the last of them.
+        /// The index after the last limit.
         end: usize,
-        /// Their value, N or N·m.
+        /// The new value of these limits, N or N·m.
         value: f64,
     },
 }
@@ -158,6 +159,22 @@ impl<'a> Trial<'a> {
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))
+    }
+
+    /// Returns a motion that proves that the changed component falls: the one of largest power. `None` if it proves
+    /// nothing. A mechanism has no tolerance, so it may prove a fall where the verdict is stable, because the forces
+    /// balance within their tolerance.
+    pub fn sure_fall(&mut self, setting: &Setting) -> Option<Vec<Motion>> {
+        let tangent = self.tangent(setting)?;
+        self.proved_motion(&tangent, setting)
+    }
+
+    /// Like [`Trial::sure_fall`], for a tangent of the changed component.
+    pub fn proved_motion(&self, tangent: &Tangent, setting: &Setting) -> Option<Vec<Motion>> {
+        let changed = self.changed(setting);
+        let program = Program::new(&changed, Scale::from_assembly(&changed));
+        let (motion, _) = proved_motion(&changed, &program, &tangent.motion())?;
+        Some(motion)
     }
 
     fn count(&mut self) {

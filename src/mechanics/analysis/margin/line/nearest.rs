@@ -75,7 +75,11 @@ impl Line<'_> {
             .flat_map(|step| [step, -step])
             .map(|step| value + step * self.size(value));
         let mut last = Vec::new();
-        for at in std::iter::once(value).chain(away.filter(|at| (low..=high).contains(at))) {
+        // A range as narrow as rounding may contain only its own ends, such as the factor 0.
+        let is_near = |end: &f64| (end - value).abs() <= END_TOL * self.size(value);
+        let ends = [low, high].into_iter().filter(is_near);
+        let away = away.filter(|at| (low..=high).contains(at));
+        for at in std::iter::once(value).chain(away).chain(ends) {
             let (verdict, motion) = self.decide_at_limit(trial, at);
             if verdict != Verdict::Undecided {
                 return (verdict, at, motion);
