@@ -70,7 +70,7 @@ export function drawMissing(stage, { result, stale }) {
     if (!failure.force) return [point];
     const force = inPixels(failure.force, factor);
     const pull = failure.kind === "tension";
-    labels.push(beside(pull ? at : add(at, scale(force, 0.6)), force, failure.amount));
+    labels.push(labelNextTo(pull ? at : add(at, scale(force, 0.6)), force, failure.amount));
     // If a joint opens, the missing force would pull both blocks together. Otherwise it acts on the first body.
     const arrows = pull ? [arrowPath(subtract(at, force), at, 4), arrowPath(add(at, force), at, 4)] : [arrowPath(at, add(at, force), 5)];
     return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point])];
@@ -86,7 +86,7 @@ const MOST_LABELS = 6;
 const LETTER = { width: 7.5, height: 16 };
 
 /** Returns the label of an amount next to an arrow, on its upper side. @param {Point} at @param {Point} force @param {number} amount @returns {Label} */
-function beside(at, force, amount) {
+function labelNextTo(at, force, amount) {
   const text = newtons(amount);
   const width = LETTER.width * text.length;
   const size = length(force) || 1;

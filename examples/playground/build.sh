@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Compiles the library for browsers into examples/playground/pkg/, as a package for npm: drystone.js,
-# drystone_bg.wasm, and declarations for TypeScript; with Node.js also interactive.js, the script of interactive reports.
-# Does not compile if pkg/ is already made from the same sources.
+# drystone_bg.wasm, and declarations for TypeScript; with Node.js also interactive.js, the script of interactive
+# reports. Does not compile if pkg/ was already built from the same sources.
 #
 # usage: examples/playground/build.sh [--debian]
 #
-# Needs a Rust toolchain from rustup, with the component rust-src: the standard library is compiled too, for size. If
-# rustup cannot fetch this component, its compiled target wasm32-unknown-unknown is used; the module is then larger. If
-# it can fetch neither, or with --debian, the compiler of Debian's packages is unpacked in target/, without installing it.
+# Needs a Rust toolchain from rustup, with the component rust-src, because the standard library is compiled for size
+# as well. If rustup cannot fetch this component, its target wasm32-unknown-unknown is used, and the module is larger.
+# If rustup can fetch neither, or with --debian, the compiler of Debian's packages is unpacked in target/. It is not
+# installed.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -22,7 +23,7 @@ debian=$target/wasm-toolchain
 inputs() { find Cargo.toml Cargo.lock src assets/fonts/advances.bin examples/playground/build.sh -type f | LC_ALL=C sort; }
 key=$(inputs | xargs -d '\n' sha256sum | sha256sum | cut -c 1-16)
 if [ -f "$pkg/drystone_bg.wasm" ] && [ "$(cat "$pkg/sources" 2>/dev/null)" = "$key" ]; then
-    echo "pkg/ is made from these sources already"
+    echo "pkg/ was already built from these sources"
     ! command -v node >/dev/null || node "$here/interactive.mjs"
     exit 0
 fi
@@ -53,8 +54,9 @@ unpack_debian() {
 }
 
 arguments=(rustc --locked --lib --crate-type cdylib --profile web --target "$wasm" --no-default-features --features wasm)
-# For a small module: the compiled standard library sorts every type with its own copy of a large function, and the
-# messages of internal errors need no places in the sources, because the program gives the same message with its place.
+# These options make the module smaller. The standard library is compiled for size, because its compiled form sorts
+# every type with a separate copy of a large function. Messages of internal errors contain no positions in the
+# sources, because the command-line program reports the same errors with their positions.
 small_std=(-Z build-std=std,panic_abort -Z build-std-features=optimize_for_size)
 export CARGO_ENCODED_RUSTFLAGS=-Zlocation-detail=none
 has_component() { rustup component list --installed | grep -qx "$1" || rustup component add "$1"; }
@@ -81,7 +83,7 @@ cat > "$pkg/package.json" <<JSON
 {
   "name": "drystone",
   "version": "$number",
-  "description": "Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.",
+  "description": "Decides whether a structure of dry-laid blocks stands, finds its forces, and draws figures.",
   "license": "MIT OR Apache-2.0",
   "type": "module",
   "main": "drystone.js",

@@ -99,7 +99,7 @@ export class Controller {
   move(handle, by, free) {
     if (handle.kind === "view") {
       const { view } = this.stage;
-      // `by` refers to the present view: add the displacement of the view since the drag began.
+      // Move the view so that the point at which the drag began is under the pointer again.
       view.centre = subtract(view.centre, by);
       return this.page.redraw();
     }
@@ -198,7 +198,7 @@ export class Controller {
     const focused = this.stage.root.contains(document.activeElement);
     this.store.edit("", (scene) => edit.removeBody(scene, body));
     this.store.select(null);
-    // The element with the focus was deleted: the block that took its place in the list gets the focus.
+    // The element with the focus was removed. The block that is now at its position in the list gets the focus.
     const left = standing(this.store.resolved, this.store.frame).filter((b) => b.list === body.list);
     const next = left.find((b) => b.index >= body.index) ?? left.at(-1);
     if (focused && next) this.focus(next.key);

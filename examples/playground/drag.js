@@ -1,26 +1,26 @@
-// Implements dragging in an SVG with mouse, touch or pen. It does not depend on scenes: the caller decides what can be
-// dragged, and what a move does. There is at most one move for each frame of the screen.
+// Implements dragging in an SVG with mouse, touch or pen. It does not depend on scenes: the caller decides what can
+// be dragged, and what a move does. There is at most one move for each frame of the screen.
 
 /** @typedef {import("./geometry.js").Point} Point */
 /**
  * @template Handle
  * @typedef {object} DragOptions
- * @property {(target: Element, event: PointerEvent) => Handle | null} pick what is under the pointer; null for nothing
+ * @property {(target: Element, event: PointerEvent) => Handle | null} pick the handle under the pointer, or null
  * @property {(x: number, y: number) => Point} toWorld client coordinates to those of the drawing
- * @property {(handle: Handle, at: Point) => void} [start] once the pointer has moved by a few pixels
- * @property {(handle: Handle, by: Point, at: Point, event: PointerEvent) => void} move `by` since the start
+ * @property {(handle: Handle, at: Point) => void} [start] called when the pointer has moved by a few pixels
+ * @property {(handle: Handle, by: Point, at: Point, event: PointerEvent) => void} move `by` is counted from the start
  * @property {(handle: Handle, kept: boolean) => void} end `kept` is false if Escape or the browser ended the drag
- * @property {(handle: Handle | null, at: Point) => void} [click] pressed and released without a move
+ * @property {(handle: Handle | null, at: Point) => void} [click] called if the pointer did not move while it was pressed
  */
 
-/** If the pointer moves less than this many pixels, the drag counts as a click. */
+/** If the pointer moves by less than this many pixels, the drag counts as a click. */
 const CLICK = 4;
 
 /**
  * @template Handle
  * @param {SVGSVGElement} svg
  * @param {DragOptions<Handle>} options
- * @returns {() => void} stops it
+ * @returns {() => void} a function that ends the support of dragging
  */
 export function makeDraggable(svg, options) {
   /** @type {{ handle: Handle | null, id: number, x: number, y: number, from: Point, moving: boolean } | null} */

@@ -42,7 +42,7 @@ function forEachPointOf(scene, id, change) {
   }
 }
 
-/** Turns a body about its centroid; bodies of cells turn by whole lattice angles. @param {any} scene @param {Body} body @param {number} degrees @param {number} decimals */
+/** Turns a body about its centroid. Bodies of cells turn by whole lattice angles. @param {any} scene @param {Body} body @param {number} degrees @param {number} decimals */
 export function turnBody(scene, body, degrees, decimals) {
   const entity = entityOf(scene, body);
   const grid = gridOf(scene);
@@ -51,7 +51,7 @@ export function turnBody(scene, body, degrees, decimals) {
     const full = (((entity.angle ?? 0) + Math.sign(degrees) * part) % 360 + 360) % 360;
     if (full === 0) delete entity.angle;
     else entity.angle = full;
-    // The body was turned about its origin: move it back as near to its old position as the lattice allows.
+    // The body was turned about its origin. Move its centroid back as near to its old position as the lattice allows.
     const outline = outlineOf(scene, entity)?.[0];
     if (outline) entity.at = nearestNode(grid, add(toMetres(grid, entity.at ?? [0, 0]), subtract(body.centre, centroid(outline))));
     return;
@@ -103,7 +103,7 @@ export function addBlock(scene, block, frame) {
 
 /** Removes a body and all entries that refer to it. @param {any} scene @param {Body} body */
 export function removeBody(scene, body) {
-  // The name of a block without an id is its number: give all blocks an id before the numbers change.
+  // The name of a block without an id is its number. Give all blocks an id before the numbers change.
   if (body.list === "blocks") scene.blocks.forEach((/** @type {any} */ block, /** @type {number} */ i) => block.id ??= blockId(block, i));
   scene[body.list].splice(body.index, 1);
   if (body.list === "ground") return;
@@ -120,7 +120,7 @@ export function removeBody(scene, body) {
   dropLostReleases(scene);
 }
 
-/** A step may release only a robot that holds something. @param {any} scene */
+/** Removes releases of robots that hold nothing, because a scene must not contain them. @param {any} scene */
 function dropLostReleases(scene) {
   const holding = new Set();
   for (const step of list(scene.steps)) {
@@ -200,7 +200,7 @@ export function setFriction(scene, mu) {
   for (const body of [...list(scene.blocks), ...list(scene.ground)]) if (body) delete body.friction;
 }
 
-/** Turns gravity; 0° points down. @param {any} scene @param {number} degrees anticlockwise */
+/** Turns gravity. At 0° it points down. @param {any} scene @param {number} degrees anticlockwise */
 export function setTilt(scene, degrees) {
   const size = Math.hypot(...gravityOf(scene)) || 9.81;
   const angle = (degrees * Math.PI) / 180;

@@ -1,12 +1,13 @@
-// Shows how a structure begins to fall. Each block turns about its instantaneous centre of rotation, or slides if it does
-// not turn. The library gives the velocities of the first moment; the rest of the motion is only an illustration.
+// Shows how a structure begins to fall. Each block turns about its instantaneous centre of rotation, or slides if it
+// does not turn. The library gives the velocities of the first moment; the rest of the motion is only an
+// illustration.
 
 import { length } from "./geometry.js";
 
 /** @typedef {import("./geometry.js").Point} Point */
 /** @typedef {{ block: string, velocity: Point, spin: number }} Motion */
 
-/** The duration of the animation of a fall, and of the pause at its end, in milliseconds. */
+/** The durations of the fall, of the pause at its end, and of the return to the start, in milliseconds. */
 const FALL = 1500;
 const REST = 900;
 const RETURN = 350;
@@ -69,7 +70,7 @@ export class Fall {
     if (Math.abs(angle) < 1e-6 || radius * view.zoom > 1e5) {
       return `translate(${(velocity[0] * amount * view.zoom).toFixed(2)} ${(-velocity[1] * amount * view.zoom).toFixed(2)})`;
     }
-    // The centre of rotation: the point that does not move. It lies perpendicular to the velocity of the centroid.
+    // The centre of rotation does not move. Its direction from the centroid is perpendicular to the velocity.
     const [x, y] = view.toPixels([centre[0] - velocity[1] / spin, centre[1] + velocity[0] / spin]);
     return `rotate(${((-angle * 180) / Math.PI).toFixed(3)} ${x.toFixed(2)} ${y.toFixed(2)})`;
   }

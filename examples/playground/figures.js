@@ -1,9 +1,9 @@
-// Shows the figures of the library, one tab for each kind. A figure is shown as an image, so that text of a scene cannot
-// run scripts or load anything.
+// Shows the figures of the library, one tab for each kind. A figure is shown as an image, so that text of a scene
+// cannot run scripts or load anything.
 
 import { html } from "./dom.js";
 
-/** The kinds of figures on the page, in this order; kinds that the library does not have are left out. */
+/** The kinds of figures on the page, in this order. Kinds that the library does not have are left out. */
 const KINDS = [
   { kind: "forces", label: "Forces", help: "Every force between the blocks, and in red what is missing." },
   { kind: "flow", label: "Flow", help: "How the weight runs down through the blocks." },
@@ -17,7 +17,7 @@ export class Figures {
   /**
    * @param {{ tabs: HTMLElement, panel: HTMLElement, image: HTMLImageElement, note: HTMLElement }} parts
    * @param {(options: any) => Promise<import("./solver.js").Answer | null>} ask
-   * @param {(kind: string) => any} options what the page adds: frame, theme, selected block
+   * @param {(kind: string) => any} options the options of the page: frame, theme, selected block
    */
   constructor(parts, ask, options) {
     this.parts = parts;

@@ -1,5 +1,5 @@
-// Plane geometry for the editor: a point is [x, y] in metres, a polygon is a list of points. Verdicts do not depend on
-// this file, because the library reads every scene from its text.
+// Plane geometry for the editor. A point is [x, y] in metres, and a polygon is a list of points. Verdicts do not
+// depend on this file, because the library reads every scene from its text.
 
 /** @typedef {[number, number]} Point */
 
@@ -16,7 +16,7 @@ export const cross = (a, b) => a[0] * b[1] - a[1] * b[0];
 /** @param {Point} a */
 export const length = (a) => Math.hypot(a[0], a[1]);
 
-/** Rounds a number to `decimals` decimals; never returns −0. @param {number} value @param {number} decimals */
+/** Rounds a number to `decimals` decimals. Never returns −0. @param {number} value @param {number} decimals */
 export function round(value, decimals) {
   const rounded = Number(value.toFixed(decimals));
   return rounded === 0 ? 0 : rounded;
@@ -33,7 +33,7 @@ export function turn(p, angle, centre = [0, 0]) {
   return [centre[0] + c * x - s * y, centre[1] + s * x + c * y];
 }
 
-/** Returns twice the signed area: positive if the corners are in anticlockwise order. @param {Point[]} polygon */
+/** Returns the signed area, which is positive if the corners are in anticlockwise order. @param {Point[]} polygon */
 export function signedArea(polygon) {
   let sum = 0;
   for (let i = 0; i < polygon.length; i++) sum += cross(polygon[i], polygon[(i + 1) % polygon.length]);
@@ -78,7 +78,7 @@ export function nearestOnSegment(p, a, b) {
 /**
  * @typedef {{ left: number, right: number, bottom: number, top: number }} Box
  * @param {Iterable<Point>} points
- * @returns {Box} the smallest box around the points; a unit square around nothing
+ * @returns {Box} the smallest box around the points, or a unit square if there are no points
  */
 export function bounds(points) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
@@ -109,9 +109,9 @@ export function isConvex(polygon) {
 }
 
 /**
- * Returns the shortest move of `a` after which it does not overlap `b`; null if they do not overlap. Both must be convex,
- * because the separating-axis test uses the normals of all edges. If `a` did not overlap `b` before, it moves back to the
- * same side of `b`, so that it never passes through.
+ * Returns the shortest move of `a` after which it does not overlap `b`, or null if they do not overlap. Both must be
+ * convex, because the separating-axis test uses the normals of all edges. If `a` did not overlap `b` before, it moves
+ * back to the same side of `b`, so that it never passes through.
  * @param {Point[]} a @param {Point[]} b @param {number} slack overlaps below this many metres do not count
  * @param {Point[]} [before] where `a` was
  * @returns {Point | null}

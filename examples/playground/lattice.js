@@ -1,5 +1,5 @@
-// The two lattices of a scene file: the positions of nodes, the cells of the built-in shapes, and the outline of cells.
-// The numbers are those of src/mechanics/scene/shape.rs and src/geometry/lattice.rs.
+// The two lattices of a scene file: the positions of nodes, the cells of the built-in shapes, and the outline of
+// cells. The numbers are those of src/mechanics/scene/shape.rs and src/geometry/lattice.rs.
 
 import { signedArea } from "./geometry.js";
 
@@ -25,7 +25,7 @@ export const BUILT_IN_NAMES = Object.keys(BUILT_IN);
 /** @param {string} name @returns {Cell[] | null} */
 export const builtIn = (name) => (Object.hasOwn(BUILT_IN, name) ? BUILT_IN[name] : null);
 
-/** The grid of the scene with its default values; null if there is no grid. @param {any} scene @returns {Grid | null} */
+/** The grid of the scene with its default values, or null if there is no grid. @param {any} scene @returns {Grid | null} */
 export function gridOf(scene) {
   const grid = scene?.grid;
   if (!grid || (grid.kind !== "triangular" && grid.kind !== "square")) return null;
@@ -49,7 +49,7 @@ export function nearestNode(grid, point) {
   const [x, y] = toLattice(grid, point);
   let best = /** @type {Point} */ ([Math.round(x), Math.round(y)]);
   let least = Infinity;
-  // In skewed coordinates rounding may miss the nearest node by one.
+  // Because the coordinates are skewed, the rounded node may be a neighbour of the nearest one.
   for (let i = Math.floor(x) - 1; i <= Math.floor(x) + 2; i++) {
     for (let j = Math.floor(y); j <= Math.floor(y) + 1; j++) {
       const [nx, ny] = toMetres(grid, [i, j]);
@@ -75,7 +75,7 @@ function turned(grid, [x, y], steps) {
 
 /**
  * Returns the outline of connected cells as lattice nodes. An edge that two cells share occurs in both directions and is
- * left out; the other edges form loops, and the loop with the largest area is the outline.
+ * left out. The other edges form loops, and the loop with the largest area is the outline.
  * @param {Grid} grid @param {Cell[]} cells @param {number} angle degrees
  * @returns {Point[][]} the outline, then its holes
  */

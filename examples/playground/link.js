@@ -12,7 +12,7 @@ export async function packed(text) {
   return `s=${btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
 }
 
-/** @param {string} hash with or without # @returns {Promise<string | null>} the scene, or null where the link has none */
+/** @param {string} hash with or without # @returns {Promise<string | null>} the scene, or null if the link contains none */
 export async function unpacked(hash) {
   const match = /^#?s=([\w-]+)$/.exec(hash);
   if (!match) return null;

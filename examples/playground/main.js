@@ -96,7 +96,7 @@ byId("redo").addEventListener("click", () => store.redo());
 byId("play").addEventListener("click", () => bench.play());
 byId("show-forces").addEventListener("change", () => bench.draw());
 document.addEventListener("keydown", (event) => {
-  // In the text field, the undo of the browser is used, which works letter by letter.
+  // The text field uses the undo of the browser, which works letter by letter.
   if (!(event.ctrlKey || event.metaKey) || event.target === byId("source")) return;
   const key = event.key.toLowerCase();
   if (key !== "z" && key !== "y") return;
@@ -105,7 +105,7 @@ document.addEventListener("keydown", (event) => {
   else store.undo();
 });
 
-/** The scene of the link, or the first example. */
+/** Opens the scene of the link, or the first example. */
 async function begin() {
   let text = null;
   try {

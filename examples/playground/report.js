@@ -8,7 +8,7 @@ import { Workbench } from "./workbench.js";
 const solver = new Solver();
 const system = matchMedia("(prefers-color-scheme: dark)");
 
-/** The editor in the place of one figure. */
+/** The editor that replaces one figure. */
 class Stones {
   /** @param {HTMLElement} plate the figure @param {string} text of the scene @param {() => void} back */
   constructor(plate, text, back) {

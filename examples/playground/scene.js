@@ -9,7 +9,7 @@ import { builtIn, gridOf, outlineOfCells, toMetres } from "./lattice.js";
  * @typedef {object} Body
  * @property {"blocks" | "ground"} list the list in the scene that contains it
  * @property {number} index its number there, from 0
- * @property {string} key "blocks/3", used to find it again
+ * @property {string} key identifies the body, for example "blocks/3"
  * @property {string} id its name for other parts of the scene
  * @property {Point[]} outline corners in metres
  * @property {Point[][]} holes

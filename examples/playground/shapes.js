@@ -9,15 +9,15 @@ import { BUILT_IN_NAMES, gridOf, nearestNode } from "./lattice.js";
 /** @param {Point[]} points @param {number} decimals */
 const rounded = (points, decimals) => points.map(([x, y]) => [round(x, decimals), round(y, decimals)]);
 
-/** On one of its sides. @param {number} radius @returns {Point[]} */
+/** A hexagon that stands on one of its sides. @param {number} radius @returns {Point[]} */
 function standingHexagon(radius) {
   const height = (radius * Math.sqrt(3)) / 2;
   return [[-radius / 2, 0], [radius / 2, 0], [radius, height], [radius / 2, 2 * height], [-radius / 2, 2 * height], [-radius, height]];
 }
 
 /**
- * An upright voussoir of a semicircular arch: its sides point to the centre of the arch below it.
- * @param {number} size its height @param {number} [angle] its share of the circle, degrees
+ * A voussoir at the crown of a semicircular arch. Its sides point to the centre of the arch, which is below it.
+ * @param {number} size its height @param {number} [angle] the angle between its sides, degrees
  * @returns {Point[]}
  */
 export function voussoir(size, angle = 18) {

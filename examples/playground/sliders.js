@@ -1,5 +1,5 @@
-// Sliders for friction, tilt, kernel and loads. A band on each slider shows the values for which the structure stands: the
-// margin that the library computes if all other values stay the same.
+// Sliders for friction, tilt, kernel and loads. A band on each slider shows the values for which the structure
+// stands: the margin that the library computes if all other values stay the same.
 
 import { html, trim } from "./dom.js";
 import { setFriction, setTilt, tiltOf } from "./edit.js";
@@ -32,7 +32,7 @@ const PARAMETERS = [
     id: "tilt", label: "Tilt", help: "Turns gravity, as if the ground were tilted.", low: -45, high: 45, step: 0.5, unit: "°",
     read: ({ scene }) => tiltOf(scene),
     write: (store, value) => store.edit("tilt", (scene) => setTilt(scene, value)),
-    // The library measures the tilt from the present direction of gravity.
+    // The library gives the tilt relative to the current direction of gravity.
     interval: ({ tilt }, { scene }) => (Array.isArray(tilt) ? /** @type {Interval} */ (tilt.map((end) => (end === null ? null : end + tiltOf(scene)))) : tilt),
   },
   {
@@ -89,7 +89,7 @@ export class Sliders {
     }
   }
 
-  /** @param {any | null} margins of the library, or null while they are not known */
+  /** @param {any | null} margins those of the library, or null while they are unknown */
   showMargins(margins) {
     for (const entry of this.rows) {
       // At factor 0 there are no loads to multiply, so keep the interval that was found before.
@@ -125,7 +125,7 @@ export class Sliders {
   }
 }
 
-/** Formats a value; an angle gets the word left or right. @param {number} value @param {string} unit */
+/** Formats a value. An angle gets the word left or right. @param {number} value @param {string} unit */
 const amount = (value, unit) => (unit === "°" ? `${trim(Math.abs(value))}° ${value < 0 ? "left" : "right"}` : `${trim(value)}${unit}`);
 
 /** @param {Interval} interval @param {Parameter} parameter */

@@ -1,5 +1,5 @@
-// Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid, and
-// it does not overlap other blocks, because stones cannot pass through each other.
+// Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid,
+// and it does not overlap other blocks, because stones cannot pass through each other.
 
 import { convexPieces } from "./convex.js";
 import { add, cross, dot, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
@@ -7,7 +7,10 @@ import { add, cross, dot, length, near, pushOut, scale, signedArea, subtract } f
 /** @typedef {import("./geometry.js").Point} Point */
 /** @typedef {import("./geometry.js").Box} Box */
 /** @typedef {{ outline: Point[], holes?: Point[][], box: Box }} Outline */
-/** @typedef {{ normal: Point, distance: number, weight: number }} Pull a wish to move by a distance along a direction */
+/**
+ * A possible move along a normal. The pull with the least weight is used.
+ * @typedef {{ normal: Point, distance: number, weight: number }} Pull
+ */
 
 /** The largest sine of the angle between two edges that count as parallel. */
 const PARALLEL = 0.03;
@@ -19,13 +22,13 @@ const STEPS = 60;
  * @param {Outline} body as it was before the drag
  * @param {Point} wish the move of the pointer
  * @param {Outline[]} others
- * @param {{ reach: number, grid: number, decimals: number, last?: Point }} options `reach` in metres; `grid` 0 for
- *   none; `last` the move before this one
+ * @param {{ reach: number, grid: number, decimals: number, last?: Point }} options `reach` is in metres, `grid` is 0 if
+ *   there is no grid, and `last` is the previous move
  * @returns {Point}
  */
 export function snapMove(body, wish, others, { reach, grid, decimals, last = [0, 0] }) {
   const slack = 10 ** -decimals;
-  const free = way(body, wish, others, slack, last);
+  const free = slide(body, wish, others, slack, last);
   const box = moved(body.box, free);
   const close = others.filter((other) => near(other.box, box, 2 * reach));
   let move = free;
@@ -82,7 +85,7 @@ function edgePulls(outline, others, reach) {
   return pulls;
 }
 
-/** Returns the pulls along a face that touches now: corner to corner, or onto a second face. @param {Point[]} outline @param {Outline[]} others @param {Point} normal @param {number} reach @returns {Pull[]} */
+/** Returns the pulls along a face that already touches: from corner to corner, or onto a second face. @param {Point[]} outline @param {Outline[]} others @param {Point} normal @param {number} reach @returns {Pull[]} */
 function pullsAlong(outline, others, normal, reach) {
   /** @type {Point} */
   const tangent = [-normal[1], normal[0]];
@@ -106,7 +109,7 @@ function overlap(a, b, c, d, along) {
   return Math.max(dot(a, along), Math.min(p, q)) < Math.min(dot(b, along), Math.max(p, q));
 }
 
-/** Returns the distance of a coordinate from the grid. @param {number} at @param {number} grid */
+/** Returns the difference between the nearest grid line and a coordinate. @param {number} at @param {number} grid */
 const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
 
 /**
@@ -115,7 +118,7 @@ const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
  * @param {Outline} body @param {Point} wish @param {Outline[]} others @param {number} slack @param {Point} last
  * @returns {Point}
  */
-function way(body, wish, others, slack, last) {
+function slide(body, wish, others, slack, last) {
   if (piecesOf(body).length === 0) return wish;
   const size = 0.3 * Math.min(body.box.right - body.box.left, body.box.top - body.box.bottom);
   const step = Math.max(size, length(subtract(wish, last)) / STEPS);
@@ -132,7 +135,7 @@ function way(body, wish, others, slack, last) {
   return at;
 }
 
-/** Returns the convex pieces of a body. A body with holes has none: other blocks may lie in its holes. @param {Outline} body */
+/** Returns the convex pieces of a body. A body with holes gets none, because other blocks may lie in its holes. @param {Outline} body */
 const piecesOf = (body) => (body.holes?.length ? [] : convexPieces(body.outline));
 
 /** Returns the move, changed so that the block does not overlap the others. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
@@ -140,7 +143,7 @@ function outOfOthers(body, move, others, slack, last) {
   const pieces = piecesOf(body);
   let result = move;
   const before = pieces.map((piece) => shift(piece, last));
-  // A block between two others may be pushed from one into the other: after a few rounds it stays where it was.
+  // A block between two others may be pushed from one into the other. After a few rounds it stays where it was.
   for (let round = 0; round < 6; round++) {
     const now = pieces.map((piece) => shift(piece, result));
     const box = moved(body.box, result);

@@ -1,28 +1,29 @@
-// Sends requests to the workers. A worker cannot be interrupted, so only the newest request of each topic is kept: while
-// the worker is busy, a newer request replaces the one that waits. Verdicts have a worker of their own, so that a slow
-// figure never delays them.
+// Sends requests to the workers. A worker cannot be interrupted, so only the newest request of each topic is kept:
+// while the worker is busy, a newer request replaces the one that waits. Verdicts have a separate worker, so that a
+// slow figure never delays them.
 
 /** @typedef {{ value?: any, problems?: any[], error?: string, milliseconds?: number }} Answer */
-/** @typedef {{ topic: string, message: any, resolve: (answer: Answer | null) => void }} Question */
+/** @typedef {{ topic: string, message: any, resolve: (answer: Answer | null) => void }} Request */
 
-/** The time limit of an analysis, in seconds. After it, the library calls a step undecided. */
+/** The time limit of an analysis, in seconds. A step that takes longer is undecided. */
 const PATIENCE = 10;
 
+/** A worker with its waiting requests, at most one for each topic. */
 class Lane {
   /** @param {() => Worker} start */
   constructor(start) {
     this.start = start;
     /** @type {Worker | null} */
     this.worker = null;
-    /** @type {Map<string, Question>} */
+    /** @type {Map<string, Request>} */
     this.waiting = new Map();
-    /** @type {Question | null} */
-    this.asked = null;
+    /** @type {Request | null} */
+    this.current = null;
     this.id = 0;
     this.since = 0;
   }
 
-  /** @param {string} topic @param {any} message @returns {Promise<Answer | null>} null where a newer question replaced it */
+  /** @param {string} topic @param {any} message @returns {Promise<Answer | null>} null if a newer request replaced this one */
   ask(topic, message) {
     return new Promise((resolve) => {
       this.waiting.get(topic)?.resolve(null);
@@ -32,13 +33,13 @@ class Lane {
   }
 
   next() {
-    if (this.asked || this.waiting.size === 0) return;
-    const [question] = this.waiting.values();
-    this.waiting.delete(question.topic);
-    this.asked = question;
+    if (this.current || this.waiting.size === 0) return;
+    const [request] = this.waiting.values();
+    this.waiting.delete(request.topic);
+    this.current = request;
     this.worker ??= this.open();
     this.since = performance.now();
-    this.worker.postMessage({ ...question.message, id: ++this.id });
+    this.worker.postMessage({ ...request.message, id: ++this.id });
   }
 
   open() {
@@ -62,16 +63,16 @@ class Lane {
 
   /** @param {Answer} answer */
   answer(answer) {
-    const question = this.asked;
-    this.asked = null;
-    question?.resolve(answer);
+    const request = this.current;
+    this.current = null;
+    request?.resolve(answer);
     this.next();
   }
 }
 
 const startWorker = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
 
-/** How many solvers share workers so far: each has topics of its own. */
+/** The number of solvers on the page. Each uses its number in its topics, so that solvers can share workers. */
 let solvers = 0;
 
 export class Solver {

@@ -16,7 +16,7 @@ import { View } from "./view.js";
  * @property {import("./scene.js").Resolved} resolved
  * @property {number} frame
  * @property {string | null} selected
- * @property {any | null} result the library's answer for this step, or null
+ * @property {any | null} result the result of the library for this step, or null
  * @property {Set<string>} faulty ids of blocks with a problem
  * @property {boolean} forces whether to draw the forces between the blocks
  * @property {boolean} stale whether the answer is older than the drawing
@@ -32,11 +32,11 @@ export class Stage {
     /** @type {Record<string, SVGElement>} */
     this.layers = {};
     for (const name of LAYERS) this.layers[name] = /** @type {SVGElement} */ (root.appendChild(svg("g", { class: `layer-${name}` })));
-    // This layer is only visible; elements that can have the focus are in the other layers.
+    // Screen readers ignore these layers. Elements that can have the focus are in the other layers.
     for (const name of ["grid", "planned", "forces", "missing", "draft"]) set(this.layers[name], { "aria-hidden": "true" });
     /** @type {Map<string, { group: SVGElement, path: SVGElement, label: SVGElement, d: string, text: string }>} */
     this.drawn = new Map();
-    /** The length of the arrow for one newton, in metres; constant while a load is dragged. */
+    /** The length of the arrow for one newton, in metres. It is constant while a load is dragged. */
     this.loadScale = 1;
   }
 
@@ -152,7 +152,7 @@ export class Stage {
       const [x, y] = this.view.toPixels(body.centre);
       set(drawn.label, { x: x.toFixed(1), y: y.toFixed(1) });
     }
-    // A name without space is not drawn; the list next to the stage has all names.
+    // A name that does not fit is not drawn. The list next to the stage contains all names.
     const room = Math.min(body.box.right - body.box.left, 3 * (body.box.top - body.box.bottom)) * this.view.zoom;
     const name = legible(body.id);
     const text = body.list === "blocks" && room > 10 + 7.5 * name.length ? name : "";
@@ -161,7 +161,7 @@ export class Stage {
     drawn.path.style.fill = body.fill && !state.includes("moving") ? body.fill : "";
   }
 
-  /** Tab reaches one body only: the selected one, or else the first block. @param {string | null} selected */
+  /** Lets Tab reach only one body: the selected one or, if there is none, the first block. @param {string | null} selected */
   keepOneTabStop(selected) {
     const keys = [...this.drawn.keys()];
     const stop = selected && this.drawn.has(selected) ? selected : keys.find((key) => key.startsWith("blocks")) ?? keys[0];
@@ -178,7 +178,8 @@ export class Stage {
       const next = points[(i + 1) % points.length];
       const [x, y] = this.view.toPixels(p);
       const [mx, my] = this.view.toPixels([(p[0] + next[0]) / 2, (p[1] + next[1]) / 2]);
-      // There are two elements for each corner. They keep their place in the document, so that one with the focus keeps it.
+      // There are two elements for each corner. They keep their place in the document, so that one with the focus
+      // keeps it.
       const corner = layer.children[2 * i] ?? layer.appendChild(svg("circle"));
       const middle = layer.children[2 * i + 1] ?? layer.appendChild(svg("circle"));
       const name = legible(/** @type {Body} */ (body).id);

@@ -1,17 +1,18 @@
-// The document: the text of the scene, what it parses to, the current step, the selection, and undo.
-// The text defines the scene. A change on the stage changes the parsed scene and writes the text again; a change in the
-// text replaces the parsed scene. All parts that show the scene listen to the events.
+// The document: the text of the scene, the parsed scene, the current step, the selection, and the changes that can be
+// undone. The text defines the scene. A change on the stage changes the parsed scene and writes the text again. A
+// change of the text replaces the parsed scene. All parts that show the scene listen to the events of the document.
 
 import { formatScene } from "./format.js";
 import { list, resolve } from "./scene.js";
 
 /** The largest number of changes that can be undone. */
 const DEPTH = 200;
-/** Changes with the same label within this many milliseconds count as one, as when an arrow key is held. */
+/** Changes with the same label within this many milliseconds are undone together, such as those of a held arrow key. */
 const TOGETHER = 900;
 
 /**
- * Marks that turn the direction of text, written as \u202e: the scene means the same, and nobody reads it wrongly.
+ * Replaces characters that change the direction of text by escapes such as \u202e. The scene stays the same, and its
+ * text cannot be displayed in a misleading order.
  * @param {string} text
  */
 const visible = (text) => text.replace(/[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`);
@@ -28,9 +29,9 @@ export class Store extends EventTarget {
     this.frame = 0;
     /** @type {string | null} key of the selected body */
     this.selected = null;
-    /** Whether the text can be parsed; if not, the stage shows the last scene that could. */
+    /** Whether the text can be parsed. If not, the stage shows the last scene that could be parsed. */
     this.parses = true;
-    /** The loads at factor 1, and the factor. The loads are stored, so that the factor 0 does not lose them. */
+    /** The factor on the loads. The loads at factor 1 are stored, so that they are not lost at factor 0. */
     this.factor = 1;
     /** @type {any[]} */
     this.loads = [];
@@ -39,7 +40,7 @@ export class Store extends EventTarget {
     /** @type {Entry[]} */
     this.future = [];
     this.last = { label: "", at: 0 };
-    /** Whether the user is dragging; the text is updated at the end of a drag. */
+    /** Whether the user is dragging. The text is updated at the end of a drag. */
     this.dragging = false;
   }
 
@@ -48,7 +49,7 @@ export class Store extends EventTarget {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 
-  /** Shows another scene; undo brings back the previous scene. @param {string} text */
+  /** Shows another scene. Undo brings back the previous scene. @param {string} text */
   open(text) {
     if (this.text) this.remember("");
     this.frame = 0;
@@ -137,7 +138,7 @@ export class Store extends EventTarget {
     this.apply(structuredClone(base), change);
   }
 
-  /** @param {boolean} keep whether the drag counts */
+  /** @param {boolean} keep whether the change is kept */
   endDrag(keep) {
     this.dragging = false;
     const before = /** @type {Entry} */ (this.past.at(-1));
@@ -148,7 +149,7 @@ export class Store extends EventTarget {
     this.emit("history");
   }
 
-  /** The factor on the loads. @param {number} factor */
+  /** Multiplies the loads by a factor. @param {number} factor */
   setFactor(factor) {
     if (!this.parses) return;
     this.remember("factor");
@@ -164,7 +165,7 @@ export class Store extends EventTarget {
     this.emit("scene", { from: "edit" });
   }
 
-  /** @param {string} label "" never joins the change before */
+  /** @param {string} label a change with the label "" is always undone separately */
   remember(label) {
     const now = performance.now();
     const same = label !== "" && label === this.last.label && now - this.last.at < TOGETHER;

@@ -12,14 +12,14 @@ export class Theme {
     try {
       this.chosen = localStorage.getItem(KEY);
     } catch {
-      // Without storage the choice lasts as long as the page.
+      // Without storage, the choice is lost when the page is closed.
     }
     button.addEventListener("click", () => {
       this.chosen = this.dark ? "light" : "dark";
       try {
         localStorage.setItem(KEY, this.chosen);
       } catch {
-        // See above.
+        // As above, the choice is lost when the page is closed.
       }
       this.show();
       changed();

@@ -1,4 +1,4 @@
-// Writes the verdict in words, and announces it to screen readers.
+// Writes the verdict in words.
 
 import { legible, newtons } from "./dom.js";
 import { list } from "./scene.js";

@@ -4,7 +4,7 @@
 
 export class View {
   constructor() {
-    /** Pixels for a metre. */
+    /** Pixels per metre. */
     this.zoom = 100;
     /** @type {Point} the world point in the middle */
     this.centre = [0, 0];
@@ -37,7 +37,7 @@ export class View {
     return left >= 0 && top >= 0 && right <= this.width && bottom <= this.height;
   }
 
-  /** Zooms about a point that does not move on the screen. @param {number} factor @param {Point} [at] pixels */
+  /** Zooms. The given point does not move on the screen. @param {number} factor @param {Point} [at] pixels */
   zoomBy(factor, at = [this.width / 2, this.height / 2]) {
     const fixed = this.toWorld(at);
     this.zoom = Math.min(1e7, Math.max(1e-5, this.zoom * factor));

@@ -1,5 +1,5 @@
 // Combines stage, document and solver: a structure that users can drag and that shows its verdict immediately. The
-// playground adds its tools; another page, such as a report, can use the workbench alone:
+// playground adds its tools. Another page, such as a report, can use the workbench alone:
 //
 //     const bench = new Workbench(svg, { solver: new Solver() });
 //     bench.addEventListener("answer", ({ detail }) => { heading.textContent = detail.words.title; });

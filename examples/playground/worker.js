@@ -1,5 +1,5 @@
 // Runs the library in a worker, so that the page never waits for a result.
-// One message in, one message out: { id, task, ... } → { id, value } or { id, problems } or { id, error }.
+// Each message { id, task, ... } gets one answer: { id, value } or { id, problems } or { id, error }.
 
 import init, * as drystone from "./pkg/drystone.js";
 

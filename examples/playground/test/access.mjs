@@ -1,4 +1,4 @@
-// Everybody can use it: with the keyboard, read aloud, in light and dark, on a phone.
+// Accessibility: the playground with the keyboard, with a screen reader, in light and dark, and on a phone.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -67,12 +67,12 @@ test("a finger drags a stone", async () => {
   await close();
 });
 
-test("everything goes with the keyboard alone", async () => {
+test("everything can be done with the keyboard", async () => {
   const { page, close } = await open({ example: "overhang" });
   await verdict(page, "stands");
   const { keyboard } = page;
   const active = () => page.evaluate(() => document.activeElement?.getAttribute("data-handle") ?? document.activeElement?.id ?? "");
-  // The page draws anew in the next frame, and moves the focus then.
+  // The page draws in the next frame of the screen, and only then moves the focus.
   const focused = (/** @type {string} */ start) =>
     page.waitForFunction((start) => (document.activeElement?.getAttribute("data-handle") ?? document.activeElement?.id ?? "").startsWith(start), start);
   const tabTo = async (/** @type {RegExp} */ goal) => {
@@ -90,30 +90,30 @@ test("everything goes with the keyboard alone", async () => {
     await focused(`body:blocks/${i}`);
   }
   const outline = await page.evaluate(() => getComputedStyle(/** @type {Element} */ (document.activeElement?.querySelector("path"))).strokeWidth);
-  assert.ok(parseFloat(outline) > 4, "the focus is seen");
+  assert.ok(parseFloat(outline) > 4, "the focus is visible");
   for (let i = 0; i < 8; i++) await keyboard.press("Shift+ArrowRight");
   await verdict(page, "falls");
-  // Announced once it has settled.
+  // The verdict is announced when it no longer changes.
   await page.waitForFunction(() => /^It falls/.test(document.querySelector("#announcement")?.textContent ?? ""));
   await keyboard.press("Control+z");
   await verdict(page, "stands");
   await focused("body:blocks/4");
-  const turned = await sceneOf(page);
+  const original = await sceneOf(page);
   await keyboard.press("r");
-  assert.notDeepEqual((await sceneOf(page)).blocks[4], turned.blocks[4]);
+  assert.notDeepEqual((await sceneOf(page)).blocks[4], original.blocks[4]);
   await keyboard.press("Control+z");
   await focused("body:blocks/4");
   await keyboard.press("Tab");
   await focused("corner:0");
   await keyboard.press("ArrowUp");
-  assert.notDeepEqual((await sceneOf(page)).blocks[4], turned.blocks[4]);
+  assert.notDeepEqual((await sceneOf(page)).blocks[4], original.blocks[4]);
   await keyboard.press("Control+z");
   await focused("corner:0");
   await keyboard.press("Shift+Tab");
   await focused("body:blocks/4");
   await keyboard.press("Delete");
   assert.equal((await sceneOf(page)).blocks.length, 4);
-  // A polygon with the keyboard.
+  // Draw a polygon with the keyboard.
   await page.focus("#draw");
   await keyboard.press("Enter");
   for (const [key, times] of /** @type {const} */ ([["ArrowRight", 0], ["ArrowRight", 4], ["ArrowUp", 4], ["ArrowLeft", 4]])) {
@@ -123,7 +123,7 @@ test("everything goes with the keyboard alone", async () => {
   await keyboard.press("Enter");
   assert.equal((await sceneOf(page)).blocks.length, 5);
   await focused("body:blocks");
-  // Tabs of figures.
+  // Choose another figure.
   await page.focus('#tabs [aria-selected="true"]');
   await keyboard.press("ArrowRight");
   assert.equal(await page.evaluate(() => document.activeElement?.getAttribute("aria-selected")), "true");

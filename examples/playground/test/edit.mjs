@@ -1,4 +1,4 @@
-// What a teacher does: drag stones, see them fall, undo, add, delete, change values and text.
+// Editing: dragging stones, the fall, undo, adding and deleting blocks, and changing values and text.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -35,7 +35,7 @@ test("a stone that is dragged far enough falls, and undo brings it back", async 
   await page.mouse.up();
   assert.ok(fell > 0, "it falls while it is dragged");
   await verdict(page, "falls");
-  assert.ok((await page.locator(".body.moving").count()) > 0, "what falls is coloured");
+  assert.ok((await page.locator(".body.moving").count()) > 0, "the falling blocks are coloured");
   await page.waitForTimeout(1500);
   assert.ok((await page.locator(".body[transform]").count()) > 0, "the fall is shown");
   await page.screenshot({ path: shot("drag-9"), clip: { x: 0, y: 60, width: 1040, height: 720 } });
@@ -68,7 +68,7 @@ test("a dragged stone snaps to its neighbours and does not enter them", async ()
     await page.selectOption("#shape", name);
     await page.click("#add");
   }
-  // The first down to the ground, the second down until it rests on the first.
+  // The first block is dragged down to the ground, the second until it rests on the first.
   for (const key of ["blocks/0", "blocks/1"]) await drag(page, await middle(page, key), { x: 3, y: 500 }, 30);
   await verdict(page, "stands");
   const { blocks } = await sceneOf(page);
@@ -125,7 +125,7 @@ test("lattice shapes are added and move by whole steps", async () => {
   await close();
 });
 
-test("sliders change the scene, and their bands show where it stands", async () => {
+test("sliders change the scene, and their notes give the values for which it stands", async () => {
   const { page, close } = await open({ example: "lintel" });
   await page.waitForFunction(() => /stands up to/.test(document.querySelector("#slider-load-note")?.textContent ?? ""));
   const set = (/** @type {string} */ id, /** @type {string} */ value) =>
@@ -184,24 +184,18 @@ test("the figures change with their tabs", async () => {
 
 test("the capacity tab shows what the selected block can carry", async () => {
   const { page, close } = await open();
-  const description = () => page.getAttribute("#figure", "alt");
-  const changed = (/** @type {string | null} */ old) =>
-    page.waitForFunction((/** @type {string | null} */ old) => {
+  // The page may draw a figure again when it is idle, so wait for the words of the figure and not for a new image.
+  const shows = (/** @type {string} */ words) =>
+    page.waitForFunction((/** @type {string} */ words) => {
       const figure = document.querySelector("#figure");
-      return figure?.getAttribute("src") !== old && !figure?.classList.contains("stale");
-    }, old, { timeout: 20_000 });
-  const before = await page.getAttribute("#figure", "src");
+      return figure?.getAttribute("alt")?.includes(words) && !figure.classList.contains("stale");
+    }, words, { timeout: 20_000 });
   await page.click("#tab-capacity");
-  await changed(before);
-  const first = await description();
-  const shown = await page.getAttribute("#figure", "src");
-  const { id } = (await sceneOf(page)).blocks[4];
+  // If no block is selected, the figure shows the last block.
+  await shows("on block 13 it carries");
   const block = await middle(page, "blocks/4");
   await page.mouse.click(block.x, block.y);
-  await changed(shown);
-  const second = await description();
-  assert.notEqual(first, second);
-  assert.ok(!id || second?.includes(id), second ?? "");
+  await shows("on block 5 it carries");
   await page.locator("#figure-panel").screenshot({ path: shot("capacity") });
   await close();
 });

@@ -1,4 +1,4 @@
-// The modules that need no browser.
+// Tests of the modules that need no browser.
 
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
@@ -16,7 +16,7 @@ import { snapMove } from "../snap.js";
 
 const read = async (/** @type {string} */ file) => JSON.parse(await readFile(path.join(root, file), "utf8"));
 
-test("the examples that are the source's figures are those of the library", async () => {
+test("the examples with figures of Vallat (2023) are the files in assets/thesis", async () => {
   for (const name of (await readdir(path.join(root, "scenes"))).filter((n) => n.startsWith("figure-"))) {
     assert.equal(await readFile(path.join(root, "scenes", name), "utf8"), await readFile(path.join(root, "../../assets/thesis", name), "utf8"), name);
   }
@@ -36,7 +36,7 @@ test("hexagons of the lattice have their outline", async () => {
   for (const p of hexagon?.outline ?? []) assert.ok(Math.abs(Math.hypot(p[0] - hexagon.centre[0], p[1] - hexagon.centre[1]) - 1) < 1e-12);
 });
 
-test("cells with a hole have an outline and a hole, and many cells take no time", () => {
+test("cells with a hole have an outline and a hole, and many cells are fast", () => {
   const ring = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [0, 2], [1, 2], [2, 2]];
   const [body] = resolve({ grid: { kind: "square" }, blocks: [{ cells: ring }] }).bodies;
   assert.deepEqual([body.outline.length, body.holes.map((hole) => hole.length)], [4, [4]]);
@@ -53,7 +53,7 @@ test("steps place, hold, release and plan", async () => {
   assert.ok(frames[2].placed.has("5") && !frames[3].placed.has("5"));
 });
 
-test("what is no scene resolves to nothing", () => {
+test("input that is not a scene resolves to no bodies", () => {
   for (const scene of [null, 5, "x", [], { blocks: 3 }, { blocks: [null, 1, {}], steps: [null, 2] }, { grid: { kind: "square" }, blocks: [{ cells: [["a"]] }] }]) {
     assert.equal(resolve(scene).bodies.length, 0);
   }
@@ -68,20 +68,20 @@ test("the nearest lattice point is found", () => {
   }
 });
 
-test("a block snaps onto the face below it, whichever way its corners run", () => {
+test("a block snaps onto the face below it, with its corners in either order", () => {
   const square = (/** @type {number} */ x, /** @type {number} */ y) => {
     const outline = /** @type {[number, number][]} */ ([[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]]);
     return { outline, box: { left: x, right: x + 1, bottom: y, top: y + 1 } };
   };
   const below = square(0, 0);
-  for (const turned of [false, true]) {
+  for (const clockwise of [false, true]) {
     const body = square(0.02, 5);
-    if (turned) body.outline.reverse();
+    if (clockwise) body.outline.reverse();
     const move = snapMove(body, [0, -3.95], [below], { reach: 0.1, grid: 0, decimals: 3 });
     assert.ok(Math.abs(move[1] + 4) < 1e-12, `${move}`);
     assert.ok(Math.abs(move[0] + 0.02) < 1e-12, `${move}`);
   }
-  // Far inside the other one it is pushed out.
+  // A block that is dragged far into the other is pushed out.
   const move = snapMove(square(3, 0), [-2.3, 0], [below], { reach: 0.05, grid: 0, decimals: 3 });
   assert.equal(pushOut(square(3 + move[0], 0).outline, below.outline, 1e-6), null);
 });
@@ -122,7 +122,7 @@ test("concave stones do not overlap while they are dragged, and fit into each ot
   assert.ok(Math.hypot(move[0] + 3, move[1] + 3) < 1e-9, `${move}`);
 });
 
-test("removing a block removes everything that names it", async () => {
+test("removing a block removes all entries that refer to it", async () => {
   const scene = await read("scenes/doorway.json");
   const body = resolve(scene).byId.get("right half");
   edit.removeBody(scene, /** @type {any} */ (body));
@@ -130,7 +130,7 @@ test("removing a block removes everything that names it", async () => {
   assert.deepEqual(scene.steps.at(-1).release, []);
 });
 
-test("a link carries any text", async () => {
+test("a link can contain any text", async () => {
   for (const text of ["{}", "x".repeat(100_000), "ü \u{1F9F1} \u202E", JSON.stringify(await read("scenes/figure-4.json"))]) {
     assert.equal(await unpacked(`#${await packed(text)}`), text);
   }

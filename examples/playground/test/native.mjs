@@ -1,5 +1,5 @@
-// The module in pkg/ against the program: the same scenes give the same bytes. Needs Node.js, and the program
-// (DRYSTONE, or target/debug/drystone).
+// Compares the module in pkg/ with the program: the same scenes must give the same bytes. Needs Node.js and the
+// program (DRYSTONE, or target/debug/drystone).
 
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
@@ -15,7 +15,7 @@ const module = await import(path.join(root, "pkg/drystone.js"));
 await module.default({ module_or_path: readFileSync(path.join(root, "pkg/drystone_bg.wasm")) });
 const started = seconds(before);
 
-/** Processor time since a moment: unlike the time on the clock, it does not grow while others use the machine. */
+/** The processor time since a moment. Unlike wall-clock time, it does not include the work of other programs. */
 function seconds(/** @type {NodeJS.CpuUsage} */ since) {
   const { user, system } = process.cpuUsage(since);
   return (user + system) / 1e6;
@@ -32,14 +32,14 @@ function scenes(folder) {
   });
 }
 
-/** What the program prints, whatever the verdict. @param {string[]} words */
+/** The output of the program, with any exit code. @param {string[]} words */
 function printed(...words) {
   const { stdout, stderr, error } = spawnSync(program, words, { cwd: top, maxBuffer: 1 << 28, encoding: "utf8" });
   if (error) throw error;
   return { stdout, stderr };
 }
 
-/** Fails with the first difference only: the texts are long. @param {string} own @param {string} program @param {string} name */
+/** Fails with only the first difference, because the texts are long. @param {string} own @param {string} program @param {string} name */
 function same(own, program, name) {
   if (own === program) return;
   let at = 0;
@@ -50,12 +50,11 @@ function same(own, program, name) {
 
 const files = ["assets", "examples", "tests/scenes"].flatMap(scenes);
 const read = (/** @type {string} */ name) => readFileSync(path.join(top, name), "utf8");
-// Large scenes take long and show nothing more.
-/** @type {string[]} */
+/** The scenes that are compared. Large scenes are left out, because they take long. @type {string[]} */
 let valid = [];
 
 test("the first answer on the lintel, with its time", () => {
-  // A browser also downloads the file; here it is read from the disk.
+  // A browser would also download the file. Here it is read from the disk.
   const scene = read("tests/scenes/lintel.json");
   const begin = process.cpuUsage();
   assert.equal(JSON.parse(module.check(scene)).frames[0].verdict, "stable");
@@ -114,13 +113,13 @@ test("the forces that a block can carry and sensitivities have the same bytes", 
   const scene = read(name);
   const { id, at } = carried(scene);
   /** @type {[any, string[]][]} */
-  const asked = [
+  const cases = [
     [{ capacity: id }, ["--capacity", id]],
     [{ capacity: `${id}@${at}`, for_all: "tilt=±1,friction=0.5..0.7" }, ["--capacity", `${id}@${at}`, "--for-all", "tilt=±1,friction=0.5..0.7"]],
     [{ sensitivity: "load_factor" }, ["--sensitivity", "load_factor"]],
     [{ sensitivity: "horizontal_load" }, ["--sensitivity", "horizontal-load"]],
   ];
-  for (const [options, words] of asked) {
+  for (const [options, words] of cases) {
     const { stdout } = printed("check", "--json", "--no-timing", name, ...words);
     same(module.check(scene, JSON.stringify({ file: name, ...options })), stdout, words.join(" "));
     const found = JSON.parse(stdout).frames.at(-1);
@@ -153,7 +152,7 @@ test("a session gives what the functions give", () => {
   assert.equal(session.figure(), module.figure(other));
   assert.throws(() => session.set("{"), (error) => /** @type {any} */ (error).problems.length === 1);
   assert.equal(session.verdict(), "unstable");
-  // The session has no forces that a block can carry; the figure computes them.
+  // The result of the session does not contain the capacity of a block. The figure computes it.
   const picture = JSON.stringify({ kind: "capacity", capacity: carried(other).id });
   assert.equal(session.figure(picture), module.figure(other, picture));
 });
@@ -161,10 +160,10 @@ test("a session gives what the functions give", () => {
 test("the example in the documentation runs", () => {
   const page = read("src/doc/library.md");
   const example = page.split("```js\n")[1].split("```")[0].replace(/^import.*\nawait init.*\n/m, "");
-  const said = [];
-  new Function("drystone", "console", example)(module, { log: (/** @type {any[]} */ ...words) => said.push(words) });
-  assert.equal(said[0][0], "stable");
-  assert.ok(said[0][1] > 1000);
+  const logged = [];
+  new Function("drystone", "console", example)(module, { log: (/** @type {any[]} */ ...words) => logged.push(words) });
+  assert.equal(logged[0][0], "stable");
+  assert.ok(logged[0][1] > 1000);
 });
 
 test("options that are not valid are refused by name", () => {

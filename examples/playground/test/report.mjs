@@ -32,7 +32,7 @@ async function report(name, options) {
   return opened;
 }
 
-/** Waits for the verdict on the moved stones. @param {any} page @param {string} state */
+/** Waits for the verdict of the editor. @param {any} page @param {string} state */
 async function verdict(page, state) {
   await page.waitForFunction((/** @type {string} */ s) => document.querySelector(".stones-verdict")?.getAttribute("data-state") === s, state, { timeout: 30_000 });
 }
@@ -76,7 +76,7 @@ test("with the keyboard alone, on a dark page", async () => {
   await close();
 });
 
-test("the step of the figure is the one that moves, on a phone", async () => {
+test("on a phone, the editor shows the step of the figure", async () => {
   const { page, close } = await report("figure-4", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
   const plate = page.locator(".plate[data-step]").first();
   const step = Number(await plate.getAttribute("data-step"));
@@ -97,7 +97,7 @@ test("the step of the figure is the one that moves, on a phone", async () => {
   await close();
 });
 
-test("two figures move at the same time, each with its own answer", async () => {
+test("several figures can be edited at the same time, each with its own verdict", async () => {
   const { page, close } = await report("arch");
   for (const button of await page.locator(".stones-move").all()) await button.click();
   await page.waitForFunction(() => [...document.querySelectorAll(".stones-verdict")].every((v) => v.getAttribute("data-state") === "stands"), null, { timeout: 30_000 });

@@ -1,4 +1,4 @@
-// Links, files, and scenes from people who mean harm.
+// Links, files, and scenes with harmful content.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -36,7 +36,7 @@ test("a link opens the same scene in a fresh browser", async () => {
   await second.close();
 });
 
-test("a damaged link says so and the page still works", async () => {
+test("a damaged link is reported, and the page still works", async () => {
   const { page, close } = await open({ hash: "#s=AAAA_-notdeflate" });
   await verdict(page, "stands");
   assert.match(await page.textContent("#status"), /damaged/);
@@ -105,7 +105,7 @@ test("hostile names stay text", async () => {
   assert.equal(await page.locator("main script, main iframe, main object, main foreignObject").count(), 0);
   const shown = await page.evaluate(() => [...document.querySelectorAll("#stage [aria-label], option")].map((e) => e.getAttribute("aria-label") ?? e.textContent).join("\n"));
   assert.ok(shown.includes("<img src=x onerror"), "the name is shown as it is");
-  assert.ok(!/[\u202E\u2066\u200B]/.test(shown), "marks that turn or hide text are not");
+  assert.ok(!/[\u202E\u2066\u200B]/.test(shown), "characters that reverse or hide text are not shown");
   assert.ok(shown.includes("[U+202E]"));
   for (const tab of await page.locator("#tabs button").all()) await tab.click();
   // The same with problems, whose messages quote the names.
@@ -116,7 +116,7 @@ test("hostile names stay text", async () => {
   await close();
 });
 
-test("text that is no scene is refused with words", async () => {
+test("text that is not a scene is refused with a message", async () => {
   const { page, close } = await open();
   for (const text of ["", "[]", "null", "12", "{", '{"drystone":1}', '{"drystone":1,"blocks":[{"polygon":5}]}', '{"drystone":1,"blocks":[null],"steps":[null],"ground":"x","grid":{"kind":"square"}}']) {
     await page.fill("#source", text);

@@ -12,7 +12,7 @@ import { drag, middle, open, root, start, stop, verdict, visit } from "./lib/pag
 before(start);
 after(stop);
 
-test("one file holds everything and works from the disk", async () => {
+test("the single file needs no other file and works from the disk", async () => {
   const folder = await mkdtemp(path.join(os.tmpdir(), "playground-"));
   const file = path.join(folder, "playground.html");
   await writeFile(file, await single());
@@ -26,7 +26,7 @@ test("one file holds everything and works from the disk", async () => {
   await rm(folder, { recursive: true });
 });
 
-test("the page itself, opened from the disk, says what to do; from a server it does not", async () => {
+test("the page shows instructions if it is opened from the disk, but not from a server", async () => {
   const { page } = await visit(pathToFileURL(path.join(root, "index.html")).href);
   const note = page.locator("#not-started");
   assert.equal(await note.isVisible(), false);

@@ -1,5 +1,5 @@
-// Serves the playground on a free port of this machine, and opens it in Chromium. Every page is watched: errors,
-// refused scripts and requests to other hosts fail the test that opened it.
+// Serves the playground on a free port of this machine, and opens it in Chromium. A test fails if its page has errors
+// or refused scripts, or sends requests to other hosts.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -42,7 +42,7 @@ export async function stop() {
 }
 
 /**
- * A fresh browser with any page. @param {string} url @param {any} [options] of the browser's context
+ * Opens a page in a new context of the browser. @param {string} url @param {any} [options] those of the context
  */
 export async function visit(url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
@@ -55,8 +55,8 @@ export async function visit(url, options = {}) {
     if (!/^(http:\/\/127\.0\.0\.1:|file:|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url()}`);
   });
   page.on("requestfailed", (request) => {
-    // The browser gives up what it is still loading, such as the icon, when a test reloads or closes the page. A file
-    // that is missing or refused is also an error in the console.
+    // When a test reloads or closes the page, the browser stops loading files such as the icon. These requests are
+    // not faults. A missing or refused file also causes an error in the console.
     const aborted = request.failure()?.errorText === "net::ERR_ABORTED";
     if (!aborted && !request.url().startsWith("blob:")) faults.push(`failed: ${request.url()}`);
   });
@@ -69,8 +69,8 @@ export async function visit(url, options = {}) {
 }
 
 /**
- * A fresh browser with the playground.
- * @param {{ url?: string, hash?: string, example?: string, scene?: any, [option: string]: any }} [options] others go to the browser's context
+ * Opens the playground in a new context of the browser.
+ * @param {{ url?: string, hash?: string, example?: string, scene?: any, [option: string]: any }} [options] other options are those of the context
  */
 export async function open({ url = address, hash = "", example, scene, ...options } = {}) {
   const { page, close, faults } = await visit(url + hash, options);
@@ -78,12 +78,12 @@ export async function open({ url = address, hash = "", example, scene, ...option
   if (example) await page.selectOption("#examples", example);
   if (scene !== undefined) await page.fill("#source", typeof scene === "string" ? scene : formatScene(scene));
   if (example || scene !== undefined) await page.waitForTimeout(700);
-  // Writing into the text has scrolled to it.
+  // The page has scrolled to the text field, because the scene was written there.
   await page.evaluate(() => { /** @type {HTMLElement} */ (document.activeElement)?.blur(); window.scrollTo(0, 0); });
   return { page, close, faults };
 }
 
-/** @param {any} page @returns {Promise<string[]>} what axe finds */
+/** @param {any} page @returns {Promise<string[]>} the violations that axe finds */
 export async function violations(page) {
   await page.evaluate(await readFile(process.env.PLAYGROUND_AXE ?? "", "utf8"));
   return page.evaluate(async () => {
@@ -111,8 +111,8 @@ export async function drag(page, from, by, steps = 12) {
   await page.mouse.up();
 }
 
-/** The scene as it is in the text. @param {any} page */
+/** The scene in the text field. @param {any} page */
 export const sceneOf = async (page) => JSON.parse(await page.inputValue("#source"));
 
-/** Where screenshots go, for people to look at. @param {string} name */
+/** The path of a screenshot, which is written only for people to look at. @param {string} name */
 export const shot = (name) => path.join(process.env.PLAYGROUND_SHOTS ?? "/tmp", `${name}.png`);

@@ -1,5 +1,5 @@
-// Measures pictures per second while a block of thirty is dragged, and the time of answers for a hundred blocks. It is
-// not among the tests, because a busy machine would fail it:
+// Measures the pictures per second while one of 30 blocks is dragged, and the time until an answer for 100 blocks. It
+// does not belong to the usual tests, because it fails on a busy machine:
 //
 //     examples/playground/test/run.sh examples/playground/test/measure/speed.mjs
 
@@ -46,7 +46,7 @@ async function shake(page, count) {
 }
 
 /**
- * Measures up to three times and keeps the best: other programs on the machine must not fail it.
+ * Measures up to three times, until the result is good enough, because other programs may slow the machine.
  * @param {number} count of blocks @param {any} scene @param {(measured: any) => boolean} enough
  */
 async function measure(count, scene, enough) {
