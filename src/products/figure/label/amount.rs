@@ -8,7 +8,7 @@ use crate::drawing::placement::LabelRequest;
 use crate::drawing::{Colour, Face, PagePoint, text};
 use crate::scene::BodyId;
 
-/// Approximate largest number of magnitudes of loads and missing forces in frames with many blocks.
+/// Approximate largest number of magnitudes of loads and missing forces that are written in frames with many blocks.
 pub(crate) const MAX_AMOUNTS: usize = 16;
 /// If a frame would have more magnitudes, only the largest [`MAX_AMOUNTS`] are written. Nobody can read hundreds of
 /// numbers in a picture, and the search for free positions takes milliseconds for each.
@@ -19,7 +19,7 @@ pub(crate) const EQUAL_FORCE_TOL: f64 = 1e-6;
 
 /// A text at a point of a picture.
 pub(crate) struct Callout {
-    /// The point.
+    /// The point that the text describes.
     pub at: PagePoint,
     /// Least distance of the text from the point, pixels.
     pub clear: f64,
@@ -89,7 +89,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
 }
 
 /// Returns the items whose magnitudes are written, in their order: all of them, or if there are more than
-/// [`CROWDED_AMOUNTS`], the largest [`MAX_AMOUNTS`]. Of items of one size, the first come first.
+/// [`CROWDED_AMOUNTS`], the largest [`MAX_AMOUNTS`]. Of items of equal size, the first are selected.
 fn largest<T>(items: Vec<&T>, size: impl Fn(&T) -> f64) -> Vec<&T> {
     if items.len() <= CROWDED_AMOUNTS {
         return items;
@@ -141,7 +141,7 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     let middle = pen.turn_middle(turn);
     let along =
         |angle: f64, far: f64| centre.moved(far * libm::cos(angle), -far * libm::sin(angle));
-    // Beyond the arc, and then within it.
+    // Prefer positions outside the circle of the arrow; the last position is inside it.
     let beside = |(off, side): (f64, f64)| {
         let angle = middle + off;
         let reach = 0.5 * (wide * libm::cos(angle).abs() + high * libm::sin(angle).abs());
@@ -199,8 +199,8 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     contact.into_iter().chain(robot).collect()
 }
 
-/// Returns the magnitude, in newtons, from which loads and missing forces have labels. It is 0 if `few` is true (the
-/// frame has few blocks). Otherwise it is chosen so that about `MAX_AMOUNTS` of them have labels.
+/// Returns the least magnitude, in newtons, of loads and missing forces that have labels. It is 0 if `few` is true
+/// (the frame has few blocks). Otherwise it is chosen so that about `MAX_AMOUNTS` of them have labels.
 fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     if few {
         return 0.0;

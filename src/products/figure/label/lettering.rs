@@ -14,14 +14,14 @@ pub(super) const MIN_SIZE: f64 = 9.0;
 const MAX_LINES: usize = 3;
 /// Distance of the lines of a name, as a multiple of the font size.
 const LINE_PITCH: f64 = 1.1;
-/// The prefix of a code point, which replaces a character that no font has.
+/// The prefix of a code point such as `U+05D0`. A code point is written for a character that no font contains.
 const CODE_POINT_PREFIX: &str = "U+";
 /// Height of a line, as a multiple of the font size.
 pub(super) const LINE_HEIGHT: f64 = 0.96;
 
 /// A label without a position yet.
 pub(super) struct Label {
-    /// Its lines of text.
+    /// The lines of text.
     pub lines: Vec<String>,
     pub face: Face,
     pub size: f64,
@@ -31,7 +31,8 @@ pub(super) struct Label {
     pub colour: Option<Colour>,
     /// Whether the text below the frame mentions the label. Such a label is always drawn.
     pub named: bool,
-    /// The block that the label names. Inside another block, the label would seem to name that block.
+    /// The block that the label names; for the name of a robot, the block that it holds. The label must not lie
+    /// inside another block, because it would seem to name that block.
     pub of: Option<BlockId>,
 }
 

@@ -2,9 +2,8 @@
 //!
 //! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
 //! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels do not
-//! cover arrows, outlines, discs or other labels. A label without a position is left out, and the figure counts these
-//! labels. Blocks that the line below the verdict mentions come first; they are named in frames with any number of
-//! blocks.
+//! cover arrows, outlines, discs or other labels. A label without a free position is left out, and a note counts
+//! these labels. Names of blocks that occur in the text below the verdict are placed first and are never left out.
 
 mod amount;
 mod lettering;
@@ -33,18 +32,18 @@ use crate::scene::BlockId;
 
 /// In frames with more blocks, only blocks that the text mentions have labels.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
-/// If a unit edge is at least this long, pixels, names may be at any distance from their blocks …
+/// If a unit edge is at least this long, pixels, names may be at any distance from their blocks.
 const ROOMY_UNIT_EDGE: f64 = 26.0;
-/// … and also in frames with at most this many blocks.
+/// In frames with at most this many blocks, names may be at any distance from their blocks.
 const FEW_BLOCKS: usize = 12;
 /// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
 const MAX_DISTANCE: f64 = 8.0;
 
-/// A name outside its block has a leader if the centroid of another block is close. This is so if its distance is at
-/// most this multiple of the distance to the centroid of the named block.
+/// A name outside its block has a leader if the centroid of another block is closer to the name than this multiple of
+/// the distance to the centroid of the named block.
 const AMBIGUITY_RATIO: f64 = 1.5;
 
-/// The class of the group of a frame's labels. The description of the group counts labels without a position.
+/// The class of the group of a frame's labels. The description of the group counts the labels that are left out.
 pub(crate) const CLASS: &str = "labels";
 
 /// Draws the labels of a frame. `ink` returns the shapes that the labels must not cover; it is called only if there are
@@ -114,8 +113,8 @@ pub(crate) fn labels_with(
     group
 }
 
-/// True if a name lies outside its block and a reader could take it for the name of another block, because the centroid
-/// of that block is nearly as close to the name or closer.
+/// True if a name lies outside its block and a reader could mistake it for the name of another block, because the
+/// centroid of that block is closer to the name or nearly as close.
 fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     let scene = &pen.context.analysis.scene;
     let Some(own) = label.of.filter(|_| label.class == "name") else {

@@ -10,12 +10,12 @@ use crate::scene::{BlockId, Hold};
 
 /// Number of positions tried along each axis of a block.
 const POSITIONS_PER_AXIS: usize = 13;
-/// Distances from a block's centroid are rounded to this share of the block's diagonal, so that rounding errors do not
-/// move a name.
+/// Distances from a block's centroid are rounded to this fraction of the block's diagonal, so that rounding errors do
+/// not move a name.
 const DISTANCE_STEP: f64 = 1e-3;
 /// Distance of a broken name from the sides of its block, pixels.
 const INSET: f64 = 4.0;
-/// Length of a block's edge for the font size of its name, as a share of the square root of its area.
+/// Length of a block's edge for the font size of its name, as a fraction of the square root of its area.
 const EDGE_SHARE: f64 = 0.6;
 /// If the edge of a block is longer than this, in unit edges, its name has a larger font size.
 const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;

@@ -1,5 +1,5 @@
-//! [`DrawnBoxes`]: tests whether a label lies inside a block or the ground that it does not name. A reader would take it
-//! for the name of this body.
+//! [`DrawnBoxes`]: tests whether a label lies inside the ground or a block that the label does not name. A reader
+//! would mistake the label for the name of this body.
 
 use super::middle;
 use crate::drawing::PageRect;
@@ -35,8 +35,8 @@ impl DrawnBoxes {
         }
     }
 
-    /// True if a label with the rectangle `rect` lies in the ground or in a block other than `own`, the block that it
-    /// names.
+    /// True if a label with the rectangle `rect` lies in the ground or in a block other than `own`. The label names
+    /// the block `own`.
     pub(super) fn other(&self, pen: &Pen<'_>, own: BlockId, rect: PageRect) -> bool {
         let scene = &pen.context.analysis.scene;
         let met = |other: &PageRect| {
