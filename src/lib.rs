@@ -1,9 +1,9 @@
 //! Computes whether a structure of dry-laid rigid blocks stands and which forces act in it, and draws both.
 //!
-//! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots that
-//! hold blocks. For every step of a construction, the analysis gives a verdict with its proof and the force at every
-//! interface. If the structure falls, it also gives the forces that are missing and the motion. Figures show all of
-//! this.
+//! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots
+//! that hold blocks. For every step of a construction, the analysis computes a verdict with its proof and the force
+//! at every interface. If the structure falls, it also computes the missing forces and the motion. Figures show all
+//! of this.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, analysis::Verdict, figure, output};
@@ -23,7 +23,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The same scene, built in code. A problem in it is reported with its path; a problem in a file also with its line.
+//! The same scene built in code. An error names the path of the faulty entry; for a file, it also names the line.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, scene::format::BlockEntry};
@@ -59,12 +59,12 @@
 //! | function or module | output | input |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
-//! | [`Scene::builder`] | [`Scene`], checked | calls, one for each part of the file |
+//! | [`Scene::builder`] | [`Scene`], checked | method calls, one for each entry of a scene file |
 //! | [`starter`] | a scene file | a few lengths and counts |
 //! | [`import`](mod@import) | a scene file | a drawing: SVG, DXF, GeoJSON or WKT |
 //! | [`interface`] | pairs of bodies that touch, and where | a scene |
 //! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, with the effects that it needs |
-//! | [`program`] | the equilibrium in numbers without units | an assembly |
+//! | [`program`] | the equilibrium equations in dimensionless numbers | an assembly |
 //! | [`solve`] | forces, or a motion | a program |
 //! | [`proof`] | the errors of these forces or this motion | an assembly, and forces or a motion |
 //! | [`resultant`] | one force per interface | the forces at the interface's ends |
@@ -86,10 +86,8 @@
 // feature is off. With all features, no code is unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
-// Blank lines between the modules keep them in this order. Without blank lines the formatter would sort them.
-
-// Structs with public fields that may get more fields are `#[non_exhaustive]`. Users start from the default value and
-// call one setter method for each field. These macros write the setter methods for all modules below.
+// Structs with public fields are `#[non_exhaustive]` if later versions may add fields. Users start from the default
+// value and call one setter method for each field. These macros write the setter methods for all modules below.
 
 /// Writes methods that set a field.
 macro_rules! setters {
@@ -116,6 +114,8 @@ macro_rules! optional_setters {
         )*
     };
 }
+
+// Blank lines between the modules keep them in this order. Without blank lines the formatter would sort them.
 
 #[doc(hidden)]
 pub mod text;
@@ -224,7 +224,7 @@ pub mod doc {
     pub mod references {}
 }
 
-/// The examples of the README are tested like all others.
+/// Compiles and runs the examples of the README as documentation tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

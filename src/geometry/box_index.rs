@@ -298,8 +298,8 @@ mod tests {
         Aabb { min: at, max: at }
     }
 
-    /// A hundred parallel needles, all inclined by 45°. Their axis-parallel boxes intersect, the boxes with diagonals
-    /// do not.
+    /// A hundred parallel needles, all inclined by 45°. Their axis-parallel boxes intersect, but their boxes with
+    /// diagonals do not.
     #[test]
     fn inclined_needles_do_not_intersect() {
         let needle = |n: usize| {

@@ -11,7 +11,8 @@ use super::{Aabb, BoxIndex, Point};
 /// The largest number of crossings that are returned. More would only lengthen the message to the author of the scene.
 const MAX_CROSSINGS: usize = 20;
 
-/// Polygons of up to this many sides are tested pair by pair; for more a [`BoxIndex`] finds the candidates.
+/// The sides of a polygon with up to this many sides are tested pair by pair. In larger polygons, a [`BoxIndex`]
+/// finds the candidates.
 const MAX_SIDES_WITHOUT_INDEX: usize = 12;
 
 /// Two sides with a common point that is not the common corner of neighbours.
@@ -24,11 +25,11 @@ pub(super) struct Crossing {
     pub at: Point,
 }
 
-/// A side with its place in the polygon.
+/// A side with its ring and its number in this ring.
 #[derive(Clone, Copy)]
 struct Side {
     ring: usize,
-    /// The corner at which it begins.
+    /// The number of the corner at which it begins.
     corner: usize,
     /// Number of corners of its ring.
     ring_len: usize,

@@ -1,14 +1,15 @@
 //! [`Lattice`]: a regular lattice of cells with integer coordinates, on which collisions and contacts are decided
 //! exactly.
 //!
-//! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and in the methods that call
-//! it. Node (x, y) of the triangular lattice lies at side·(x + y/2, y·√3/2), of the square lattice at side·(x, y).
+//! Invariant: every decision is made in integers; metres appear only in [`Lattice::point`] and in the methods that
+//! call it. Node (x, y) lies at side·(x + y/2, y·√3/2) in the triangular lattice, and at side·(x, y) in the square
+//! lattice.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Point, Polygon, Vector};
 
-/// Which regular lattice.
+/// The kind of a regular lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LatticeKind {
     /// Equilateral triangles.
@@ -191,7 +192,7 @@ impl Lattice {
 
     /// Returns the union of the cells as one polygon, which may have holes. Collinear edges are merged into one side.
     ///
-    /// `None` if the cells are not all connected by common edges.
+    /// `None` if there are no cells, or if they are not all connected by common edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
         let rings = trace(cells)?;
         Some(Polygon::from_valid_rings(
@@ -216,8 +217,8 @@ pub(crate) fn boundary(cells: &[Cell]) -> Vec<LatticeEdge> {
     all.iter().filter(is_outer).copied().collect()
 }
 
-/// Returns the boundary rings of a set of cells: the outline first, then the holes. `None` if the cells are not
-/// connected by common edges.
+/// Returns the boundary rings of a set of cells: the outline first, then the holes. `None` if there are no cells, or
+/// if they are not all connected by common edges.
 fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
     if !is_connected(cells) {
         return None;
@@ -231,8 +232,9 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
         while std::mem::replace(&mut unused[at], false) {
             let (a, b) = edges[at];
             ring.push(a);
-            // Several edges begin at a node where two rings touch. Take the edge that turns leftmost, so that each ring
-            // follows its own cells. At most one of these edges turns left. If none turns left, one goes straight on.
+            // Several edges begin at a node where the boundary touches itself. Continue with the leftmost of them,
+            // because it belongs to the same group of cells as the edge before. The sign of the turn is enough to
+            // find it: at most one edge turns left, and if none does, only one goes straight on.
             let begin = edges.partition_point(|edge| edge.0 < b);
             let candidates = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
             let next = (candidates.filter(|k| unused[*k])).max_by_key(|k| turn(a, b, edges[*k].1));

@@ -1,8 +1,8 @@
 //! Geometry of the plane: points, vectors, polygons and lattices.
 //!
-//! A [`Point`] is a place; a [`Vector`] is a displacement, a force or a direction. They are two types because only
-//! points change when a scene is moved. Axes: x to the right, y up; angles anticlockwise. [`Tolerance`] contains the
-//! lengths and the angle within which two bodies touch. This module does not deal with statics.
+//! A [`Point`] is a position; a [`Vector`] is a displacement, a force or a direction. They are two types because a
+//! translation of the scene changes points but not vectors. Axes: x to the right, y up; angles anticlockwise.
+//! [`Tolerance`] contains the lengths and the angle within which two bodies touch. Equilibrium is not computed here.
 
 mod lattice;
 mod box_index;
@@ -29,7 +29,7 @@ pub use polygon::{Polygon, PolygonError};
 pub use tolerance::Tolerance;
 pub use zonotope::{Vec3, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound};
 
-/// A place in the plane, in metres.
+/// A position in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;
 
 /// A displacement in metres, a direction, or a force in newtons.
@@ -59,7 +59,8 @@ mod tests {
     fn a_quarter_turn_goes_anticlockwise() {
         assert_eq!(quarter_turn(Vector::new(2.0, 5.0)), Vector::new(-5.0, 2.0));
         assert_eq!(quarter_turn(Vector::new(3.0, 0.0)), Vector::new(0.0, 3.0));
-        // Four quarter turns give the same vector. A vector and its quarter turn span the square of its length.
+        // Four quarter turns restore the vector. The cross product of a vector and its quarter turn is the square of
+        // its length.
         let v = Vector::new(-0.3, 7.0);
         assert_eq!(quarter_turn(quarter_turn(quarter_turn(quarter_turn(v)))), v);
         assert_eq!(cross(v, quarter_turn(v)), v.norm_squared());

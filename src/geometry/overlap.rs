@@ -18,8 +18,8 @@ use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
 /// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
 /// triangles.
 ///
-/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch others, and then their
-/// bounds decide.
+/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies; the bounds
+/// of the two are then enough to exclude an overlap.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
     polygon: &'p Polygon,
@@ -27,15 +27,16 @@ pub struct ConvexPieces<'p> {
     pieces: OnceLock<Vec<Piece<'p>>>,
 }
 
-/// A convex piece with two quick tests: its bounds, and its extent across its longest side.
+/// A convex piece with the data for two quick tests: its bounds, and its extent across its longest side.
 ///
-/// Long thin pieces that lie side by side have intersecting bounds; the second test separates most of these pairs.
+/// Long thin pieces that lie side by side can have intersecting bounds; the second test separates most of these
+/// pairs.
 #[derive(Clone, Debug)]
 struct Piece<'p> {
     bounds: Bounds,
     /// A vector perpendicular to the longest side and as long as that side.
     across: Vector,
-    /// The smallest and the largest product of `across` with a corner.
+    /// The smallest and the largest dot product of `across` with the coordinates of a corner.
     extent: [f64; 2],
     /// The corners, anticlockwise.
     corners: Cow<'p, [Point]>,
@@ -108,7 +109,7 @@ impl<'p> ConvexPieces<'p> {
     /// or y by which one polygon must move until their bounds are disjoint.
     ///
     /// The depth of two convex pieces is the least distance, over all directions, by which one must move until it
-    /// leaves the other. No direction needs a smaller distance, and the pieces lie inside the bounds.
+    /// leaves the other. The pieces lie inside the bounds, so the distance for the bounds is at least as large.
     fn depth_bound(&self, other: &ConvexPieces<'_>) -> f64 {
         let (a, b) = (self.bounds, other.bounds);
         let (one, two) = (a.max - b.min, b.max - a.min);

@@ -10,9 +10,9 @@ use super::{Bounds, Edge, Point, Vector, cross};
 
 /// A ring with |area| up to this fraction of its squared perimeter encloses no area.
 ///
-/// It is about five times the relative rounding of a number, so that the computed area of collinear corners counts as
-/// 0. A limit ten times smaller would accept the rounding error of a flat ring as an area. A limit ten times larger
-/// would change little: the thinnest stones of real scenes are above 10⁻⁶.
+/// It is about five times the machine epsilon, so that the computed area of collinear corners counts as 0. A limit
+/// ten times smaller would accept the rounding error of a flat ring as an area. A limit ten times larger would change
+/// little: the thinnest stones of real scenes are above 10⁻⁶.
 const MIN_AREA_PER_SQUARED_PERIMETER: f64 = 1e-15;
 
 /// A simple polygon, possibly with holes.
@@ -26,14 +26,14 @@ pub struct Polygon {
 pub enum PolygonError {
     /// A ring has fewer than three different corners.
     TooFewCorners {
-        /// Which ring.
+        /// The number of the ring.
         ring: usize,
-        /// How many different corners it has.
+        /// The number of different corners of the ring.
         corners: usize,
     },
     /// A ring encloses no area.
     ZeroArea {
-        /// Which ring.
+        /// The number of the ring.
         ring: usize,
     },
     /// Two sides cross or touch.
@@ -42,12 +42,12 @@ pub enum PolygonError {
         rings: [usize; 2],
         /// The corners at which the two sides begin, numbered from 0 as the caller listed them.
         corners: [usize; 2],
-        /// Where they meet.
+        /// A common point of the two sides.
         at: Point,
     },
     /// A hole is not inside the outline, or is inside another hole.
     HoleOutside {
-        /// Which ring.
+        /// The number of the ring.
         ring: usize,
     },
 }
@@ -195,7 +195,7 @@ pub(crate) fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
 #[derive(Default)]
 struct CheckedRings {
     dropped: DroppedCorners,
-    /// Rings whose corners are not collinear, but whose area is 0: most often their sides cross.
+    /// Rings whose corners are not collinear, but whose area is 0, usually because their sides cross.
     without_area: Vec<PolygonError>,
 }
 
@@ -276,7 +276,7 @@ fn check_holes(rings: &[Vec<Point>]) -> Result<(), Vec<PolygonError>> {
     }
 }
 
-/// The repeated corners that were dropped, as ring and listed number, in ascending order.
+/// The repeated corners that were dropped, each as (ring, index in the caller's list), in ascending order.
 #[derive(Default)]
 struct DroppedCorners(Vec<(usize, usize)>);
 

@@ -4,10 +4,10 @@
 //! is off by 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this error from the
 //! decimals of its coordinates. Two edges *touch* when their distance is at most [`Tolerance::gap`]. They form an
 //! interface when they overlap by more than [`Tolerance::min_contact_length`], and otherwise only a touching corner.
-//! That length depends on the edges: a tip of a millionth of a block may be the only support of a stone, but two long
-//! bricks that overlap by as little are only neighbours.
+//! That length depends on the length of the edges. A tip as short as a millionth of a block may be the only support
+//! of a stone, but two long bricks that overlap by this length merely touch.
 
-/// The lengths, in metres, up to which differences between two bodies of a scene count as rounding.
+/// The lengths, in metres, and the angle up to which differences between two bodies of a scene count as rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// The largest distance between two edges that touch, and the largest depth of an overlap that is ignored.
@@ -16,7 +16,7 @@ pub struct Tolerance {
     pub min_length: f64,
     /// Overlaps shorter than this are attributed to the rounding of coordinates, whatever the length of the edges.
     pub rounding: f64,
-    /// The largest sine of the angle between two edges that face each other, whatever their length.
+    /// The sine of the largest angle between two edges that can form an interface, whatever their length.
     pub angle: f64,
 }
 
@@ -29,9 +29,9 @@ impl Tolerance {
     pub const GAP_PER_EXTENT: f64 = 1e-6;
     /// The shortest interface of long edges, as a fraction of the gap.
     pub const LENGTH_PER_GAP: f64 = 0.25;
-    /// The shortest interface as a fraction of the shorter edge. It applies if it gives less than `min_length`.
+    /// The shortest interface as a fraction of the shorter edge. It applies if the result is less than `min_length`.
     pub const LENGTH_PER_EDGE: f64 = 1e-3;
-    /// The largest angle between two edges that face each other, radians.
+    /// The largest angle between two edges that can form an interface, radians.
     ///
     /// If it were ten times smaller, short joints with rounded ends would be missed. If it were ten times larger, open
     /// wedges would become interfaces.
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shortest_stretch_is_a_quarter_of_the_gap_or_a_thousandth_of_the_edge() {
+    fn the_shortest_interface_is_a_quarter_of_the_gap_or_a_thousandth_of_the_edge() {
         let written = Tolerance::from_gap(0.004);
         assert!(close(written.min_length, 0.001) && close(written.rounding, 0.001));
         // While the rounding of the coordinates is unknown, the limit from the gap applies.
@@ -108,12 +108,12 @@ mod tests {
         let known = written.with_rounding(2e-5);
         assert_eq!((known.gap, known.angle), (written.gap, written.angle));
         assert!(close(known.min_contact_length(3.0), 0.001), "a long edge");
-        assert!(close(known.min_contact_length(0.1), 1e-4), "a short one");
+        assert!(close(known.min_contact_length(0.1), 1e-4), "a short edge");
         assert!(
             close(known.min_contact_length(1e-3), 5e-6),
             "the rounding of coordinates"
         );
-        // A large rounding does not make the minimum longer than the gap does.
+        // A large rounding error does not raise the minimum above a quarter of the gap.
         assert!(close(
             written.with_rounding(1.0).min_contact_length(3.0),
             0.001

@@ -13,31 +13,32 @@
 //! A zonotope that is flat, or a line segment, has no such facets. The normals that bound it within its plane or line
 //! are therefore tried too. Every direction n gives a lower bound of τ, so additional directions do no harm.
 //!
-//! [`zonotope_gauge`] evaluates this formula. [`zonotope_gauge_bound`] and [`quick_gauge_bound`] return upper bounds in
-//! linear time, from the combination with the least sum of squares.
+//! [`zonotope_gauge`] evaluates this formula. [`zonotope_gauge_bound`] and [`quick_gauge_bound`] return upper bounds
+//! in linear time, from the combination with the least sum of squared coefficients.
 //!
 //! Reference: Ziegler, Lectures on Polytopes, 1995, chapter 7 (zonotopes); Rockafellar, Convex Analysis, 1970, §15
 //! (gauges).
 
-/// A vector of space.
+/// A vector in space.
 pub type Vec3 = [f64; 3];
 
 /// Up to this number of generators, all pairs are tested. Larger sets are first reduced by adding up similar
 /// generators.
 ///
-/// The test takes m³ steps for m generators. If generators are added up, the result is larger than the smallest τ.
+/// The test takes m³ steps for m generators. If generators are added up, the result can be larger than the gauge.
 const MAX_GENERATORS: usize = 40;
 
 /// Above this number, generators are first added up by direction cells, because merging by pairs also takes m³ steps.
 const MAX_PAIRED_GENERATORS: usize = 120;
 
-/// Up to this number of generators, the exact test is as fast as an upper bound.
+/// Up to this number of generators, the exact gauge takes no longer to compute than an upper bound.
 const MAX_GENERATORS_TESTED_AT_ONCE: usize = 12;
 
-/// The relative rounding of a sum of three products, with some reserve.
+/// A bound of the relative rounding error of a sum of three products, with some reserve.
 ///
-/// If it were ten times smaller, rounding would give a flat zonotope a width, and a point outside its plane a finite τ.
-/// If it were ten times larger, τ would be some per cent too large for zonotopes whose width is 10⁻¹² of their length.
+/// If it were ten times smaller, rounding could give a flat zonotope a width, and a point outside its plane a finite
+/// τ. If it were ten times larger, τ would be several per cent too large if the width of a zonotope is 10⁻¹² of its
+/// length.
 const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// Returns the gauge of a zonotope: the smallest factor τ for which `point` lies in the zonotope scaled by τ. Infinity
@@ -189,8 +190,8 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
             try_normal(cross(*a, *b));
         }
     }
-    // The normal of the plane in which a flat zonotope lies. If the zonotope is a line segment, any plane through the
-    // segment will do.
+    // `plane` is the normal of the plane in which a flat zonotope lies. If the zonotope is a line segment, it is the
+    // normal of any plane through the segment.
     let plane = generators
         .iter()
         .map(|g| cross(longest, *g))
@@ -217,9 +218,9 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
 /// Bounds of the rounding errors of the two sums in [`ratio`].
 #[derive(Clone, Copy)]
 struct Rounding {
-    /// Of |n·r|.
+    /// Bound of the error of |n·point|.
     distance: f64,
-    /// Of Σ |n·gᵢ|.
+    /// Bound of the error of Σ |n·gᵢ|.
     width: f64,
 }
 

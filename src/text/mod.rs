@@ -136,7 +136,7 @@ pub fn csv(text: &str) -> String {
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
 
-/// Returns a word for the command line of a POSIX shell, on one line, and in quotes if necessary.
+/// Escapes text as one word for the command line of a POSIX shell. The result is one line, in quotes if necessary.
 ///
 /// ```
 /// use drystone::internals::text::shell;

@@ -1,10 +1,10 @@
 //! [`nearest`]: finds the known name that the author of an unknown name probably meant.
 //!
 //! Names are compared by the optimal string alignment distance: the number of letters to change, insert, delete, or
-//! swap with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping early at a largest
-//! distance.
+//! swap with a neighbour. References: Damerau 1964; Levenshtein 1966; Ukkonen 1985 for stopping as soon as the
+//! distance exceeds a limit.
 
-/// The number of letters of a name that are compared. It is limited because the time grows with its square.
+/// The largest number of letters of a name that are compared. The time grows with the square of this number.
 const MAX_LETTERS: usize = 80;
 
 /// Returns the known name that is most similar to `name`; the first if several are equally similar. `None` if no name
@@ -126,7 +126,7 @@ mod tests {
         );
     }
 
-    /// The complete table, as in the definition.
+    /// The edit distance of two names from the complete table, as in the definition.
     fn plain(a: &[char], b: &[char]) -> usize {
         let mut table = vec![vec![0; b.len() + 1]; a.len() + 1];
         for i in 0..=a.len() {
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_partial_table_gives_the_same_distances() {
+    fn the_shortened_computation_returns_the_same_distances_as_the_full_table() {
         // All words of up to four letters from an alphabet of three, and two words of five letters. They contain
         // every case in which two words start or end alike, swap letters, or differ.
         let mut words = vec![String::new()];

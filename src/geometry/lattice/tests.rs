@@ -1,4 +1,5 @@
-//! Tests of cells, rotations and outlines on both lattices, against results by hand or in the plane.
+//! Tests of cells, rotations and outlines on both lattices. Expected results come from calculation by hand or from
+//! rotations of the plane.
 
 use super::*;
 
@@ -16,7 +17,7 @@ fn lattice(shape: CellShape, side: f64) -> Lattice {
     Lattice { kind, side }
 }
 
-/// A rectangle of square cells with these numbers of columns and rows, except some cells.
+/// The square cells of a rectangle with `columns` columns and `rows` rows, except the cells at the nodes `without`.
 fn squares(columns: i64, rows: i64, without: &[Node]) -> Vec<Cell> {
     let all = (0..columns).flat_map(|x| (0..rows).map(move |y| (x, y)));
     let kept = all.filter(|place| !without.contains(place));
@@ -25,11 +26,11 @@ fn squares(columns: i64, rows: i64, without: &[Node]) -> Vec<Cell> {
 
 fn outline_of(cells: &[Cell], side: f64) -> Polygon {
     let lattice = lattice(cells[0].shape, side);
-    lattice.polygon(cells).expect("joined by edges")
+    lattice.polygon(cells).expect("connected cells")
 }
 
-/// The corners of a ring in their order. The first is the corner with the smallest x, and among these with the
-/// smallest y.
+/// The corners of a ring in their order, starting with the corner that has the smallest x. If several corners have
+/// this x, the first is the lowest of them.
 fn nodes(ring: &[Node]) -> Vec<Node> {
     let mut ring = ring.to_vec();
     let first = (0..ring.len()).min_by_key(|i| ring[*i]).unwrap_or(0);
@@ -44,18 +45,19 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
     for shape in SHAPES {
         let (cell, lattice) = (cell(-4, 3, shape), lattice(shape, 0.7));
         let ring: Vec<Point> = cell.corners().iter().map(|c| lattice.node(*c)).collect();
-        let polygon = Polygon::new(ring.clone(), vec![]).expect("sound");
+        let polygon = Polygon::new(ring.clone(), vec![]).expect("a valid polygon");
         assert_eq!(
             polygon.outline(),
             ring,
-            "it is turned round where it runs clockwise"
+            "a clockwise ring would be reversed"
         );
         assert!((polygon.area() - lattice.cell_area()).abs() < 1e-15);
         assert!((polygon.centroid() - lattice.cell_centre(cell)).norm() < 1e-14);
         for side in polygon.edges() {
             assert!((side.length() - 0.7).abs() < 1e-14);
         }
-        // A cell is named by the left end of its horizontal edge. Only a cell that points down lies below this edge.
+        // A cell is identified by the left end of its horizontal edge. Only a cell that points down lies below this
+        // edge.
         let above = lattice.cell_centre(cell).y > lattice.node((-4, 3)).y;
         assert!(cell.corners().contains(&(-4, 3)) && cell.corners().contains(&(-3, 3)));
         assert_eq!(above, shape != CellShape::Down);
@@ -124,7 +126,7 @@ fn rotations_on_the_lattice_are_rotations_of_the_plane() {
 }
 
 #[test]
-fn the_boundary_consists_of_the_edges_of_only_one_cell() {
+fn each_boundary_edge_belongs_to_only_one_cell() {
     let one = cell(1, 2, CellShape::Up);
     let own = [((1, 2), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
     let sorted = |steps: &[LatticeEdge]| {
@@ -152,7 +154,7 @@ fn outlines_have_corners_only_where_they_turn() {
     let mut cells = squares(3, 1, &[]);
     cells.extend([cell(0, 1, CellShape::Square), cell(0, 2, CellShape::Square)]);
     let corners = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)];
-    let traced = trace(&cells).expect("joined by edges");
+    let traced = trace(&cells).expect("connected cells");
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), corners);
     assert_eq!(outline_of(&cells, 0.5).area(), 1.25);
@@ -160,7 +162,7 @@ fn outlines_have_corners_only_where_they_turn() {
     let up = [(0, 0), (1, 0), (0, 1)].map(|(x, y)| cell(x, y, CellShape::Up));
     let mut cells = up.to_vec();
     cells.push(cell(0, 1, CellShape::Down));
-    let traced = trace(&cells).expect("joined by edges");
+    let traced = trace(&cells).expect("connected cells");
     assert_eq!(nodes(&traced[0]), [(0, 0), (2, 0), (0, 2)]);
     assert!((outline_of(&cells, 1.0).area() - 3f64.sqrt()).abs() < 1e-15);
 }
@@ -183,7 +185,7 @@ fn a_ring_of_squares_has_a_hole() {
 fn the_outline_comes_before_the_holes_and_small_holes_before_large_ones() {
     let large = [(1, 1), (2, 1), (1, 2), (2, 2)];
     let holes = [&large[..], &[(4, 2)], &[(6, 1), (6, 2)]].concat();
-    let traced = trace(&squares(8, 4, &holes)).expect("joined by edges");
+    let traced = trace(&squares(8, 4, &holes)).expect("connected cells");
     let traced: Vec<Vec<Node>> = traced.iter().map(|ring| nodes(ring)).collect();
     let wanted = [
         [(0, 0), (8, 0), (8, 4), (0, 4)],
@@ -195,10 +197,10 @@ fn the_outline_comes_before_the_holes_and_small_holes_before_large_ones() {
 }
 
 #[test]
-fn where_rings_touch_in_a_node_each_cell_keeps_its_own_edges() {
-    // The corner square is missing, so the hole touches the outside at (1, 2). Each of the two squares that meet
-    // there keeps its own two edges, and all edges form one ring.
-    let traced = trace(&squares(3, 3, &[(1, 1), (0, 2)])).expect("joined by edges");
+fn a_hole_that_touches_the_outside_forms_one_ring_with_the_outline() {
+    // The corner square is missing, so the hole touches the outside at (1, 2). The ring passes this node twice, each
+    // time along the two edges of one of the squares there.
+    let traced = trace(&squares(3, 3, &[(1, 1), (0, 2)])).expect("connected cells");
     let wanted = [
         (0, 0),
         (3, 0),
@@ -214,7 +216,7 @@ fn where_rings_touch_in_a_node_each_cell_keeps_its_own_edges() {
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), wanted);
     // The mirror image.
-    let traced = trace(&squares(3, 3, &[(1, 1), (2, 2)])).expect("joined by edges");
+    let traced = trace(&squares(3, 3, &[(1, 1), (2, 2)])).expect("connected cells");
     let wanted = [
         (0, 0),
         (3, 0),
@@ -238,7 +240,8 @@ fn wheel() -> Vec<Cell> {
         .collect()
 }
 
-/// A hexagon whose sides are two triangles long, without some of the six triangles around its centre.
+/// A hexagon whose sides are two triangles long. Of the six triangles around its centre, those with the numbers
+/// `without` are missing.
 fn hexagon(without: &[usize]) -> Vec<Cell> {
     let inner = wheel();
     let place = |n: Node| lattice(CellShape::Up, 1.0).node(n).coords.norm();
@@ -250,18 +253,18 @@ fn hexagon(without: &[usize]) -> Vec<Cell> {
 }
 
 #[test]
-fn triangles_that_meet_only_in_a_node_keep_their_own_two_edges() {
+fn the_ring_passes_separately_around_triangles_that_meet_only_in_a_node() {
     assert_eq!(hexagon(&[]).len(), 24);
     // Every pattern of missing triangles around the centre.
     for pattern in 1_usize..63 {
         let missing = |k: usize| pattern >> (k % 6) & 1 == 1;
         let without: Vec<usize> = (0..6).filter(|k| missing(*k)).collect();
-        let traced = trace(&hexagon(&without)).expect("joined by edges");
+        let traced = trace(&hexagon(&without)).expect("connected cells");
         assert_eq!((traced.len(), traced[0].len()), (2, 6), "{pattern:b}");
         let area: i64 = traced.iter().map(|ring| doubled_area(ring)).sum();
         assert_eq!(area as usize, 24 - without.len(), "{pattern:b}");
-        // Each run of adjacent triangles around the centre is given by the two spokes that bound it. The edge of
-        // three triangles in a row is straight there and has no corner.
+        // Each run of adjacent triangles around the centre is identified by the two spokes that bound it. The
+        // boundary of three adjacent triangles is straight at the centre, so it has no corner there.
         let mut wanted = BTreeSet::new();
         for begin in (0..6).filter(|k| !missing(*k) && missing(k + 5)) {
             let count = (1..6).find(|k| missing(begin + k)).unwrap_or(6);

@@ -12,7 +12,7 @@ fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
         ],
         vec![],
     )
-    .expect("sound")
+    .expect("a valid polygon")
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_block_in_the_hole_of_another_does_not_overlap_it() {
             Point::new(x, x + w),
         ]
     };
-    let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("sound");
+    let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("a valid polygon");
     let pieces = ConvexPieces::new(&frame);
     assert_eq!(
         overlap(
@@ -73,7 +73,7 @@ fn a_block_in_the_hole_of_another_does_not_overlap_it() {
 
 fn polygon(corners: &[[f64; 2]]) -> Polygon {
     let corners = corners.iter().map(|p| Point::new(p[0], p[1])).collect();
-    Polygon::new(corners, vec![]).expect("sound")
+    Polygon::new(corners, vec![]).expect("a valid polygon")
 }
 
 /// The overlap of two polygons. Checks that it is the same in either order.
@@ -88,7 +88,7 @@ fn both(a: &Polygon, b: &Polygon) -> Overlap {
 }
 
 #[test]
-fn the_area_and_the_centroid_of_an_overlap_are_those_of_all_pieces_together() {
+fn the_area_and_the_centroid_of_an_overlap_include_all_pieces() {
     // An L and a square over its corner. They share a rectangle of 2 by ½ around (1½, ¾) and one of ½ by 1½ around
     // (¾, 1¾).
     for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
@@ -128,7 +128,8 @@ fn the_depth_is_the_shortest_distance_that_separates_the_bodies() {
             found.depth
         );
     }
-    // A tip that enters the top of the slab by ¼, and a box that enters a slope of 3 along and 4 down by ¼.
+    // The tip of a triangle penetrates the top of the slab by ¼. A box penetrates the hypotenuse of a triangle with
+    // legs of 3 and 4 by ¼.
     let tip = polygon(&[[2.0, 3.75], [3.0, 9.0], [1.0, 9.0]]);
     assert!((both(&slab, &tip).depth - 0.25).abs() < 1e-12);
     let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
@@ -151,7 +152,7 @@ const FAR: f64 = 1_125_899_906_842_624.0;
 fn the_pieces_cover_the_polygon_exactly_once() {
     let ring = |x: f64, size: f64| rectangle(x, x, size, size).outline().to_vec();
     let frame = Polygon::new(ring(-3.0, 9.0), vec![ring(0.0, 1.0), ring(2.0, 3.0)]);
-    let frame = frame.expect("sound");
+    let frame = frame.expect("a valid polygon");
     let mut area = 0.0;
     for piece in ConvexPieces::new(&frame).pieces() {
         let t = &piece.corners;

@@ -4,10 +4,10 @@
 //! onto the previous side would only pass the error on. Therefore one line is fitted to all corners of a joint, and a
 //! corner on two joints moves to the intersection of the two lines.
 //!
-//! Lines are fitted by total least squares (the principal axis of the nodes), or taken from a side, or made exactly
-//! level or upright. Then two steps alternate until no node moves: fit all lines to the nodes; move each node by the
-//! shortest least-squares step onto its lines. References: Pearson, On Lines and Planes of Closest Fit, 1901; Golub and
-//! Van Loan, Matrix Computations, 2013, §5.3 (least squares by normal equations) and §5.5 (shortest solution).
+//! A line runs along a side, or is fitted by total least squares (the principal axis of the nodes), or is exactly
+//! horizontal or vertical. Two steps alternate until no node moves: fit all lines to the nodes; move each node by the
+//! shortest least-squares step onto its lines. References: Pearson, On Lines and Planes of Closest Fit, 1901; Golub
+//! and Van Loan, Matrix Computations, 2013, §5.3 (least squares by normal equations) and §5.5 (shortest solution).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,7 +23,8 @@ const MAX_ITERATIONS: usize = 200;
 /// The limit is an angle of 0.57°. If the angle were 0.18°, a node could move 300 times as far as its lines are off. If
 /// it were 1.8°, the corners of slender wedges would no longer move to the intersection.
 const MIN_SQUARED_SINE: f64 = 1e-4;
-/// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test and of level lines.
+/// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test, and of the test
+/// whether a line is horizontal or vertical.
 ///
 /// It must exceed the rounding of coordinates; for a gap of 1 mm it is 10⁻¹² m.
 const ROUNDING_TOL: f64 = 1e-9;
@@ -44,9 +45,9 @@ enum LineKind {
     /// The line through the two end nodes of one side, which extends along all nodes.
     Side([usize; 2]),
     /// A horizontal line through the mean of the nodes.
-    Level,
+    Horizontal,
     /// A vertical line through the mean of the nodes.
-    Upright,
+    Vertical,
     /// The line with the least sum of squared distances from the nodes.
     Closest,
 }
@@ -161,8 +162,9 @@ impl Line {
     /// Returns a line for the nodes `members`, which lie on `sides`. `None` if no line passes every node within the
     /// node's gap.
     ///
-    /// The line along the longest side is preferred. Otherwise the line is fitted to the nodes, and made exactly level
-    /// or upright if the scatter of the nodes allows this.
+    /// The line runs along the longest side if no node lies beyond the ends of this side by more than the node's gap.
+    /// Otherwise the line is fitted to the nodes. It is made exactly horizontal or vertical if the scatter of the
+    /// nodes allows this.
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
@@ -173,10 +175,10 @@ impl Line {
             nodes: members.clone(),
             kind,
         };
-        // A line through two equal points has NaN as its distances. The comparison then fails, so such a line does not
-        // fit.
         let fits = |line: &Line| {
             let fit = line.fit(nodes);
+            // If the two ends of a side coincide, every distance is NaN and the comparison is false: the line does
+            // not fit.
             (line.nodes.iter()).all(|n| fit.distance(place(*n)) <= nodes.all[*n].gap)
         };
         let side = line(LineKind::Side(longest));
@@ -205,14 +207,14 @@ impl Line {
             });
             high - low
         };
-        // A flat line becomes level if its rise over the width of the nodes is at most twice their scatter. A steep
-        // line becomes upright if its horizontal shift over the height of the nodes is at most twice their scatter. A
-        // steep line is not tested against the horizontal: the width of its nodes is near 0, so it would always pass
-        // that test.
+        // A flat line becomes horizontal if it rises over the width of the nodes by at most twice their scatter. A
+        // steep line becomes vertical if it shifts sideways over the height of the nodes by at most twice their
+        // scatter. A steep line is not tested for being horizontal: the width of its nodes can be near 0, so it would
+        // pass that test.
         let (axis, kind) = if normal.y.abs() >= normal.x.abs() {
-            (0, LineKind::Level)
+            (0, LineKind::Horizontal)
         } else {
-            (1, LineKind::Upright)
+            (1, LineKind::Vertical)
         };
         let rounding = ROUNDING_TOL * nodes.all[members[0]].gap;
         if normal[axis].abs() * spread(axis) <= 2.0 * off + rounding {
@@ -235,8 +237,8 @@ impl Line {
         let sum: Vector = self.nodes.iter().map(|n| place(*n) - first).sum();
         let through = first + sum / count;
         let normal = match self.kind {
-            LineKind::Level => Vector::new(0.0, 1.0),
-            LineKind::Upright => Vector::new(1.0, 0.0),
+            LineKind::Horizontal => Vector::new(0.0, 1.0),
+            LineKind::Vertical => Vector::new(1.0, 0.0),
             _ => {
                 let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
                 for n in &self.nodes {

@@ -11,7 +11,7 @@
 //! 4. The result is checked. A body that lost its shape or overlaps another body more than before is left as drawn, and
 //!    the steps are repeated without moving it.
 //!
-//! Invariant: no body loses its shape, and no two bodies overlap more than they were drawn. References: Everitt et al.,
+//! Invariant: no body loses its shape, and no two bodies overlap more than as drawn. References: Everitt et al.,
 //! Cluster Analysis, 2011, §4.2 (complete linkage); Milenkovic, Verifiable implementations of geometric algorithms
 //! using finite precision arithmetic, 1988 (merging corners and shifting them onto sides).
 
@@ -25,7 +25,7 @@ use super::{Aabb, BoxIndex, ConvexPieces, Edge, Point, Polygon, PolygonError, cr
 use line::Lines;
 use node::Nodes;
 
-/// A corner of an outline, metres.
+/// A corner of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
     /// Position, metres.
@@ -65,7 +65,7 @@ const MAX_ATTEMPTS: usize = 12;
 /// It is a thousandth of [`MIN_MOVE`]. A limit below the rounding of coordinates would rebuild bodies that already fit.
 const EXACT_DISTANCE_TOL: f64 = 1e-9;
 
-/// A corner that moves by at most this fraction of the gap is not reported as moved: that is the rounding of numbers.
+/// A corner that moves by at most this fraction of the gap is not reported as moved, because this is only rounding.
 const MIN_MOVE: f64 = 1e-6;
 
 /// A ring whose area shrinks to this fraction of its former area, or below, has lost its shape.
@@ -335,11 +335,11 @@ fn rebuild_bodies(
                 if let Some(mut more) = taken.remove(&(body, ring, i)) {
                     more.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
                     corners += more.len();
-                    let come_in = |m: &(f64, usize)| Corner {
+                    let added = |m: &(f64, usize)| Corner {
                         at: nodes.all[m.1].at,
                         curved: true,
                     };
-                    new.extend(more.iter().map(come_in));
+                    new.extend(more.iter().map(added));
                 }
             }
             built.push(new);

@@ -12,8 +12,8 @@ fn ring(corners: &[(f64, f64)]) -> Rings {
     vec![corners.iter().map(corner).collect()]
 }
 
-/// Snaps all bodies with one gap, in metres. An overlap of 10⁻⁶ m does not count.
-fn brought(bodies: &[Rings], gap: f64) -> Outcome<'static> {
+/// Snaps all bodies with the same gap, in metres. Overlaps of up to 10⁻⁶ m are ignored.
+fn snap_all(bodies: &[Rings], gap: f64) -> Outcome<'static> {
     let count = bodies.len();
     let outcome = snapped(
         bodies,
@@ -51,7 +51,7 @@ fn shaken(bodies: Vec<Rings>, by: f64) -> Vec<Rings> {
     bodies.into_iter().map(shake).collect()
 }
 
-/// The largest distance of a corner from a nearby side of another body.
+/// The largest distance, in metres, of a corner from a side of another body that is less than `gap` away.
 fn misfit(bodies: &[Rings], gap: f64) -> f64 {
     let mut worst = 0.0_f64;
     for (i, a) in bodies.iter().enumerate() {
@@ -87,7 +87,7 @@ fn wall(columns: usize, rows: usize) -> Vec<Rings> {
 #[test]
 fn the_joints_of_a_wall_with_slightly_wrong_corners_are_closed() {
     let drawn = shaken(wall(12, 7), 0.004);
-    let outcome = brought(&drawn, 0.02);
+    let outcome = snap_all(&drawn, 0.02);
     assert!(outcome.kept.is_empty(), "{:?}", outcome.kept);
     assert!(misfit(&drawn, 0.02) > 1e-3);
     assert!(
@@ -107,7 +107,7 @@ fn the_joints_of_a_wall_with_slightly_wrong_corners_are_closed() {
 #[test]
 fn exact_bodies_stay_the_same_to_the_last_bit() {
     let drawn = wall(5, 4);
-    let outcome = brought(&drawn, 0.02);
+    let outcome = snap_all(&drawn, 0.02);
     assert!(outcome.moved.is_empty() && outcome.kept.is_empty());
     assert_eq!(outcome.bodies, drawn);
 }
@@ -122,11 +122,11 @@ fn transposed(bodies: &[Rings]) -> Vec<Rings> {
 }
 
 #[test]
-fn upright_joints_are_closed_like_level_joints() {
+fn vertical_joints_are_closed_like_horizontal_joints() {
     let gap = 0.02;
     for drawn in [wall(5, 4), wall(12, 7), steps()] {
         let drawn = shaken(drawn, 0.004);
-        let (one, two) = (brought(&drawn, gap), brought(&transposed(&drawn), gap));
+        let (one, two) = (snap_all(&drawn, gap), snap_all(&transposed(&drawn), gap));
         assert!(misfit(&one.bodies, gap) < 1e-9 && !one.moved.is_empty());
         let two = transposed(&two.bodies);
         let corners = one.bodies.iter().flatten().flatten();
@@ -149,13 +149,13 @@ fn steps() -> Vec<Rings> {
 }
 
 #[test]
-fn the_corners_of_an_exact_upright_joint_do_not_move() {
+fn the_corners_of_an_exact_vertical_joint_do_not_move() {
     let drawn = steps();
-    assert!(brought(&drawn, 0.0015).moved.is_empty());
-    // If one stone is off, the others do not move either.
+    assert!(snap_all(&drawn, 0.0015).moved.is_empty());
+    // If a corner of one stone is off, only this stone moves.
     let mut off = drawn.clone();
     off[5][0][0].at.y += 0.0004;
-    let outcome = brought(&off, 0.0015);
+    let outcome = snap_all(&off, 0.0015);
     assert_eq!(outcome.moved.len(), 1);
     for (healed, meant) in outcome
         .bodies
@@ -175,7 +175,7 @@ fn a_body_thinner_than_the_gap_is_not_flattened() {
         rectangle(1.0, 1.0, 2.0, 0.01),
         rectangle(0.0, 1.01, 4.0, 1.0),
     ];
-    let outcome = brought(&drawn, 0.05);
+    let outcome = snap_all(&drawn, 0.05);
     for (old, new) in drawn.iter().zip(outcome.bodies.iter()) {
         assert!(area(&new[0]) > 0.5 * area(&old[0]));
     }
@@ -191,15 +191,15 @@ fn the_earlier_body_stays_and_the_later_body_moves_to_it() {
         rectangle(-1.0, -1.0, 9.0, 1.0),
         rectangle(2.0, 0.003, 1.0, 2.0),
     ];
-    let outcome = brought(&drawn, 0.01);
+    let outcome = snap_all(&drawn, 0.01);
     assert_eq!(outcome.bodies[0], drawn[0]);
     assert_eq!(outcome.bodies[1][0][0].at, Point::new(2.0, 0.0));
     assert_eq!(outcome.bodies[1][0][1].at, Point::new(3.0, 0.0));
     assert_eq!(outcome.moved.len(), 1);
     assert_eq!((outcome.moved[0].body, outcome.moved[0].corners), (1, 2));
     assert!((outcome.moved[0].distance - 0.003).abs() < 1e-12);
-    // A distance of more than the gap stays open.
-    assert!(brought(&drawn, 0.002).moved.is_empty());
+    // A joint that is wider than the gap stays open.
+    assert!(snap_all(&drawn, 0.002).moved.is_empty());
 }
 
 #[test]
@@ -208,14 +208,14 @@ fn an_overlap_of_less_than_the_gap_is_closed_and_a_deep_overlap_stays() {
         rectangle(0.0, 0.0, 4.0, 1.0),
         rectangle(1.0, 0.996, 2.0, 1.0),
     ];
-    let healed = brought(&shallow, 0.01);
+    let healed = snap_all(&shallow, 0.01);
     assert!(misfit(&healed.bodies, 0.01) < 1e-12);
     let deep = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 0.7, 2.0, 1.0)];
-    assert_eq!(brought(&deep, 0.01).bodies, deep);
+    assert_eq!(snap_all(&deep, 0.01).bodies, deep);
 }
 
 #[test]
-fn a_curve_gets_the_corners_of_the_curve_that_lies_on_it() {
+fn touching_curves_share_corners() {
     let arc = |steps: usize, radius: f64, back: bool| {
         let mut points: Vec<Corner> = (0..=steps)
             .map(|k| {
@@ -242,7 +242,7 @@ fn a_curve_gets_the_corners_of_the_curve_that_lies_on_it() {
     };
     let drawn = vec![band(1.0, 2.0, [9, 14]), band(2.0, 3.0, [11, 14])];
     let gap = 2.0 * (1.0 - libm::cos(core::f64::consts::PI / 44.0)) + 1e-3;
-    let outcome = brought(&drawn, gap);
+    let outcome = snap_all(&drawn, gap);
     assert!(outcome.kept.is_empty());
     assert!(
         misfit(&outcome.bodies, gap) < 1e-12,
@@ -263,7 +263,7 @@ fn each_move_lists_its_corners_its_distance_and_its_targets() {
         rectangle(8.0, 0.0, 1.0, 1.0),
         ring(&[(2.003, 1.004), (3.0, 3.0), (2.0, 3.0)]),
     ];
-    let outcome = brought(&bodies, 0.01);
+    let outcome = snap_all(&bodies, 0.01);
     let moved = |body: usize| outcome.moved.iter().find(|m| m.body == body);
     assert_eq!(outcome.moved.len(), 2);
     let second = moved(2).expect("the second stone moves");
@@ -272,12 +272,12 @@ fn each_move_lists_its_corners_its_distance_and_its_targets() {
         (2, &BTreeSet::from([0, 1, 4]))
     );
     assert!((second.distance - 0.004).abs() < 1e-12);
-    let last = moved(4).expect("the last one moves");
+    let last = moved(4).expect("the triangle moves");
     assert_eq!((last.corners, &last.to), (1, &BTreeSet::from([2])));
     assert!((last.distance - libm::hypot(0.001, 0.004)).abs() < 1e-12);
     // An earlier body moves to a side of a later body.
     let tip = ring(&[(2.0, 1.004), (3.0, 5.0), (1.0, 5.0)]);
-    let outcome = brought(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);
+    let outcome = snap_all(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);
     let wanted = Moved {
         body: 0,
         corners: 1,
@@ -329,13 +329,13 @@ fn a_fixed_body_stays_and_is_not_listed_as_kept() {
 }
 
 #[test]
-fn a_curve_gets_a_corner_that_already_lies_on_it() {
-    // A straight side needs no further corner. A side that approximates a curve gets one.
+fn a_corner_that_lies_on_a_curve_is_inserted_into_it() {
+    // The tip touches a side. A straight side needs no corner at the tip, but a side that approximates a curve does.
     let tip = ring(&[(1.5, 1.0), (2.5, 5.0), (0.5, 5.0)]);
     let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip];
-    assert_eq!(brought(&drawn, 0.01).bodies, drawn);
+    assert_eq!(snap_all(&drawn, 0.01).bodies, drawn);
     drawn[0][0][2].curved = true;
-    let outcome = brought(&drawn, 0.01);
+    let outcome = snap_all(&drawn, 0.01);
     let (tip, from) = (drawn[1][0][0].at, drawn[0][0][2]);
     let mut wanted = drawn.clone();
     wanted[0][0].insert(3, Corner { at: tip, ..from });
@@ -352,7 +352,7 @@ fn several_corners_are_inserted_into_a_curve_in_order() {
     let tip = |x: f64| ring(&[(x, 1.004), (x + 0.5, 5.0), (x - 0.5, 5.0)]);
     let mut drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), tip(1.0), tip(3.0), tip(2.0)];
     drawn[0][0][2].curved = true;
-    let outcome = brought(&drawn, 0.01);
+    let outcome = snap_all(&drawn, 0.01);
     let upper: Vec<f64> = outcome.bodies[0][0][2..].iter().map(|c| c.at.x).collect();
     assert_eq!(upper, [4.0, 3.0, 2.0, 1.0, 0.0]);
     assert_eq!(outcome.moved.len(), 1);

@@ -1,7 +1,7 @@
 //! Analyses all frames of a scene, one after the other.
 //!
-//! For each frame: assemble it, split it into components, decide the components that no earlier frame had, and
-//! combine the results. Then look for wedging and margins if they are requested.
+//! For each frame: assemble it, split it into components, decide the components that did not occur in an earlier
+//! frame, and combine the results. Then look for wedging and margins if they are requested.
 
 use std::collections::BTreeMap;
 
@@ -45,9 +45,9 @@ struct SolvedComponent<'a> {
 
 /// Finds the interfaces of a scene and analyses every frame. Gaps and overlaps between blocks stay as they are drawn.
 pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<FrameAnalysis>) {
-    let findings = Interfaces::new(scene);
-    let frames = analyse_frames(scene, &findings, options);
-    (findings, frames)
+    let interfaces = Interfaces::new(scene);
+    let frames = analyse_frames(scene, &interfaces, options);
+    (interfaces, frames)
 }
 
 /// Analyses every frame of a scene, with interfaces that were found before.
@@ -257,7 +257,7 @@ fn find_sensitivity(
         component: s.component,
         interval: known
             .get(s.key)
-            .and_then(|findings| findings.interval(kind)),
+            .and_then(|intervals| intervals.interval(kind)),
     });
     let parts: Vec<sensitivity::Part> = parts.collect();
     Some(sensitivity::find(context, &parts, intervals, kind))

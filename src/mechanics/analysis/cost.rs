@@ -8,17 +8,18 @@ use super::Method;
 pub struct SolveReport {
     /// The method that decided the hardest component: the greatest [`Method`] of all components.
     pub method: Method,
-    /// Iterations of all programs together.
+    /// The total number of solver iterations of all programs.
     pub iterations: usize,
-    /// Programs solved for this frame; 0 if closed forms or earlier frames answered it.
+    /// The number of programs solved for this frame; 0 if closed forms or results of earlier frames decided every
+    /// component.
     pub programs: usize,
-    /// Components: blocks that cannot influence each other.
+    /// The number of components. Blocks in different components cannot influence each other.
     pub groups: usize,
-    /// Components answered by an earlier frame.
+    /// The number of components whose results come from an earlier frame.
     pub reused: usize,
-    /// Wall time in seconds.
+    /// The wall time for the frame, in seconds.
     pub seconds: f64,
-    /// The part of this time that each stage took.
+    /// The wall time of each stage.
     pub stages: Stages,
 }
 

@@ -1,5 +1,5 @@
 //! Decides whether a component stands or falls. Two tables list the routes to a verdict, for one component and for a
-//! whole frame. The numbers of the routes give the order in which they are tried.
+//! whole frame. The routes are tried in the order of their numbers.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a
@@ -11,8 +11,8 @@
 //! |---|---|---|---|
 //! | 1 | closed form | `decide.rs`, `solve::determinate` | no load, no support, or forces that the balance equations alone determine |
 //! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these the program is smaller |
-//! | 3 | programs in order | `programs.rs`, `strategy/` | each may give forces or a motion, whose proof is then computed |
-//! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the whole may leave a light body unbalanced; it is solved again in its own scale |
+//! | 3 | programs in order | `programs.rs`, `strategy/` | each may find forces or a motion, whose proof is then computed |
+//! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the whole may leave a light body unbalanced; that body is solved again in its own scale |
 //! | 3b | – remove the solver's error from a motion | `motion.rs`, `pieces.rs` | a motion must not violate any contact, not even by rounding |
 //! | 4 | complete | `complete.rs` | forces of least sum if the component stands, least adhesion if it falls |
 //!
@@ -134,7 +134,8 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
 }
 
 impl<'a> Component<'a> {
-    /// Creates a component with its own units of length and force. `options` give the solver settings and the accuracy.
+    /// Creates a component, with units of length and force that suit it. `options` determine the solver settings and
+    /// the accuracy.
     fn new(assembly: &'a Assembly, options: Options) -> Component<'a> {
         Component {
             assembly,

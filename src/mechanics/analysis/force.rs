@@ -5,21 +5,21 @@ use crate::interface::Interface;
 use crate::resultant::Resultant;
 use crate::scene::{BlockId, BodyId, RobotId};
 
-/// An interface and the admissible force it carries.
+/// An interface and the admissible forces that it transmits.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Contact {
-    /// Where the two bodies touch; forces are those on `interface.bodies[0]`.
+    /// Where the two bodies touch. All forces act on `interface.bodies[0]`.
     pub interface: Interface,
     /// The two application points, metres.
     pub application_points: [Point; 2],
-    /// Normal forces N1, N2 at them, N, at least 0.
+    /// The normal forces N1 and N2 at these points, N; at least 0.
     pub normal_forces: [f64; 2],
-    /// Friction force, N, signed along (−n_y, n_x).
+    /// The friction force T, N; positive along (−n_y, n_x), where n is the interface's normal.
     pub friction_force: f64,
     /// The resultant of these forces.
     pub resultant: Resultant,
-    /// |T| / (μ ΣN), 0 without force.
+    /// The used fraction of the available friction, |T| / (μ (N1 + N2)); 0 if no friction is available.
     pub friction_used: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct RobotForce {
     pub force: Vector,
     /// Torque on the block, N·m.
     pub torque: f64,
-    /// The largest used fraction of a limit; 0 if there are no limits.
+    /// The largest used fraction of the limits for force x, force y and torque; 0 if all are infinite or 0.
     pub limit_used: f64,
 }
 
@@ -63,7 +63,7 @@ pub enum Failure {
         /// The force on `bodies[0]`, N.
         force: Vector,
     },
-    /// A force the robot's limits do not allow.
+    /// A robot force beyond the robot's limits.
     RobotForce {
         /// The robot.
         robot: RobotId,
@@ -74,7 +74,7 @@ pub enum Failure {
         /// The missing force on the block, N.
         force: Vector,
     },
-    /// A torque the robot's limit does not allow.
+    /// A robot torque beyond the robot's limit.
     RobotTorque {
         /// The robot.
         robot: RobotId,

@@ -79,7 +79,7 @@ pub(super) fn complete_frame(
     add_notices(analysis, context, verdict_only);
 }
 
-/// Adds notices to the result: what was not computed or not proved, and which blocks no adhesion can hold.
+/// Adds notices about results that were not computed or not proved, and about blocks that no adhesion can hold.
 fn add_notices(analysis: &mut FrameAnalysis, context: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(
@@ -87,14 +87,14 @@ fn add_notices(analysis: &mut FrameAnalysis, context: &FrameContext, verdict_onl
                 .into(),
         ),
         (true, Verdict::Unstable) => analysis.notices.push(
-            "only the verdict was asked for: what fails, and the forces beside it, were not sought"
+            "only the verdict was asked for: the failures and the forces were not computed"
                 .into(),
         ),
         _ => {}
     }
     if analysis.verdict == Verdict::Stable && !analysis.least_force {
         analysis.notices.push(
-            "the forces shown balance every block; that they are those of least sum was not shown"
+            "the forces shown balance every block; it was not proved that their sum is the least"
                 .into(),
         );
     }

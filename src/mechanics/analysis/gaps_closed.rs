@@ -2,10 +2,10 @@
 //!
 //! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may
 //! have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:
-//! as it is written, where neither gaps nor overlaps carry force, and with all of them closed. Closing goes as far as
-//! rounded corners may be off, if necessary. If the verdicts differ, the intended structure is unknown. The frame is
-//! then undecided, and the reason lists the places and the tolerance that would decide. If the verdicts agree, an
-//! overlap is reported next to the verdict. If the scene gives a tolerance, no second verdict is needed.
+//! as it is written, where neither gaps nor overlaps carry force, and with all of them closed. If necessary, they are
+//! closed by a larger length, which allows for rounded corners. If the verdicts differ, the intended structure is
+//! unknown. The frame is then undecided, and the reason lists the places and a tolerance that closes them. If the
+//! verdicts agree, a notice reports the overlaps. If the scene gives a tolerance, no second verdict is needed.
 
 use super::analyse::{analyse, analyse_frames};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
@@ -15,7 +15,7 @@ use crate::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceS
 
 /// The largest number of places that a message names.
 const MAX_NAMED_PLACES: usize = 3;
-/// The largest number of gaps that are nearly contacts and have a note of their own.
+/// The largest number of notes on gaps that are nearly contacts.
 const MAX_NOTED_GAPS: usize = 10;
 /// All places are closed by the widest gap or overlap times this factor: one percent more than needed, so that
 /// rounding leaves none open.
@@ -106,15 +106,15 @@ fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<Ambiguous
         for block in &frame.placed {
             placed[block.0] = true;
         }
-        let stands = |body: &BodyId| match body {
+        let is_placed = |body: &BodyId| match body {
             BodyId::Ground(_) => true,
             BodyId::Block(id) => placed[id.0],
         };
         // A gap that a pinning stone between the two bodies keeps open is intended, so it is left out.
         let gaps = (interfaces.near_misses.iter())
-            .filter(|gap| gap.bodies.iter().all(stands))
-            .filter(|gap| pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none());
-        let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(stands));
+            .filter(|gap| gap.bodies.iter().all(is_placed))
+            .filter(|gap| pinning_stone(gap, &touching, is_placed, scene.tolerance.gap).is_none());
+        let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(is_placed));
         gaps.map(AmbiguousPlace::from)
             .chain(overlaps.map(AmbiguousPlace::from))
             .collect()
@@ -234,6 +234,7 @@ fn recheck_with_slivers(
     }
 }
 
+/// Returns the reason for an undecided frame that stands only if very short contacts carry force.
 fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
@@ -257,8 +258,8 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
         CLOSING_FACTOR * length(slivers.first()),
     );
     let words = format!(
-        "it stands where contacts of next to no length carry force and falls where they are touching corners: {}{more}; a \
-         contact_tolerance of {} counts them, one of {} does not",
+        "it stands if contacts of almost no length carry force and falls if they are only touching corners: {}{more}; \
+         a contact_tolerance of {} counts them, one of {} does not",
         named.join(", "),
         scene.units.small_length(counting, 2),
         scene.units.small_length(ignoring, 2),
@@ -281,12 +282,12 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
     let gaps: Vec<&NearMiss> = (interfaces.near_misses.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {
-                let stands = |body: &BodyId| match body {
+                let is_placed = |body: &BodyId| match body {
                     BodyId::Ground(_) => true,
                     BodyId::Block(id) => frame.placed.contains(id),
                 };
-                gap.bodies.iter().all(stands)
-                    && pinning_stone(gap, &touching, stands, scene.tolerance.gap).is_none()
+                gap.bodies.iter().all(is_placed)
+                    && pinning_stone(gap, &touching, is_placed, scene.tolerance.gap).is_none()
             })
         })
         .take(MAX_NOTED_GAPS + 1)
@@ -315,6 +316,7 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
     notes
 }
 
+/// Returns the reason why a frame is undecided. `verdicts` are the verdicts with the gaps open and with them closed.
 fn gaps_reason(
     scene: &Scene,
     verdicts: [Verdict; 2],
@@ -348,8 +350,8 @@ fn gaps_explanation(
     );
     if overlap {
         return format!(
-            "it {written} where overlaps and narrow gaps carry nothing and {closed} where bodies touch there: {places}; \
-             {enough}, and bodies drawn clear of each other do not touch"
+            "it {written} if overlaps and narrow gaps carry no force and {closed} if bodies touch there: {places}; \
+             {enough}, and bodies drawn apart do not touch"
         );
     }
     format!(

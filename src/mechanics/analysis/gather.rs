@@ -127,9 +127,9 @@ fn add_forces(
     kernel: f64,
 ) {
     // Set the normal forces, the friction and the resultant of each contact.
-    for (at, pressed) in component.contacts.iter().zip(&findings.forces.contacts) {
-        let contact = &mut analysis.contacts[at.interface];
-        let (normal, friction) = (pressed.normal, pressed.friction);
+    for (assembled, forces) in component.contacts.iter().zip(&findings.forces.contacts) {
+        let contact = &mut analysis.contacts[assembled.interface];
+        let (normal, friction) = (forces.normal, forces.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
         contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);
@@ -138,9 +138,9 @@ fn add_forces(
     }
     // Set the force and the torque of each robot, and the largest fraction of its limits that they use.
     for (grip, held) in component.grips.iter().zip(&findings.forces.grips) {
-        let share = |amount: f64, limit: f64| {
+        let used_fraction = |value: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 {
-                amount.abs() / limit
+                value.abs() / limit
             } else {
                 0.0
             }
@@ -149,9 +149,9 @@ fn add_forces(
         let robot = &mut analysis.robots[grip.hold];
         robot.force = force;
         robot.torque = torque;
-        robot.limit_used = share(force.x, limits.fx)
-            .max(share(force.y, limits.fy))
-            .max(share(torque, limits.torque));
+        robot.limit_used = used_fraction(force.x, limits.fx)
+            .max(used_fraction(force.y, limits.fy))
+            .max(used_fraction(torque, limits.torque));
         analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
     }
 }

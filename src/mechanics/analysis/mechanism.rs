@@ -18,7 +18,8 @@ use crate::proof::Motion;
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::extreme_ray::{self, Row};
 
-/// A part with more blocks keeps the motion of its proof: to close its contacts one by one would take too long.
+/// A part with more blocks keeps the motion of its proof, because closing its contacts one by one would take too
+/// long.
 const MAX_BLOCKS: usize = 300;
 /// How far gravity is rotated beyond the limit to find the mechanism there, degrees.
 const DEGREES_BEYOND_LIMIT: f64 = 0.05;
@@ -31,7 +32,8 @@ const MIN_KEPT_NORM: f64 = 0.5;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Toward {
-    /// The rotation of gravity in degrees, positive if its tip moves to the right; loads do not rotate.
+    /// The rotation of gravity in degrees, positive if the tip of the gravity vector moves to the right. Listed loads
+    /// do not rotate.
     #[default]
     Tilt,
     /// The fraction of each weight that also acts at right angles to gravity, positive to the right.
@@ -67,9 +69,9 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the value of a parameter at which a frame (numbered from 0) begins to fall, and the elementary mechanism
-    /// there. Of two such values, returns the value nearer to 0. A load factor without an upper limit has a lower limit
-    /// instead. `None` if the margin was not computed, or if the frame falls at no value.
+    /// Returns the value of a parameter at which a frame (numbered from 0) begins to fall, and the elementary
+    /// mechanism there. Of two such values, returns the value nearer to 0. If the load factor has no upper limit,
+    /// returns its lower limit. `None` if the margin was not computed, or if the frame falls at no value.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
@@ -104,8 +106,8 @@ impl Analysis {
                 );
             }
             Toward::HorizontalLoad => {
-                let share = at + DEGREES_BEYOND_LIMIT.to_radians() * at.signum();
-                scene.gravity = gravity + quarter_turn(gravity) * share;
+                let fraction = at + DEGREES_BEYOND_LIMIT.to_radians() * at.signum();
+                scene.gravity = gravity + quarter_turn(gravity) * fraction;
             }
             Toward::LoadFactor => {
                 let outward = margins.least_factor().map_or(1.0, |_| -1.0);
@@ -119,6 +121,7 @@ impl Analysis {
         Some((at, self.elementary_mechanisms(&scene, analysis, &motions)))
     }
 
+    /// Returns the elementary mechanisms of an unstable frame, numbered from 0.
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
         let analysis = &self.frames[number];
         self.elementary_mechanisms(&self.scene, analysis, &analysis.mechanism)
@@ -133,7 +136,7 @@ impl Analysis {
         motions: &[Motion],
     ) -> Vec<Motion> {
         let mut all = Vec::new();
-        // Each connected part has a mechanism of its own. A part that is too large keeps the motion of its proof.
+        // Each connected part has a separate mechanism. A part that is too large keeps the motion of its proof.
         for part in connected_parts(analysis, motions) {
             let fall = FallingPart::new(scene, analysis, part, analysis.length);
             all.extend(fall.elementary().unwrap_or(fall.motions));
@@ -264,8 +267,9 @@ impl<'a> FallingPart<'a> {
         row
     }
 
-    /// Returns the conditions row · y ≥ 0 on a motion y: no admissible force may oppose it. Robots at their limits
-    /// yield in the directions in which `start` moves them.
+    /// Returns the rows of the conditions row · y ≥ 0 on a motion y. No contact force may oppose the motion. A robot's
+    /// component with a finite limit yields, but only in the direction in which `start` moves it. A component without
+    /// a limit does not move.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.analysis.contacts {

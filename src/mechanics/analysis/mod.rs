@@ -68,7 +68,8 @@ pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
 pub enum Verdict {
     /// Admissible forces balance every block, and the proof shows them.
     Stable,
-    /// Neither proof is strong enough.
+    /// Neither of the other verdicts is proved, or the verdict depends on narrow gaps, overlaps or very short
+    /// contacts.
     Undecided,
     /// No admissible forces balance every block; the proof is a mechanism along which the loads do positive work.
     Unstable,
@@ -85,7 +86,7 @@ impl Verdict {
     }
 }
 
-/// The word in results, for programs: `stable`, `undecided` or `unstable`.
+/// Writes [`Verdict::word`].
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.word())
@@ -100,8 +101,8 @@ pub struct Analysis {
     pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
-    /// Notes about things that are allowed but seldom intended: those of the scene, and gaps that are nearly
-    /// contacts.
+    /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
+    /// nearly contacts.
     pub notes: Vec<Note>,
 }
 
@@ -109,17 +110,20 @@ pub struct Analysis {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct FrameAnalysis {
-    /// Whether it stands.
+    /// Whether the frame stands.
     pub verdict: Verdict,
-    /// Why it is undecided; empty otherwise. [`FrameAnalysis::doubt`] describes it in a sentence.
+    /// The reasons if the verdict is *undecided*; empty otherwise. [`FrameAnalysis::doubt`] writes them as a
+    /// sentence.
     pub doubts: Vec<UndecidedReason>,
     /// The length L in metres. Torques are divided by it to compare them with forces. It is the median length of the
     /// frame's edge interfaces, or the median of the square roots of the blocks' areas if nothing touches.
     pub length: f64,
-    /// Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N: the sum that the forces minimise.
+    /// The sum of all contact and robot forces, Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N. The reported forces minimise it
+    /// if [`least_force`](FrameAnalysis::least_force) is true.
     pub total_force: f64,
-    /// If the frame stands: a lower bound of this sum for all balancing forces, N, proved by a motion
-    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)).
+    /// A lower bound of this sum for all forces that balance the frame, N, proved by a motion
+    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)). `None` if the frame does not stand or no
+    /// bound was proved.
     pub force_bound: Option<f64>,
     /// Whether the total force exceeds this bound by at most a millionth. If not, forces with a smaller sum may
     /// balance, too.
@@ -135,7 +139,7 @@ pub struct FrameAnalysis {
     /// The adhesion and the robot forces that are missing for the frame to stand. Empty if it stands.
     pub failures: Vec<Failure>,
     /// Blocks that no adhesion at the application points could hold: they are connected to neither ground nor a
-    /// robot, or no connection can take their moment.
+    /// robot, or no connection can resist their moment.
     pub unsupported: Vec<BlockId>,
     /// How the blocks move if the frame falls; the fastest point has speed 1.
     pub mechanism: Vec<Motion>,
@@ -154,7 +158,7 @@ pub struct FrameAnalysis {
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
     pub proof: Proof,
-    /// How it was solved.
+    /// How the frame was solved.
     pub solve: SolveReport,
     /// Remarks that are not errors, such as contacts too short to count.
     pub notices: Vec<String>,
@@ -184,10 +188,10 @@ impl Analysis {
     /// Analyses every frame of a scene. `options` request additional results, such as margins.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
         let scene = scene.into();
-        let (found, mut frames) = analyse::analyse(&scene, options);
-        gaps_closed::recheck(&scene, &found, &mut frames, options);
-        capacity::add_capacities(&scene, &found, &mut frames, options);
-        let notes = gaps_closed::notes(&scene, &found);
+        let (interfaces, mut frames) = analyse::analyse(&scene, options);
+        gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
+        capacity::add_capacities(&scene, &interfaces, &mut frames, options);
+        let notes = gaps_closed::notes(&scene, &interfaces);
         Analysis {
             scene,
             frames,
@@ -211,7 +215,7 @@ impl From<&Scene> for Arc<Scene> {
     }
 }
 
-/// An analysis can be sent to another thread and read by several threads.
+/// Compiles only if analyses and scenes can be sent to another thread and shared by several threads.
 const _: () = {
     const fn shared<T: Send + Sync + 'static>() {}
     shared::<Analysis>();

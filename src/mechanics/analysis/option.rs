@@ -15,7 +15,7 @@ use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 pub struct Options {
     /// The accuracy that a proof needs.
     pub accuracy: Accuracy,
-    /// A solver tolerance that replaces that of the accuracy, to measure its cost.
+    /// A solver tolerance that replaces the tolerance of `accuracy`. Benchmarks set it to measure its cost.
     pub tolerance: Option<f64>,
     /// Whether to compute how far each frame is from its limit of stability.
     pub margins: bool,
@@ -31,8 +31,8 @@ pub struct Options {
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
     /// The time at which the analysis stops. Components that are not decided by then are `Undecided`, and the reason
-    /// names the deadline. Without a deadline the same scene gives the same results every time. In a browser the type
-    /// is that of the crate `web-time`.
+    /// names the deadline. Without a deadline the same scene gives the same results every time. In a browser,
+    /// `Instant` is the type of the crate `web-time`.
     pub deadline: Option<Instant>,
 }
 
@@ -69,7 +69,7 @@ impl Options {
     optional_setters! {
         sensitivity: MarginKind, "The margin whose derivatives are computed.";
         capacity: CapacityRequest, "The block of which to compute all forces that it can carry.";
-        tolerance: f64, "A solver tolerance that replaces that of the accuracy, to measure its cost.";
+        tolerance: f64, "A solver tolerance that replaces the tolerance of `accuracy`.";
         deadline: Instant, "The time at which the analysis stops.";
     }
 
@@ -114,11 +114,11 @@ impl Options {
             },
         };
         let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
-        for one in &mut list {
+        for settings in &mut list {
             if self.verdict_only {
-                one.choice = Choice::Any;
+                settings.choice = Choice::Any;
             }
-            one.tolerance = self.tolerance.unwrap_or(one.tolerance);
+            settings.tolerance = self.tolerance.unwrap_or(settings.tolerance);
         }
         list
     }

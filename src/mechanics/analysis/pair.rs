@@ -1,7 +1,8 @@
 //! [`pair`]: joins a frame of one scene and a frame of another scene into one scene, so that a figure can compare them.
 //!
 //! Two blocks with the same name, outline, weight and loads become one block. If any of these differs, both blocks
-//! are kept: the first is missing in the second frame, and the second is new there.
+//! are kept: the block of the first scene is absent from the second frame, and the block of the second scene is new
+//! there.
 
 use super::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::geometry::Polygon;
@@ -13,7 +14,7 @@ const EQUAL_TOL: f64 = 1e-9;
 
 /// Joins two frames into one scene with two frames, and returns it with the results of both. `before` and `after` are
 /// each an analysis and the number of a frame, from 0. `titles` are the titles of the frames. The second title also
-/// lists other differences of the scenes: kernel, friction, corner contacts.
+/// lists how the scenes differ in kernel, friction and corner contacts.
 ///
 /// # Errors
 /// Returns a sentence for the user if the scenes differ in their ground, their direction of gravity or their listed
@@ -30,23 +31,24 @@ pub fn pair(
     if first.title != second.title {
         scene.title.clear();
     }
-    let moved = Moved {
+    let new_indices = NewIndices {
         blocks: add_blocks(&mut scene, first, second),
         robots: add_robots(&mut scene, second),
     };
     // A block that both scenes share has the same loads in both. Add the loads on new blocks.
-    let new = |load: &&Load| moved.block(load.block).0 >= first.blocks.len();
+    let new = |load: &&Load| new_indices.block(load.block).0 >= first.blocks.len();
     let more = second.loads.iter().filter(new).map(|load| Load {
-        block: moved.block(load.block),
+        block: new_indices.block(load.block),
         ..*load
     });
     scene.loads.extend(more);
-    // Take one frame of each scene. The title of the second frame also lists the other differences.
+    // Take one frame of each scene. The title of the second frame also lists how the scenes
+    // differ in kernel, friction and corner contacts.
     let [title, later] = titles;
     let differences = differences(first, second);
     let mut frames = vec![
         first.frames[before.1].clone(),
-        moved.frame(&second.frames[after.1]),
+        new_indices.frame(&second.frames[after.1]),
     ];
     frames[0].title = title;
     frames[1].title = match differences.is_empty() {
@@ -56,7 +58,7 @@ pub fn pair(
     scene.frames = frames;
     let found = vec![
         before.0.frames[before.1].clone(),
-        moved.found(&after.0.frames[after.1]),
+        new_indices.frame_analysis(&after.0.frames[after.1]),
     ];
     Ok((scene, found))
 }
@@ -64,19 +66,22 @@ pub fn pair(
 /// Returns an error if two scenes differ in their ground, their direction of gravity or their listed contacts.
 fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
     if (first.down() - second.down()).norm() > EQUAL_TOL {
-        return Err("gravity points another way in the second; turn one of the two".into());
+        return Err(
+            "the second scene has another direction of gravity; turn one of the two scenes".into(),
+        );
     }
     if first.contacts != second.contacts {
         return Err(
-            "the second lists other contacts; compare scenes with the same contacts".into(),
+            "the second scene lists other contacts; compare scenes with the same contacts".into(),
         );
     }
     let mut parts = first.ground.iter().zip(&second.ground);
     let same = first.ground.len() == second.ground.len()
-        && parts.all(|(a, b)| alike(&a.body.polygon, &b.body.polygon));
+        && parts.all(|(a, b)| has_same_corners(&a.body.polygon, &b.body.polygon));
     if !same {
         return Err(
-            "the ground of the second is another; give both the same ground, part by part".into(),
+            "the second scene has another ground; give both scenes the same ground, part by part"
+                .into(),
         );
     }
     Ok(())
@@ -85,36 +90,36 @@ fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String>
 /// Adds the blocks of the second scene that the first scene does not contain in the same form. Returns the index of
 /// each block of the second scene in the common scene.
 fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> {
-    let mut places = Vec::new();
+    let mut ids = Vec::new();
     for (number, block) in second.blocks.iter().enumerate() {
         let known = first.blocks.iter().position(|b| b.id == block.id);
         let known = known.filter(|k| {
             is_same_block(&first.blocks[*k], block)
                 && loads(first, BlockId(*k)) == loads(second, BlockId(number))
         });
-        places.push(BlockId(known.unwrap_or(scene.blocks.len())));
+        ids.push(BlockId(known.unwrap_or(scene.blocks.len())));
         if known.is_none() {
             scene.blocks.push(block.clone());
         }
     }
-    places
+    ids
 }
 
 /// Adds the robots of the second scene whose names do not occur in the first scene. Returns the index of each robot of
 /// the second scene in the common scene.
 fn add_robots(scene: &mut Scene, second: &Scene) -> Vec<RobotId> {
     let first = scene.robots.len();
-    let mut places = Vec::new();
+    let mut ids = Vec::new();
     for robot in &second.robots {
         let known = scene.robots[..first].iter().position(|r| r.id == robot.id);
-        places.push(RobotId(known.unwrap_or(scene.robots.len())));
+        ids.push(RobotId(known.unwrap_or(scene.robots.len())));
         if known.is_none() {
             let mut robot = robot.clone();
             robot.holds = None;
             scene.robots.push(robot);
         }
     }
-    places
+    ids
 }
 
 /// Lists the differences of two scenes in words: kernel, friction and corner contacts.
@@ -128,7 +133,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     // Compare the settings of the whole scene.
     compare("kernel", first.kernel, second.kernel);
     // Compare the friction coefficients of all bodies, each counted once.
-    let rubs = |scene: &Scene| {
+    let friction_coefficients = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
         let mut all: Vec<f64> = bodies
             .chain(scene.ground.iter().map(|g| &g.body))
@@ -138,7 +143,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
         all.dedup();
         all
     };
-    let (a, b) = (rubs(first), rubs(second));
+    let (a, b) = (friction_coefficients(first), friction_coefficients(second));
     match (&a[..], &b[..]) {
         ([a], [b]) => compare("friction", *a, *b),
         _ if a != b => words.push("other friction".into()),
@@ -155,17 +160,18 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     words
 }
 
-fn alike(a: &Polygon, b: &Polygon) -> bool {
-    let reach = EQUAL_TOL * a.bounds().diagonal().max(b.bounds().diagonal());
+/// True if two polygons have the same corners in the same order, within `EQUAL_TOL` of their size.
+fn has_same_corners(a: &Polygon, b: &Polygon) -> bool {
+    let tolerance = EQUAL_TOL * a.bounds().diagonal().max(b.bounds().diagonal());
     let (a, b) = (a.rings(), b.rings());
     a.len() == b.len()
         && a.iter().zip(b).all(|(a, b)| {
-            a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() <= reach)
+            a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() <= tolerance)
         })
 }
 
 fn is_same_block(a: &Block, b: &Block) -> bool {
-    alike(&a.body.polygon, &b.body.polygon)
+    has_same_corners(&a.body.polygon, &b.body.polygon)
         && (a.weight - b.weight).abs() <= EQUAL_TOL * a.weight.max(b.weight)
 }
 
@@ -176,13 +182,13 @@ fn loads(scene: &Scene, block: BlockId) -> Vec<[f64; 5]> {
         .collect()
 }
 
-/// The numbers of the second scene's blocks and robots in the common scene.
-struct Moved {
+/// The indices in the common scene of the blocks and robots of the second scene.
+struct NewIndices {
     blocks: Vec<BlockId>,
     robots: Vec<RobotId>,
 }
 
-impl Moved {
+impl NewIndices {
     fn block(&self, id: BlockId) -> BlockId {
         self.blocks[id.0]
     }
@@ -212,7 +218,7 @@ impl Moved {
         frame
     }
 
-    fn found(&self, found: &FrameAnalysis) -> FrameAnalysis {
+    fn frame_analysis(&self, found: &FrameAnalysis) -> FrameAnalysis {
         let mut found = found.clone();
         for Contact {
             interface,

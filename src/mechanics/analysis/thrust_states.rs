@@ -1,10 +1,10 @@
-//! [`Analysis::thrust_states`]: between which extremes the forces of a stable frame may lie, such as least and greatest
-//! thrust.
+//! [`Analysis::thrust_states`]: the extremes between which the forces of a stable frame may lie, such as least and
+//! greatest thrust.
 //!
 //! Many sets of forces balance a frame. The horizontal thrust at its supports lies between a least and a greatest
-//! value: two linear programs on the constraints of the verdict. The most central forces stay within the largest
-//! safety kernel. The forces of the analysis itself are those of least sum. In an arch they are near the state of
-//! least thrust.
+//! value. Two linear programs with the constraints of the verdict compute them. The most central forces are
+//! balancing forces with the largest safety kernel: each force keeps the largest possible distance from the ends of
+//! its joint. The analysis itself reports the forces of least sum. In an arch, they are near the state of least thrust.
 
 use std::collections::BTreeSet;
 
@@ -36,19 +36,19 @@ const WITHIN_KERNEL: f64 = 1e-4;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ThrustState {
-    /// The frame with these forces; its verdict and margins are those of the analysis.
+    /// The frame with these forces. Its verdict and its margins are copied from the analysis.
     pub frame: FrameAnalysis,
-    /// Its horizontal thrust, N: half the sum of the inward horizontal forces of both supports.
+    /// The horizontal thrust, N: half the sum of the inward horizontal forces of both supports.
     pub thrust: f64,
 }
 
-/// The states between which the forces of a frame may vary. Each is `None` if it was not found.
+/// The states between which the forces of a frame may vary. A state is `None` if it was not found.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct ThrustStates {
-    /// The least horizontal thrust.
+    /// The state of least horizontal thrust.
     pub least: Option<ThrustState>,
-    /// The greatest horizontal thrust.
+    /// The state of greatest horizontal thrust.
     pub greatest: Option<ThrustState>,
     /// The state at the largest safety kernel, with the largest distance of the forces from the edges of all joints.
     /// It requires that the margin of the kernel was computed.
@@ -58,9 +58,10 @@ pub struct ThrustStates {
 }
 
 impl Analysis {
-    /// Returns three sets of balancing forces of a frame (numbered from 0): of least horizontal thrust, of greatest
-    /// horizontal thrust, and the most central forces. They are empty if the frame does not stand, needs no thrust, or
-    /// has more than 200 blocks. They are also empty if the frame does not rest on the ground with exactly two blocks.
+    /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust,
+    /// the forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does
+    /// not exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` unless the frame
+    /// rests on the ground with exactly two blocks.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
@@ -100,7 +101,7 @@ impl Analysis {
         let mut state = self.frames[number].clone();
         for component in assembly.components() {
             let forces = extreme_forces(scene, &component, sign)?;
-            enter(&mut state, &component, &forces, scene.kernel);
+            set_forces(&mut state, &component, &forces, scene.kernel);
         }
         let thrust = thrust(scene, &state.contacts);
         Some(ThrustState {
@@ -109,8 +110,8 @@ impl Analysis {
         })
     }
 
-    /// Computes the most central forces: those within the largest safety kernel. `None` if the margin of the kernel is
-    /// unknown, or if the forces have no proof.
+    /// Computes the most central forces: forces that balance the frame with almost the largest safety kernel with
+    /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
@@ -217,19 +218,20 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     }
 }
 
+/// Converts forces from program units to newtons, and limits each friction force to μN.
 fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> Forces {
     let unit = program.scale.force;
     let contacts = component.contacts.iter().enumerate().map(|(k, contact)| {
         let normal = amounts.normal[k].map(|v| (v * unit).max(0.0));
-        let most = contact.friction * (normal[0] + normal[1]);
+        let friction_limit = contact.friction * (normal[0] + normal[1]);
         ContactForces {
             normal,
-            friction: (amounts.friction[k] * unit).clamp(-most, most),
+            friction: (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit),
         }
     });
-    let grips = amounts.grip.iter().map(|[x, y, turn]| GripForces {
+    let grips = amounts.grip.iter().map(|[x, y, moment]| GripForces {
         force: Vector::new(x * unit, y * unit),
-        torque: turn * unit * program.scale.length,
+        torque: moment * unit * program.scale.length,
     });
     Forces {
         contacts: contacts.collect(),
@@ -238,10 +240,10 @@ fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> For
 }
 
 /// Copies the forces of a component, in newtons, to the contacts and robots of a frame, and computes their resultants.
-fn enter(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
-    for (at, pressed) in component.contacts.iter().zip(&forces.contacts) {
-        let contact = &mut state.contacts[at.interface];
-        let (normal, friction) = (pressed.normal, pressed.friction);
+fn set_forces(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
+    for (assembled, forces) in component.contacts.iter().zip(&forces.contacts) {
+        let contact = &mut state.contacts[assembled.interface];
+        let (normal, friction) = (forces.normal, forces.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
         contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);

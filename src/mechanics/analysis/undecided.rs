@@ -22,11 +22,11 @@ pub enum UndecidedReason {
     Gaps {
         /// The verdict with the gaps open, as they are written.
         open: Verdict,
-        /// The verdict with them closed.
+        /// The verdict with the gaps closed.
         closed: Verdict,
-        /// The contact tolerance that closes them, metres.
+        /// The contact tolerance that closes the gaps and overlaps, metres.
         closing: f64,
-        /// Where they are, and what to do, in words.
+        /// In words: where the places are, and how the user can decide.
         words: String,
     },
     /// The frame stands if very short contacts carry force, and falls if they do not.
@@ -35,7 +35,7 @@ pub enum UndecidedReason {
         counting: f64,
         /// The contact tolerance with which none of them counts as a contact, metres.
         ignoring: f64,
-        /// Where they are, and what to do, in words.
+        /// In words: where the places are, and how the user can decide.
         words: String,
     },
 }
@@ -53,7 +53,7 @@ impl fmt::Display for UndecidedReason {
                 {
                     write!(
                         f,
-                        "forces are off by {worst_imbalance:.1e} of what acts on a block"
+                        "forces are off by {worst_imbalance:.1e} of the forces on a block"
                     )?;
                 }
                 match motion {
@@ -120,7 +120,7 @@ mod tests {
         let late = "the time limit was reached before it was decided";
         assert_eq!(frame.doubt(), late);
         frame.doubts.extend([unproved(None), unproved(Some(0.5))]);
-        let off = "forces are off by 1.0e-3 of what acts on a block";
+        let off = "forces are off by 1.0e-3 of the forces on a block";
         assert_eq!(
             frame.doubt(),
             format!(

@@ -2,9 +2,9 @@
 //!
 //! The balance is a nonnegative least-squares problem ([`BoundedNnls`]). If its residual is 0, its solution balances
 //! the frame. Otherwise the negative residual is a motion by which the frame falls. The active set of one frame is
-//! the start for the next, so a small change costs little time. Forces and motion are proved like all others. Without
-//! a proof the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves time, but cannot
-//! change a verdict.
+//! the start for the next, so a small change costs little time. Forces and motion are proved as in a complete
+//! analysis. Without a proof the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves
+//! time, but cannot change a verdict.
 
 use super::analyse::{ResultCache, analyse_frame};
 use super::decide::Candidate;
@@ -21,10 +21,10 @@ const MAX_NEW_BODIES: usize = 40;
 /// With an active set to start from, a conic solver is faster for more bodies than this.
 const MAX_BODIES: usize = 500;
 
-/// Units are chosen again if lengths or loads become this many times larger or smaller.
+/// The units of the program are chosen again if lengths or loads become this many times larger or smaller.
 const MAX_SCALE_RATIO: f64 = 100.0;
 
-/// Returns only the verdict of each frame. The verdicts are the same as those of [`Analysis::with`].
+/// Returns only the verdicts of all frames. They are equal to the verdicts of [`Analysis::with`].
 ///
 /// ```
 /// use drystone::{Scene, analysis::{Options, Verdict, verdicts}};
@@ -43,18 +43,18 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
         let frames = Analysis::with(scene, options).frames;
         return frames.iter().map(|frame| frame.verdict).collect();
     }
-    let mut guess = WarmStart::default();
+    let mut warm_start = WarmStart::default();
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
             let interfaces = found.in_frame(scene, frame);
-            guess.verdict(scene, frame, &interfaces, options).0
+            warm_start.verdict(scene, frame, &interfaces, options).0
         })
         .collect()
 }
 
-/// True if verdicts may depend on narrow gaps, overlaps or very short contacts. Every frame must then be analysed
-/// twice: with and without them.
+/// True if verdicts may depend on narrow gaps, overlaps or very short contacts. The analysis must then decide every
+/// frame twice: with and without them.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
     let none =
         found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
@@ -98,19 +98,19 @@ impl WarmStart {
         interfaces: &[&Interface],
         options: &Options,
     ) -> (Verdict, Source) {
-        let situation = FrameContext {
+        let context = FrameContext {
             scene,
             frame,
             interfaces,
         };
         if !options.is_late() {
-            let (assembly, _) = effect::assemble(&situation);
+            let (assembly, _) = effect::assemble(&context);
             if let Some(verdict) = self.decide_verdict(&assembly, *options) {
                 return (verdict, Source::WarmStart);
             }
         }
         let alone = options.verdict_only(true);
-        let verdict = analyse_frame(&situation, alone, &mut ResultCache::default()).verdict;
+        let verdict = analyse_frame(&context, alone, &mut ResultCache::default()).verdict;
         (verdict, Source::Examined)
     }
 
@@ -125,19 +125,19 @@ impl WarmStart {
             *self = WarmStart::default();
             return None;
         }
-        // Write the equilibrium equations without units, in the scale of the earlier frames.
+        // Write the equilibrium equations in dimensionless numbers, in the scale of the earlier frames.
         let scale = self.scale(assembly);
         let program = Program::new(assembly, scale);
         let columns = generators(&program);
         self.move_to(assembly, columns);
-        // Find the forces with the least residual. If the residual is 0, the frame stands. Otherwise its negative is a
-        // motion by which the frame falls.
-        let Some(rest) = self.active_set.find(&program.loads, &self.columns) else {
+        // Find the forces with the least residual. If the residual is 0, the frame stands. Otherwise the negative
+        // residual is a motion by which the frame falls.
+        let Some(residual) = self.active_set.find(&program.loads, &self.columns) else {
             *self = WarmStart::default();
             return None;
         };
         let amounts: Amounts = self.active_set.to_forces(&program, &self.columns);
-        Candidate::new(assembly, scale, options).verdict(&amounts, &rest)
+        Candidate::new(assembly, scale, options).verdict(&amounts, &residual)
     }
 
     /// Returns the scale of the earlier frames. If it does not suit this assembly, discards the warm start and returns

@@ -15,7 +15,7 @@ use crate::solve::{self, SelfStress, Slide};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wedged {
-    /// The faces, as numbers of the frame's contacts.
+    /// The faces, as indices into the contacts of the frame.
     pub interfaces: Vec<usize>,
     /// A lower bound of the sum of their normal forces, N, and the motion that proves it; `None` if none was found.
     pub at_least: Option<(f64, Vec<Motion>)>,
@@ -48,7 +48,7 @@ pub struct RuledOut {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PointCase {
-    /// Number of the frame's contact.
+    /// The index of the contact in the frame.
     pub interface: usize,
     /// Which of its application points, 0 or 1.
     pub point: usize,
@@ -60,17 +60,17 @@ pub struct PointCase {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FaceCase {
-    /// Number of the frame's contact.
+    /// The index of the contact in the frame.
     pub interface: usize,
-    /// Along (−n_y, n_x), against it, or not at all.
+    /// Whether the face slides, and in which direction: along (−n_y, n_x) or against it.
     pub slides: Slide,
 }
 
 impl Wedged {
     /// Converts the proof for one component from program units to metres and newtons.
     pub(super) fn new(assembly: &Assembly, scale: Scale, self_stress: &SelfStress) -> Wedged {
-        let motion = |pure: &[f64]| {
-            let bodies = assembly.bodies.iter().zip(pure.chunks_exact(3));
+        let motion = |velocities: &[f64]| {
+            let bodies = assembly.bodies.iter().zip(velocities.chunks_exact(3));
             let motions = bodies.map(|(body, v)| Motion {
                 block: body.block,
                 velocity: Vector::new(v[0], v[1]),
@@ -88,14 +88,14 @@ impl Wedged {
             ruled_out: self_stress
                 .ruled_out
                 .iter()
-                .map(|c| described(assembly, c))
+                .map(|c| with_frame_indices(assembly, c))
                 .collect(),
         }
     }
 }
 
 /// Converts a case that the solver ruled out: replaces contact indices of the component by those of the frame.
-fn described(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
+fn with_frame_indices(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();
     let faces = case.faces.iter();

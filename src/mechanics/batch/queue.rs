@@ -1,7 +1,7 @@
 //! [`in_order`]: processes the items of a stream in parallel and returns the results in order, with bounded memory.
 //!
 //! One thread reads the items, several workers compute the answers, and the calling thread receives them. An item
-//! counts towards the [`Capacity`] from when it is read until its answer has been received. A slow item or a slow
+//! counts towards the [`Capacity`] from the time it is read until its answer has been received. A slow item or a slow
 //! receiver therefore stops the reader, and the memory stays bounded.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -63,8 +63,8 @@ struct Shared<T> {
 
 impl<T> Shared<T> {
     fn lock(&self) -> MutexGuard<'_, State<T>> {
-        // Ignore that a thread panicked while it held the lock: it cannot have left the counts or the list half
-        // changed.
+        // Ignore poisoning: a thread that panicked while it held the lock cannot have left the counts or the list
+        // half changed.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -77,7 +77,7 @@ impl<T> Shared<T> {
 ///
 /// # Panics
 ///
-/// `work` must not panic: `in_order` would wait for its answer for ever.
+/// `work` must not panic: `in_order` would wait for its answer forever.
 pub fn in_order<T, R>(
     input: impl Iterator<Item = T> + Send + 'static,
     capacity: Capacity,
@@ -272,7 +272,7 @@ mod tests {
             let input = (0..200).inspect(move |_| {
                 counted.fetch_add(1, Ordering::SeqCst);
             });
-            let mut taken = 0;
+            let mut received = 0;
             let mut worst = 0;
             in_order(
                 input,
@@ -280,13 +280,13 @@ mod tests {
                 |n: usize| n,
                 |answer| {
                     // The item that waits for space has been read too.
-                    worst = worst.max(read.load(Ordering::SeqCst) - taken);
-                    taken += answer.iter().count();
+                    worst = worst.max(read.load(Ordering::SeqCst) - received);
+                    received += answer.iter().count();
                     thread::sleep(Duration::from_micros(50));
                     ControlFlow::Continue(())
                 },
             );
-            assert_eq!(taken, 200);
+            assert_eq!(received, 200);
             assert!(
                 worst <= most + 1,
                 "{worst} in progress, and the limit is {most}"
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn an_item_larger_than_the_capacity_goes_through() {
+    fn an_item_larger_than_the_capacity_is_processed() {
         let mut received = 0;
         let capacity = Capacity {
             bytes: 10,
@@ -332,9 +332,9 @@ mod tests {
     }
 
     #[test]
-    fn an_answer_is_handed_on_before_the_next_item_comes() {
+    fn an_answer_is_received_before_the_next_item_arrives() {
         let (sender, receiver) = channel::<usize>();
-        sender.send(0).expect("open");
+        sender.send(0).expect("the input is open");
         let mut received = Vec::new();
         in_order(
             receiver.into_iter(),
@@ -345,7 +345,7 @@ mod tests {
                 // The next item is sent only after the last answer.
                 match (answer, received.len()) {
                     (Some(_), 3) => return ControlFlow::Break(()),
-                    (Some(n), _) => sender.send(n + 1).expect("open"),
+                    (Some(n), _) => sender.send(n + 1).expect("the input is open"),
                     (None, _) => {}
                 }
                 ControlFlow::Continue(())

@@ -61,8 +61,8 @@ impl Input {
     }
 }
 
-/// An iterator over the records of several inputs. Every line is a record, also an empty one, so that answer N belongs
-/// to line N. The last line needs no line ending.
+/// An iterator over the records of several inputs. Every line is a record, even an empty one, so that answer N
+/// belongs to line N. The last line needs no line ending.
 #[derive(Debug)]
 pub struct Records {
     inputs: std::vec::IntoIter<Input>,
@@ -136,7 +136,7 @@ impl Iterator for Records {
                         line: Some(number),
                         bytes,
                     };
-                    // Stop reading this stream after an error: it could return the same error for ever.
+                    // Stop reading this stream after an error: it could return the same error forever.
                     if size == 0 {
                         self.open = None;
                     }
@@ -252,12 +252,12 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_gives_a_record_with_an_error() {
-        let gone = PathBuf::from("no/such/file.json");
+    fn a_missing_file_becomes_a_record_with_an_error() {
+        let missing = PathBuf::from("no/such/file.json");
         let inputs = vec![
-            Input::Whole(gone.clone()),
+            Input::Whole(missing.clone()),
             Input::Lines {
-                file: Some(gone.clone()),
+                file: Some(missing.clone()),
                 reader: None,
             },
             Input::lines(None, Box::new(&b"a"[..])),
@@ -265,7 +265,7 @@ mod tests {
         let records: Vec<Record> = Records::new(inputs).collect();
         assert_eq!(records.len(), 3);
         assert!(records[0].bytes.is_err() && records[1].bytes.is_err());
-        assert_eq!(records[1].file, Some(gone));
+        assert_eq!(records[1].file, Some(missing));
         assert_eq!(records[2].line, Some(1));
     }
 }

@@ -113,7 +113,7 @@ impl Column {
         &self.places[..self.count]
     }
 
-    /// True if two columns have the same coefficients, in whatever rows, and the same limit.
+    /// True if two columns have the same coefficients, regardless of their rows, and the same limit.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
         let mut pairs = self.filled().iter().zip(other.filled());
         self.count == other.count
@@ -255,8 +255,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // Scale each generator so that its normal force and its friction sum to 1. Columns then have similar
-                // sizes for every friction coefficient.
+                // Scale each generator so that the magnitudes of its normal force and its friction sum to 1. Columns then
+                // have similar sizes for every friction coefficient.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
                 } else {

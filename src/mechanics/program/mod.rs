@@ -118,7 +118,7 @@ impl Program {
         }
     }
 
-    /// A robot's limit above this many times the sum of all loads is taken to be non-binding.
+    /// A robot's limit above this multiple of the sum of all loads counts as non-binding.
     const NON_BINDING_RATIO: f64 = 10.0;
 
     /// Returns the program without those limits of robots that are far above the loads. `None` if there are no such

@@ -1,5 +1,5 @@
-//! Simpler programs near a given one: [`Program::with_parallel_joints`] makes joints exactly parallel or perpendicular if
-//! they are nearly so, [`Program::without_slight_loads`] leaves out loads far smaller than the others.
+//! Simplified versions of a program. [`Program::with_parallel_joints`] makes nearly parallel or perpendicular joints
+//! exactly so. [`Program::without_slight_loads`] omits loads that are far smaller than the others.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -20,8 +20,8 @@ const SLIGHT: f64 = 1e-6;
 impl Program {
     /// Returns the program without its slight loads. `None` if it has none.
     ///
-    /// A push of 10⁻⁸ of the weights can need a force that has no part in the balance of the rest. The solver, which is
-    /// accurate to 10⁻⁹, then ends without a result. Without the push it solves the program.
+    /// A load of 10⁻⁸ of the weights can require a force that does not contribute to the balance of other loads. The
+    /// solver, which is accurate to 10⁻⁹, then ends without a result. Without this load it solves the program.
     pub fn without_slight_loads(&self) -> Option<Program> {
         let largest = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let is_slight = |load: &f64| *load != 0.0 && load.abs() < SLIGHT * largest;
@@ -115,7 +115,7 @@ mod tests {
         Vector::new(libm::cos(angle), libm::sin(angle))
     }
 
-    /// The direction of the wall does not matter, not even halfway between the axes.
+    /// The result does not depend on the orientation of the wall, even if its joints lie halfway between the axes.
     #[test]
     fn nearly_parallel_or_perpendicular_joints_are_aligned_and_no_others() {
         for turn in [0.0, -0.7, 0.3, FRAC_PI_2 / 2.0, -FRAC_PI_2 / 2.0] {

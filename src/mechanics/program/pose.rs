@@ -141,7 +141,8 @@ pub fn load_factor_dual(
 /// Returns the dual of the problem of the smallest change of the loads. The primal is min |λ| s.t. Σ amount·column =
 /// loads + λ·toward. The dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
 ///
-/// λ is the multiplier of the second-last row minus the multiplier of the last row.
+/// Also returns the rows that [`kinematic_dual`] returns. λ is the multiplier of the second-last row of the program minus
+/// the multiplier of the last row.
 pub fn nearest_factor_dual(
     loads: &[f64],
     toward: &[f64],
@@ -162,8 +163,8 @@ pub fn nearest_factor_dual(
 /// Returns the dual of the problem of the least residual: the primal is min Σ |residual of the equilibrium equations|,
 /// the dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
-/// The dual always has an optimum. Its multipliers are the forces with the least residual. The velocities −y of its
-/// solution y give the loads the largest power.
+/// The dual always has an optimum. Its multipliers are the forces with the least residual. In the motion −y, where y
+/// is its solution, the loads have the largest power.
 pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
@@ -324,8 +325,8 @@ enum Site {
     GripAdhesion(usize),
 }
 
-/// Returns where a unit force acts, and its components: (N1, N2, T) at a contact, (F_x, F_y, M/L) at a grip. The force
-/// of adhesion at a contact or grip has a site of its own.
+/// Returns where a unit force acts, and its components: (N1, N2, T) at a contact, (F_x, F_y, M/L) at a grip. Adhesion
+/// at a contact or grip has a separate site.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

@@ -22,7 +22,8 @@ impl Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
 
-    /// The heaviest load of a frame in scaled units. A tenth of it and ten times its value also gave right verdicts.
+    /// The heaviest load of a frame in scaled units. The verdicts were also right with a tenth of this value and with
+    /// ten times this value.
     pub const HEAVIEST: f64 = 300.0;
 
     /// Chooses the units from a median interface length (m) and the heaviest load (N). If there are no loads, the

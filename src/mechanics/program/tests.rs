@@ -237,7 +237,7 @@ fn the_quadratic_form_sums_squares_of_forces() {
         let expected = squares.sum::<f64>() + friction * friction;
         let conic = least_squares(&program.loads, &columns, None);
         let of = |(i, j, value): &(usize, usize, f64)| {
-            assert!(i <= j, "the upper triangle");
+            assert!(i <= j, "an entry ({i}, {j}) is below the diagonal");
             let twice = if i == j { 1.0 } else { 2.0 };
             twice * value * amounts[*i] * amounts[*j]
         };
@@ -308,8 +308,8 @@ fn bounds_keep_amounts_and_corrected_amounts_between_zero_and_their_limits() {
 fn the_kinematic_dual_has_a_row_for_every_column() {
     let program = example();
     let columns = columns(&program);
-    // The robot's force along x and its torque are limited in both directions: four more unknowns, each with a row of
-    // its own.
+    // The robot's force along x and its torque are limited in both directions: four more unknowns, each with one
+    // more row.
     let (conic, row_of) = kinematic_dual(&program.loads, &columns, |c| c.cost);
     assert_eq!((conic.unknowns, conic.equalities), (7, 0));
     assert_eq!(conic.bound.len(), 12 + 4);

@@ -32,7 +32,7 @@ const NEGLIGIBLE_IMBALANCE: f64 = 1e-10;
 struct Cone {
     /// A friction force of 1 N as a vector (F_x, F_y, M/R).
     along: Vec3,
-    /// The amount of the friction force, N.
+    /// The absolute value of the friction force, N.
     given: f64,
     /// The largest friction that its normal forces allow, N.
     available: f64,
@@ -113,19 +113,19 @@ impl BodyForces {
         let rounding = ROUNDING_TOL / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
             // Along each contact, friction may change by the rounding error if the cone allows it. The friction force
-            // itself is a generator already; add only what it lacks.
+            // itself is a generator already; add only the difference.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));
             }
         }
         // A body without a load may have the full rounding error, because no load can make it move.
-        let turned = match self.load {
+        let load_change = match self.load {
             0.0 => rounding,
             load => rounding.min(load),
         };
-        self.generators.push([turned, 0.0, 0.0]);
-        self.generators.push([0.0, turned, 0.0]);
+        self.generators.push([load_change, 0.0, 0.0]);
+        self.generators.push([0.0, load_change, 0.0]);
     }
 
     /// Returns the imbalance τ of the body. A value up to [`NEGLIGIBLE_IMBALANCE`] is only an upper bound of τ. Call
@@ -136,7 +136,7 @@ impl BodyForces {
             return 0.0;
         }
         match zonotope_gauge_bound(&self.generators, residual) {
-            Some(enough) if enough <= NEGLIGIBLE_IMBALANCE => enough,
+            Some(bound) if bound <= NEGLIGIBLE_IMBALANCE => bound,
             _ => zonotope_gauge(&self.generators, residual),
         }
     }
@@ -154,8 +154,8 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
 
 /// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load.
 ///
-/// Bodies are taken in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound exceeds the
-/// largest τ found so far.
+/// Bodies are processed in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound
+/// exceeds the largest τ found so far.
 pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
     let mut share: f64 = 0.0;

@@ -38,10 +38,10 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
         let (body, motion) = (&assembly.bodies[grip.body], &motions[grip.body]);
         // Compute the speed of the grip against each component of the robot's force, including its rounding error.
         let at_grip = motion.about(body.centroid, grip.at);
-        let unsure = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
+        let rounding = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
         for (speed, limit) in [
-            (at_grip.x.abs() + unsure.x, grip.limits.fx),
-            (at_grip.y.abs() + unsure.y, grip.limits.fy),
+            (at_grip.x.abs() + rounding.x, grip.limits.fx),
+            (at_grip.y.abs() + rounding.y, grip.limits.fy),
             (
                 motion.spin.abs() * assembly.length,
                 grip.limits.torque / assembly.length,

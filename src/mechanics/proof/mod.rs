@@ -5,8 +5,8 @@
 //! therefore detected. A test that shares no code with the assembly compares the assembly with the outlines.
 //!
 //! *Stable* is proved by forces: every block balances, no contact pulls or slips, no robot exceeds its limits. Each
-//! error is relative to the forces on the same block or at the same contact. The test of the smallest stone therefore
-//! depends neither on the heaviest block nor on the typical length.
+//! error is relative to the forces on the same block or at the same contact. The check of the smallest stone
+//! therefore depends neither on the heaviest block nor on the typical length.
 //!
 //! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens
 //! or slides apart. No admissible force can then resist. These are the static and the kinematic theorem of limit
@@ -61,10 +61,10 @@ pub enum Proof {
 impl Proof {
     /// The largest imbalance, pull and slip of forces that prove a verdict.
     ///
-    /// A structure that falls by less than this counts as stable. Examples are a block pushed by this fraction of the
-    /// forces on it, and a centre of gravity outside the support by this fraction of the block's radius. A tenth of
-    /// this value is close to the accuracy of the interior-point solver, so more verdicts would be undecided. Ten
-    /// times this value, a millionth, could be seen in a six-digit margin.
+    /// A structure that misses its balance by less than this counts as stable. Examples are a block pushed by this
+    /// fraction of the forces on it, and a centre of gravity outside the support by this fraction of the block's
+    /// radius. A tenth of this value is close to the accuracy of the interior-point solver, so more verdicts would be
+    /// undecided. Ten times this value, a millionth, could be seen in a six-digit margin.
     pub const IMBALANCE_TOL: f64 = 1e-7;
 
     /// A motion proves a verdict if it rules out every balance with a sum of forces below this multiple of the moving
@@ -332,8 +332,8 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             // force with full friction against the sliding.
             let friction = contact.friction;
             let used = (friction * slides.abs() - opens) / (1.0 + friction);
-            let unsure = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
-            violation = violation.max(used.max(-opens) + ROUNDING_TOL * unsure);
+            let magnitude = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
+            violation = violation.max(used.max(-opens) + ROUNDING_TOL * magnitude);
         }
     }
     violation
@@ -406,18 +406,18 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
         let limits = grip.limits;
         let at_grip = motion.about(body.centroid, grip.at);
         let spin = motion.spin * assembly.length;
-        let unsure = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
-        for (speed, limit, unsure) in [
-            (at_grip.x, limits.fx, unsure.x),
-            (at_grip.y, limits.fy, unsure.y),
+        let rounding = ROUNDING_TOL * motion.summed(body.centroid, grip.at);
+        for (speed, limit, rounding) in [
+            (at_grip.x, limits.fx, rounding.x),
+            (at_grip.y, limits.fy, rounding.y),
             (spin, limits.torque / assembly.length, 0.0),
         ] {
-            // If the limit is far above the loads, even the rounding error of a speed would give a noticeable power.
+            // If the limit is far above the loads, even the rounding error of a speed would cause a noticeable power.
             // Such a grip counts as unlimited.
             if limit > NON_BINDING_RATIO * load {
-                violation = violation.max(speed.abs() + unsure);
+                violation = violation.max(speed.abs() + rounding);
             } else {
-                power -= limit * (speed.abs() + unsure);
+                power -= limit * (speed.abs() + rounding);
                 summed += limit * speed.abs();
             }
         }

@@ -50,7 +50,7 @@ pub struct Body {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Ground {
-    /// Its body.
+    /// Its shape, position and surface.
     pub body: Body,
 }
 
@@ -58,15 +58,15 @@ pub struct Ground {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Block {
-    /// The name given in the file.
+    /// The id given in the file. Without one, it is the number of the block in the file, from 1.
     pub id: String,
-    /// Its body.
+    /// Its shape, position and surface.
     pub body: Body,
     /// Centroid of the polygon, or the given centre, where the weight acts; metres.
     pub centroid: Point,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
-    /// Whether the weight is that of the area: the file gives neither weight nor mass.
+    /// Whether the weight is computed from the area, because the file gives neither weight nor mass.
     pub(crate) weighs_by_area: bool,
 }
 
@@ -105,7 +105,7 @@ pub struct Grip {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Robot {
-    /// The name given in the file.
+    /// The id given in the file. Without one, it is `r` and the number of the robot in the file, from 0.
     pub id: String,
     /// Its largest force and torque.
     pub limits: Limits,
@@ -125,7 +125,7 @@ pub struct Load {
     pub at: Point,
     /// Torque in N·m, anticlockwise positive.
     pub torque: f64,
-    /// Whether it acts at the centroid because the file gives no point.
+    /// Whether the force acts at the centroid because the file gives no point.
     pub(crate) at_centroid: bool,
 }
 

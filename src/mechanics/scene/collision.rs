@@ -32,7 +32,7 @@ struct Found {
     frame: usize,
 }
 
-/// A body that could be read, with its number.
+/// A body that could be read, with its id.
 pub(super) type Numbered<'s> = (BodyId, &'s Body);
 
 /// The bodies to compare, and what decides whether an overlap is an error.

@@ -1,9 +1,10 @@
-//! [`check`]: refuses corner contacts of very many blocks in one point.
+//! [`check`]: refuses scenes with corner contacts in which the corners of very many bodies meet at one point. A body
+//! is a block or a polygon of the ground.
 //!
-//! Each pair of corners in a point is a contact of its own, and none of them can replace others: two corners push each
-//! other along the difference of their bisectors, and this direction differs from pair to pair. n corners in one point
-//! give n·(n − 1)/2 contacts, and a dense linear program of 3·n rows. 400 wedges in a file of 48 KB would be 79 800
-//! contacts and a third of a minute.
+//! Each pair of corners at the point is a separate contact. No contact can replace others, because two corners push
+//! each other along the difference of their bisectors, and this direction differs from pair to pair. n corners at one
+//! point lead to n·(n − 1)/2 contacts, and to a dense linear program of 3·n rows. For 400 wedges, in a file of 48 KB,
+//! these are 79 800 contacts and a computation of 20 s.
 
 use std::collections::BTreeSet;
 
@@ -15,20 +16,25 @@ use super::path::Trail;
 use super::problem;
 use crate::geometry::Point;
 
-/// The largest number of bodies of one frame whose corners may meet in one point: 4 950 contacts, half a second.
-pub(super) const MOST: usize = 100;
+/// The largest number of bodies in one frame whose corners may meet at one point. They have 4 950 contacts, which
+/// take half a second.
+pub(super) const MAX_BODIES_AT_POINT: usize = 100;
 
-/// Reports the first point in which corners of more than [`MOST`] bodies of one frame meet. Points within about `gap`,
-/// in the units of the file, count as one.
+/// Reports the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Corners
+/// within about `gap`, in the units of the file, count as corners at the same point.
 pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) {
     if let Some((at, count)) = crowded(bodies, frames, gap) {
         let top = Trail::Top;
         let key = top.key("corner_contacts");
-        findings.add(&key, problem::outline::crowded(count, MOST, at));
+        findings.add(
+            &key,
+            problem::outline::crowded(count, MAX_BODIES_AT_POINT, at),
+        );
     }
 }
 
-/// Returns a point in which corners of more than [`MOST`] bodies meet, and their number in one frame.
+/// Returns the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame, and the
+/// largest number of these bodies in any frame. `None` if there is no such point.
 fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point, usize)> {
     // Adding 0 turns −0 into 0.
     let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
@@ -44,7 +50,7 @@ fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point
     });
     let together = corners.chunk_by(|a, b| a.0 == b.0);
     together
-        .filter(|group| group.len() > MOST)
+        .filter(|group| group.len() > MAX_BODIES_AT_POINT)
         .find_map(|group| {
             let meeting: BTreeSet<BodyId> = group.iter().map(|(_, _, id)| *id).collect();
             let ground = meeting.iter().filter(|id| matches!(id, BodyId::Ground(_)));
@@ -57,6 +63,6 @@ fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point
                         .count()
             };
             let most = frames.iter().map(present).max()?;
-            (most > MOST).then_some((group[0].1, most))
+            (most > MAX_BODIES_AT_POINT).then_some((group[0].1, most))
         })
 }

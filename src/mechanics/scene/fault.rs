@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_becomes_a_problem_and_an_answer_stays_an_answer() {
+    fn a_panic_becomes_a_problem_and_a_result_is_returned_unchanged() {
         assert_eq!(isolate("a.json", || 7), Ok(7));
         let numbers: Vec<usize> = Vec::new();
         let fault = isolate("a.json", || numbers[3]).expect_err("a fault");

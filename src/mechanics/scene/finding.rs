@@ -7,14 +7,15 @@ use super::path::{Path, Segment, Trail};
 use super::problem::{self, Problem, SceneError, Wording};
 use super::source::{Mark, Source};
 
-/// The largest number of findings that are kept. A file with more has one cause, and it is among the first.
+/// The largest number of findings that are kept. If a file has more, they probably have one cause, which is among the
+/// first.
 const MAX_FINDINGS: usize = 2000;
 /// The largest number of findings that suggest a similar name. Each suggestion needs a comparison with all names.
 const MAX_SUGGESTIONS: usize = 50;
 
 /// A problem and its place in the file.
 pub(super) struct Finding {
-    /// The place.
+    /// The path of the value.
     pub(super) path: Path,
     /// Whether the key or the value there is wrong.
     pub(super) mark: Mark,
@@ -28,26 +29,26 @@ pub(super) struct Findings {
     /// The problems, in the order in which they were found.
     pub(super) list: Vec<Finding>,
     /// Parts of the file that could not be read.
-    pub(super) doubt: UnreadParts,
+    pub(super) unread: UnreadParts,
     /// The units of the file, for messages.
     pub(super) units: UnitsEntry,
 }
 
 impl Findings {
-    /// Creates an empty list of problems. `doubt` contains the parts of the file that could not be read.
-    pub(super) fn doubting(doubt: UnreadParts) -> Findings {
+    /// Creates an empty list of problems. `unread` contains the parts of the file that could not be read.
+    pub(super) fn with_unread(unread: UnreadParts) -> Findings {
         Findings {
             list: Vec::new(),
-            doubt,
+            unread,
             units: UnitsEntry::default(),
         }
     }
 
     /// True if some part of the entry to which the path `at` belongs could not be read. An entry is an element of
     /// `blocks`, `materials` and so on.
-    pub(super) fn doubts(&self, at: &Trail<'_>) -> bool {
+    pub(super) fn is_unread(&self, at: &Trail<'_>) -> bool {
         // Test the common case first: the whole file could be read.
-        !self.doubt.paths.is_empty() && self.doubt.touches(&at.path())
+        !self.unread.paths.is_empty() && self.unread.touches(&at.path())
     }
 
     /// True if the list is full. Further problems are then not added.
@@ -76,7 +77,7 @@ impl Findings {
             return;
         }
         let path = at.path();
-        if !self.doubt.touches(&path) {
+        if !self.unread.touches(&path) {
             self.keep(Finding {
                 path,
                 mark,
@@ -161,7 +162,7 @@ impl UnreadParts {
     /// True if some names under the top-level key `list` may be missing because part of the file could not be read.
     /// Unknown names are then not reported.
     ///
-    /// `known` is the number of names that were read. If it is 0, the whole list may stand under a misspelt key.
+    /// `known` is the number of names that were read. If it is 0, the key of the whole list may be misspelt.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,

@@ -96,8 +96,8 @@ pub struct SceneFile {
     pub ground: Vec<GroundEntry>,
     /// The blocks.
     pub blocks: Vec<BlockEntry>,
-    /// The contacts between bodies, as points with a normal. If there are some, no other contacts are searched, and
-    /// outlines are only drawn.
+    /// The contacts between bodies, as points with a normal. If any are listed, contacts are not computed from the
+    /// outlines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactEntry>,
     /// Robots, each of which can hold one block.
@@ -106,8 +106,8 @@ pub struct SceneFile {
     /// Loads on blocks, in addition to their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
-    /// Edges within this many metres of each other touch, and bodies may overlap by as much; at least 0. Default:
-    /// estimated from how the coordinates are written and how large the scene is.
+    /// Edges within this distance of each other, in metres, touch, and bodies may overlap by up to this depth; at
+    /// least 0. Default: estimated from how the coordinates are written and how large the scene is.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
@@ -115,7 +115,8 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = false)))]
     pub corner_contacts: Option<bool>,
-    /// Steps of the assembly, one frame each. Without steps all blocks stand and each robot holds its `holds`.
+    /// Steps of the assembly, one frame each. Without steps, there is one frame: all blocks are placed, and each
+    /// robot holds the block in its key `holds`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<StepEntry>,
     /// The expected verdict of every frame whose step has no `expect`. Default: none.
@@ -216,7 +217,8 @@ pub struct MaterialEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct FrictionPairEntry {
-    /// Names of the two materials, in any order; the same name twice for a material against itself.
+    /// Names of the two materials, in any order. If both names are equal, the coefficient applies between two bodies
+    /// of this material.
     pub between: [String; 2],
     /// Friction coefficient, at least 0.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
@@ -229,7 +231,7 @@ pub struct FrictionPairEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct GridEntry {
-    /// Which lattice.
+    /// The kind of the lattice.
     pub kind: GridKind,
     /// Edge length of a cell in metres, more than 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -237,7 +239,7 @@ pub struct GridEntry {
     pub side: Option<f64>,
 }
 
-/// Which lattice.
+/// The kind of a lattice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -250,19 +252,19 @@ pub enum GridKind {
     Square,
 }
 
-/// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square one.
+/// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum CellEntry {
-    /// A triangle on, or hanging below, the edge from (x, y) to (x+1, y). Coordinates are whole numbers.
+    /// The triangle above or below the edge from (x, y) to (x+1, y). Coordinates are whole numbers.
     Triangle(f64, f64, CellHalf),
     /// The square with its lower left corner at (x, y). Coordinates are whole numbers.
     Square(f64, f64),
 }
 
-/// Which triangle at an edge of the triangular lattice.
+/// The position of a triangle relative to its horizontal edge: above (`Up`) or below (`Down`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -273,7 +275,7 @@ pub enum CellHalf {
     Down,
 }
 
-/// A shape to be used by name: either a polygon or lattice cells, about its own origin.
+/// A named shape: either a polygon or lattice cells, in coordinates relative to the origin of the shape.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -303,7 +305,8 @@ pub(super) fn parse(text: &str) -> Option<SceneFile> {
     serde_json::from_str(text).ok()
 }
 
-/// True if the syntax tree of a text has the same values as serde_json, for tests of the reader.
+/// True if the parser of this module and serde_json read the same values from a text, or both reject it. For tests of
+/// the reader.
 #[cfg(test)]
 pub(super) fn agrees(text: &str) -> bool {
     use super::tree::{self, Node, NodeKind, Tree};
@@ -369,8 +372,8 @@ mod tests {
             }],
             ..SceneFile::default()
         };
-        let text = serde_json::to_string(&file).expect("writes");
-        let read: SceneFile = serde_json::from_str(&text).expect("reads");
+        let text = serde_json::to_string(&file).expect("JSON text");
+        let read: SceneFile = serde_json::from_str(&text).expect("a scene file");
         assert_eq!(read, file);
         assert_eq!(
             read.steps[0].hold.0[0].0, "z",

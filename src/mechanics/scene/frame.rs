@@ -38,6 +38,6 @@ pub struct Frame {
     pub holds: Vec<Hold>,
     /// The planned blocks, in the order of the robots' numbers.
     pub plans: Vec<Plan>,
-    /// The verdict that the author expects, if the file says so.
+    /// The verdict that the author expects; `None` if the file gives none.
     pub expected: Option<Expectation>,
 }

@@ -13,7 +13,7 @@ use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
-/// Coordinates rounded more coarsely than this fraction of a block's size are not healed.
+/// Coordinates are healed only if rounding moves corners off their edges by at most this fraction of a block's size.
 pub(super) const MAX_ROUNDING_PER_SIZE: f64 = 1.0 / 200.0;
 /// The largest gap of a body as a fraction of its size, if its coordinates are not rounded.
 const DEFAULT_GAP_PER_SIZE: f64 = 1e-3;
@@ -26,12 +26,12 @@ const MAX_GAP_PER_SIZE: f64 = 1.0 / 20.0;
 /// value were ten times smaller, joints next to short sides would stay open. If it were twice as large, a side could
 /// lose its whole length.
 const MAX_MOVE_PER_SIDE: f64 = 0.25;
-/// Healing may make an overlap deeper by less than this fraction of the gap; such an overlap is ignored.
+/// An overlap that healing makes deeper by at most this fraction of the gap is ignored.
 const MAX_DEEPENING_PER_GAP: f64 = 0.25;
-/// The smallest share and number of corners that show that coordinates are noisy, however many digits they have. The
-/// corners counted lie off the edge that they should touch, by at most a millionth of the scene's extent.
+/// Coordinates count as noisy, however many digits they have, if at least this fraction and this number of all
+/// corners lie slightly off the edge that they should touch: by at most a millionth of the scene's extent.
 const MIN_NOISY_CORNERS: (f64, usize) = (0.2, 8);
-/// Coordinates are assumed to have an error of this many units in the last place of the largest one.
+/// Coordinates are assumed to have an error of this many units in the last place of the largest coordinate.
 const MAX_LAST_PLACE_UNITS: f64 = 16.0;
 
 /// Where the contact tolerance of a scene comes from.
@@ -40,7 +40,7 @@ const MAX_LAST_PLACE_UNITS: f64 = 16.0;
 pub enum ToleranceSource {
     /// The bodies are cells of a lattice: contacts are exact.
     Lattice,
-    /// The scene or the command line gives it.
+    /// The scene file or the command line gives the tolerance.
     Given,
     /// The coordinates are written with this number of decimals.
     Decimals(usize),
@@ -71,7 +71,8 @@ pub struct Healed {
     pub distance: f64,
     /// The number of bodies left as written, because healing would have damaged their shape or made an overlap deeper.
     pub kept: usize,
-    /// The first of these bodies, the ground's parts before the blocks.
+    /// The first of the bodies left as written, where the parts of the ground come before the blocks. `None` if there
+    /// is no such body.
     pub first_kept: Option<BodyId>,
 }
 
@@ -149,7 +150,8 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
 struct Drawn {
     /// The number of parts of the ground.
     parts: usize,
-    /// Numbers of the bodies among all bodies, readable or not; the parts of the ground come first.
+    /// The number of each body among all bodies, including those that could not be read. The parts of the ground come
+    /// first.
     numbers: Vec<usize>,
     /// Sizes of the bodies, in the unit of the corners.
     sizes: Vec<f64>,

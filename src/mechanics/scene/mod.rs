@@ -79,7 +79,7 @@ pub struct Scene {
     pub(crate) exact: bool,
     /// The lengths below which differences count as rounding; all 0 on a lattice.
     pub(crate) tolerance: Tolerance,
-    /// Where the tolerance comes from, and which corners healing moved before the analysis.
+    /// Where the tolerance comes from, how many corners healing moved before the analysis, and how far.
     pub(crate) healed: Healed,
     /// The largest distance by which rounded coordinates may separate a corner from the edge it touches, metres; 0 if
     /// the coordinates are not rounded.
@@ -99,7 +99,7 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
-    /// The contacts that the file lists. If there are some, no others are searched.
+    /// The contacts that the file lists. If the list is not empty, contacts are not computed from the outlines.
     pub(crate) contacts: Vec<ListedContact>,
     /// Whether a corner that touches an edge or another corner carries force.
     pub(crate) corner_contacts: bool,
@@ -109,7 +109,7 @@ pub struct Scene {
     pub(crate) notes: Vec<Note>,
     /// The kinds of notes that the author switched off.
     pub(crate) silenced: Vec<NoteCode>,
-    /// The lines of the bodies in the file.
+    /// The line of the file in which each body begins.
     pub(crate) lines: note::Lines,
 }
 
@@ -216,12 +216,13 @@ impl Scene {
         &self.friction_pairs
     }
 
-    /// Returns the contacts that the scene lists. If the list is not empty, the program searches for no other contacts.
+    /// Returns the contacts that the scene lists. If the list is not empty, contacts are not computed from the
+    /// outlines.
     pub fn contacts(&self) -> &[ListedContact] {
         &self.contacts
     }
 
-    /// True if the scene lists its contacts. The program then searches for no other contacts.
+    /// True if the scene lists its contacts. Contacts are then not computed from the outlines.
     pub(crate) fn lists_contacts(&self) -> bool {
         !self.contacts.is_empty()
     }

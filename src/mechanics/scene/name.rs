@@ -18,9 +18,9 @@ pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
     }
 }
 
-/// Names of one sort with their numbers.
+/// The names of all objects of one kind, with their indices.
 pub(super) struct Names<'f> {
-    /// What they name: "block", "robot", "material", "shape".
+    /// The kind of the objects: "block", "robot", "material" or "shape".
     sort: &'static str,
     list: Vec<&'f str>,
     numbers: BTreeMap<&'f str, usize>,
@@ -54,7 +54,7 @@ impl<'f> Names<'f> {
         self.numbers.get(name).copied()
     }
 
-    /// Returns the index of a name that stands as a value at `at`. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that is the value at `at`. Reports an unknown name and returns `None`.
     pub(super) fn find(
         &self,
         findings: &mut Findings,
@@ -66,7 +66,7 @@ impl<'f> Names<'f> {
         })
     }
 
-    /// Returns the index of a name that stands as a key at `at`. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that is the key at `at`. Reports an unknown name and returns `None`.
     pub(super) fn find_key(
         &self,
         findings: &mut Findings,

@@ -41,7 +41,7 @@ pub struct Note {
     pub line: usize,
     /// What was found, with its numbers.
     pub message: String,
-    /// What to do about it, and how to silence it.
+    /// What to do about it, and how to switch off such notes.
     pub hint: String,
 }
 
@@ -320,9 +320,9 @@ impl Notes<'_> {
     }
 }
 
-/// Returns the angle in degrees that the author probably meant if `angle` looks like radians; otherwise `None`. An
-/// angle looks like radians if it equals a multiple of 15°, up to a full turn, to three decimals. Angles with at most
-/// two decimals do not count, because degrees are often written with two decimals.
+/// Returns the angle in degrees that the author probably meant if `angle` looks like radians; otherwise `None`. A
+/// number looks like radians if, to three decimals, it is a multiple of 15° in radians, up to a full turn. Numbers
+/// with at most two decimals do not count, because degrees are often written with two decimals.
 fn in_degrees(angle: f64) -> Option<f64> {
     let step = std::f64::consts::PI / 12.0;
     let count = (angle / step).round();

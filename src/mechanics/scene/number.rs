@@ -5,14 +5,15 @@ use super::finding::Findings;
 use super::path::Trail;
 use super::problem;
 
-/// The largest amount of any number in a scene file, in any unit.
+/// The largest absolute value of any number in a scene file, in any unit.
 pub(super) const MAX_MAGNITUDE: f64 = 1e12;
 
-/// The smallest amount other than 0, in any unit. A weight is a product of several amounts, and its square must not
-/// underflow. Coordinates may be smaller: compared with other coordinates they are rounding noise.
+/// The smallest absolute value other than 0, in any unit. A weight is a product of several numbers, and its square
+/// must not underflow. Coordinates may be smaller: compared with other coordinates they are rounding noise.
 pub(super) const MIN_MAGNITUDE: f64 = 1e-30;
 
-/// Smallest extent of a body or a cell, in the units of the file: its area and moments are products of several.
+/// Smallest extent of a body or a cell, in the units of the file. Areas and moments are products of several lengths,
+/// which must not underflow.
 pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 
 /// True if all numbers are finite and within ±10¹². Otherwise reports the first number that is not.

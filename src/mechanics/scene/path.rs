@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-/// One step down into a file.
+/// One part of a path: it leads from an object or a list to one of its values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Segment {
     /// Into an object, by key.
@@ -13,11 +13,11 @@ pub(super) enum Segment {
     Index(usize),
 }
 
-/// A place in a scene file, from the top.
+/// The position of a value in a scene file, as a list of segments that begins at the top level.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Path(pub(super) Vec<Segment>);
 
-/// A place in a scene file while walking through it.
+/// The position of a value in a scene file while the file is traversed: a path that borrows the path above it.
 #[derive(Clone, Copy)]
 pub(super) enum Trail<'a> {
     /// The whole file.
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_reads_like_code() {
+    fn a_path_is_written_with_dots_and_brackets() {
         let (top, blocks) = (Trail::Top, "blocks");
         let (a, b) = (top.key(blocks), top.key("materials"));
         let c = a.index(3);

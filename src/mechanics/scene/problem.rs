@@ -40,7 +40,7 @@ pub struct Problem {
     pub message: String,
     /// The remedy.
     pub help: String,
-    /// The point of the structure at which it lies, if there is one.
+    /// The point of the structure at which the problem lies; `None` if it does not belong to a point.
     pub place: Option<Place>,
 }
 
@@ -60,7 +60,7 @@ pub enum Place {
 pub struct SceneError {
     /// The text that was read, to which all spans refer; `None` for a scene built in code.
     pub text: Option<String>,
-    /// The problems, at least one.
+    /// The problems; at least one if the scene is not valid.
     pub list: Vec<Problem>,
 }
 
@@ -208,7 +208,7 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// Joins the items to a text such as "a, b or c".
+/// Joins the items into a text such as "a, b or c"; "nothing" if there are no items.
 pub(super) fn choice(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();
     match items.split_last() {
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_read_well() {
+    fn numbers_in_messages_have_up_to_six_digits() {
         for (x, text) in [
             (0.5, "0.5"),
             (-3.0, "-3"),
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn choices_read_well() {
+    fn choices_are_joined_with_commas_and_or() {
         assert_eq!(
             choice(["a".to_string(), "b".to_string(), "c".to_string()]),
             "a, b or c"

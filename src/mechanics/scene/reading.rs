@@ -49,9 +49,9 @@ impl Scene {
     pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
-        let (mut file, findings, doubt) = read(&source);
+        let (mut file, findings, unread) = read(&source);
         file.tolerate(tolerance);
-        let all = match resolve(&file, doubt) {
+        let all = match resolve(&file, unread) {
             Ok(mut scene) if findings.is_empty() => {
                 scene.lines = Lines::new(&source);
                 scene.notes = note::of(&file, &scene, Some(&source));
@@ -85,7 +85,7 @@ impl Scene {
     }
 
     /// Starts a scene that is built in code. The methods of [`SceneFile`] have the names of the keys of a scene file.
-    /// The last one, [`build`](SceneFile::build), checks the scene and returns it.
+    /// The method [`build`](SceneFile::build) then checks the scene and returns it.
     ///
     /// # Example
     /// ```
@@ -143,7 +143,7 @@ pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts
         Some(tree) => object::scene(&mut reader, &tree.root),
         None => SceneFile::default(),
     };
-    (file, reader.findings.list, reader.doubt)
+    (file, reader.findings.list, reader.unread)
 }
 
 #[cfg(test)]
@@ -152,7 +152,7 @@ mod tests {
     use crate::scene::format;
     use crate::scene::tree::{Node, NodeKind, Tree};
 
-    /// Reads a text with serde, which knows only the types.
+    /// Reads a text with serde, which checks only the types of the values.
     fn by_types(text: &str) -> Option<SceneFile> {
         format::parse(text)
     }
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn both_readers_give_the_same_scene() {
-        let file = by_tree(EVERYTHING).expect("it fits");
+        let file = by_tree(EVERYTHING).expect("a scene file");
         assert_eq!(Some(&file), by_types(EVERYTHING).as_ref());
         assert_eq!(by_tree(&file.to_json()), Some(file));
         for text in [
@@ -195,7 +195,7 @@ mod tests {
         // Replace every value in turn, and every key.
         let source = Source::parse(EVERYTHING).expect("JSON");
         let mut places = Vec::new();
-        let tree = source.tree.as_ref().expect("there");
+        let tree = source.tree.as_ref().expect("a syntax tree");
         places_of(tree, &tree.root, &mut places);
         assert!(places.len() > 100);
         let mut refused = 0;

@@ -37,8 +37,8 @@ const DEFAULT_GRAVITY: Pair = [0.0, -9.81];
 ///
 /// If parts of the file could not be read, the result may be an incomplete scene or an empty list of problems. The
 /// caller must then not use the scene.
-pub(super) fn resolve(file: &SceneFile, doubt: UnreadParts) -> Result<Scene, Vec<Finding>> {
-    let mut findings = Findings::doubting(doubt);
+pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Vec<Finding>> {
+    let mut findings = Findings::with_unread(unread);
     findings.units = file.units.unwrap_or_default();
     let scene = Resolution::new(&mut findings, file).scene(&mut findings);
     match scene {
@@ -60,7 +60,7 @@ struct Resolution<'f> {
     density: f64,
     thickness: f64,
     lattice: Option<Lattice>,
-    /// Whether the grid could be read, so that bodies can be.
+    /// Whether the grid is valid, or absent. Otherwise no body can be resolved.
     grid_known: bool,
     materials: Names<'f>,
     material_entries: Vec<MaterialValues>,
@@ -88,7 +88,7 @@ impl<'f> Resolution<'f> {
         name::once(findings, &top.key("shapes"), &file.shapes);
         let lattice = lattice(findings, file.grid.as_ref());
         let grid_known =
-            !findings.doubt.touches_key("grid") && lattice.is_some() == file.grid.is_some();
+            !findings.unread.touches_key("grid") && lattice.is_some() == file.grid.is_some();
         let (materials, shapes) = list_names(findings, file);
         let mut resolution = Resolution {
             file,
@@ -175,7 +175,7 @@ impl<'f> Resolution<'f> {
 
     /// Returns the names of all blocks and robots. Contacts, robots, loads and steps refer to them.
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
-        let hidden = |list: &str, ids: &[String]| findings.doubt.hides_names(list, ids.len());
+        let hidden = |list: &str, ids: &[String]| findings.unread.hides_names(list, ids.len());
         BodyNames {
             blocks: Names::new(
                 "block",
@@ -190,8 +190,8 @@ impl<'f> Resolution<'f> {
         }
     }
 
-    /// Executes the steps and returns the frame after each of them. A file without steps gives one frame with all
-    /// blocks.
+    /// Executes the steps and returns the frame after each of them. If the file has no steps, returns one frame with
+    /// all blocks.
     fn frames(
         &self,
         findings: &mut Findings,
@@ -215,7 +215,7 @@ impl<'f> Resolution<'f> {
             return vec![steps::frame_without_steps(centroids.len(), holds)];
         }
         // If a step could not be read, the frames from this step on are unknown. Execute only the steps before it.
-        let known = (findings.doubt.first_entry("steps"))
+        let known = (findings.unread.first_entry("steps"))
             .unwrap_or(usize::MAX)
             .min(self.file.steps.len());
         let context = StepContext {
@@ -238,7 +238,7 @@ impl<'f> Resolution<'f> {
     ) -> Vec<Penetration> {
         // If the steps could not be read, it is unknown which blocks are present at the same time. Do not report
         // overlaps then.
-        if findings.doubt.touches_key("steps") && self.file.steps.is_empty() {
+        if findings.unread.touches_key("steps") && self.file.steps.is_empty() {
             return Vec::new();
         }
         let grounds = (ground.iter().enumerate())
@@ -294,13 +294,13 @@ fn list_names<'f>(findings: &Findings, file: &'f SceneFile) -> (Names<'f>, Names
     let materials = Names::new(
         "material",
         materials.iter().map(|m| m.0.as_str()).collect(),
-        findings.doubt.hides_names("materials", materials.len()),
+        findings.unread.hides_names("materials", materials.len()),
     );
     let names = shapes.iter().map(|s| s.0.as_str());
     let shapes = Names::new(
         "shape",
         names.chain(shape::BUILT_IN).collect(),
-        findings.doubt.hides_names("shapes", shapes.len()),
+        findings.unread.hides_names("shapes", shapes.len()),
     );
     (materials, shapes)
 }

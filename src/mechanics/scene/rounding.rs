@@ -1,17 +1,20 @@
 //! Estimates the rounding error of coordinates from their digits in the scene file.
 //!
-//! Only digits are used. If most coordinates end at the same decimal, the file was rounded to this decimal. If all
-//! numbers are 32-bit floats, they were computed or stored as such floats. Otherwise no rounding is assumed.
+//! Only the digits are used, not the geometry. If most coordinates have the same number of decimals and none has
+//! more, they were rounded to this number. If all numbers are 32-bit floats, they were computed or stored as such
+//! floats. If neither is true, a quarter of the numbers is enough to show rounding to decimals or to significant
+//! digits. Otherwise no rounding is assumed.
 
 use std::fmt::{LowerExp, Write};
 
 use super::ToleranceSource;
 use super::format::{Pair, SceneFile};
 
-/// A file counts as rounded to a number of digits only if at least this fraction of its numbers have all of them.
+/// A file counts as rounded to k digits only if at least this fraction of its numbers have k digits, and none has
+/// more.
 const MIN_ROUNDED_SHARE: f64 = 0.25;
-/// The fraction that distinguishes rounding to decimals from 32-bit floats: of numbers rounded to a decimal, nine in
-/// ten end there; of 32-bit floats, far fewer end at the last decimal that occurs.
+/// The fraction that distinguishes rounding to decimals from 32-bit floats. Of numbers rounded to k decimals, nine in
+/// ten have exactly k decimals. Of 32-bit floats, far fewer have the largest number of decimals that occurs.
 const MIN_DECIMAL_SHARE: f64 = 0.6;
 /// Numbers with more decimals or significant digits than this count as not rounded.
 const MAX_ROUNDED_DIGITS: usize = 12;
@@ -66,15 +69,17 @@ pub(super) fn estimate_rounding(file: &SceneFile) -> Option<Rounding> {
 #[derive(Default)]
 struct Digits {
     count: usize,
-    /// Largest amount.
+    /// The largest absolute value.
     largest: f64,
-    /// Histograms: how many coordinates have k decimals, and how many have k significant digits.
+    /// Histogram: how many coordinates have k decimals.
     decimals: Table,
+    /// Histogram: how many coordinates have k significant digits.
     significant: Table,
     /// Whether some number is neither a 32-bit float nor the shortest notation of one.
     wide: bool,
-    /// Buffers for the notation of the latest number and of the nearest 32-bit float.
+    /// Buffer for the notation of the latest number.
     text: String,
+    /// Buffer for the notation of the 32-bit float nearest to the latest number.
     narrow: String,
 }
 
@@ -104,7 +109,7 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
     None
 }
 
-/// Writes a number into `text`, with as few digits as identify this number. Replaces the previous content.
+/// Writes a number into `text`, with the fewest digits that identify this number. Replaces the previous content.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
     // Writing to a `String` cannot fail.
@@ -138,7 +143,7 @@ impl Table {
 }
 
 impl Digits {
-    /// Adds the digits of a number to the counts. Zeros are skipped, because every notation gives them exactly.
+    /// Adds the digits of a number to the counts. Zeros are skipped, because every notation represents them exactly.
     fn count_digits(&mut self, x: f64) {
         if x == 0.0 || !x.is_finite() {
             return;
@@ -223,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_are_counted_as_they_are_written() {
+    fn the_digits_of_the_shortest_notation_are_counted() {
         let by_hand = [
             0.5,
             1200.0,
@@ -241,7 +246,7 @@ mod tests {
         let mut few = 0;
         for x in all.filter(|x| *x != 0.0) {
             let text = format!("{x:e}");
-            let (mantissa, exponent) = text.split_once('e').expect("of this form");
+            let (mantissa, exponent) = text.split_once('e').expect("scientific notation");
             let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
             let exponent: i64 = exponent.parse().expect("a number");
             if let Some(found) = few_digits(x) {
@@ -261,7 +266,7 @@ mod tests {
             let unit = power(k);
             let rounded = numbers().map(|x| (x / unit).round() * unit);
             let text = rounded.map(|x| format!("{x:.k$}").parse().unwrap_or(f64::NAN));
-            let found = rounding(text).expect("rounded");
+            let found = rounding(text).expect("rounded numbers");
             assert_eq!(found.source, ToleranceSource::Decimals(k));
             assert!((found.error - 0.5 * unit).abs() <= 1e-12 * unit);
         }
@@ -272,7 +277,7 @@ mod tests {
         let full = numbers().map(|x| f64::from(x as f32));
         let short = numbers().map(|x| format!("{}", x as f32).parse().unwrap_or(f64::NAN));
         for found in [rounding(full), rounding(short)] {
-            let found = found.expect("rounded");
+            let found = found.expect("rounded numbers");
             assert_eq!(found.source, ToleranceSource::Float32);
             assert!((1e-6..3e-6).contains(&found.error), "{}", found.error);
         }
@@ -283,13 +288,13 @@ mod tests {
         let spread =
             (0..240).map(|i| libm::pow(10.0, f64::from(i % 6) - 2.0) * (1.0 + f64::from(i) / 77.0));
         let text = spread.map(|x| format!("{x:.5e}").parse().unwrap_or(f64::NAN));
-        let found = rounding(text).expect("rounded");
+        let found = rounding(text).expect("rounded numbers");
         assert_eq!(found.source, ToleranceSource::Digits(6));
         assert!((0.004..0.006).contains(&found.error), "{}", found.error);
     }
 
     #[test]
-    fn exact_numbers_and_simple_numbers_with_one_fine_number_are_not_rounded() {
+    fn exact_numbers_and_short_numbers_with_one_long_number_show_no_rounding() {
         assert_eq!(rounding(numbers()), None);
         let by_hand = (0..40).map(|i| 0.5 * f64::from(i)).chain([1.000001]);
         assert_eq!(rounding(by_hand), None);

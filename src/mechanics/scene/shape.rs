@@ -89,8 +89,8 @@ mod tests {
             side: 1.0,
         };
         let polygon = lattice
-            .polygon(&cells(name).expect("known"))
-            .expect("joined");
+            .polygon(&cells(name).expect("a built-in shape"))
+            .expect("connected cells");
         let centroid = polygon.centroid();
         assert!(
             (centroid + Vector::new(origin.0, origin.1) - Point::origin().coords)
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn outlines_are_those_of_the_figures() {
+    fn shapes_have_the_expected_corners_and_origins() {
         check(
             "hexagon",
             (0.0, 0.0),

@@ -14,27 +14,27 @@ use crate::geometry::{Bounds, Point};
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Sketch {
-    /// Its title; empty if it has none.
+    /// The title of the scene; empty if it has none.
     pub title: String,
     /// Every body whose corners can be drawn, the ground first.
     pub bodies: Vec<SketchedBody>,
     /// The problems, in the order of the text; empty if the scene is valid.
     pub problems: SceneError,
-    /// The place of each problem, if it can be drawn.
+    /// The point of each problem in the drawing; `None` if it cannot be drawn.
     pub places: Vec<Option<Spot>>,
     /// The scene, if each of its bodies is valid. The bodies may overlap.
     pub(crate) scene: Option<Scene>,
-    /// The units of the file, in which all coordinates of the sketch are.
+    /// The units of the file, in which all coordinates of the sketch are given.
     pub(crate) units: UnitsEntry,
 }
 
-/// The place of a problem.
+/// The point of a drawing at which a problem lies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Spot {
-    /// The place, in the units of the file.
+    /// The point, in the units of the file.
     pub at: Point,
-    /// The bodies that it concerns.
+    /// The bodies that have the problem.
     pub bodies: Vec<BodyId>,
 }
 
@@ -64,10 +64,10 @@ impl Sketch {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = String::from_utf8_lossy(bytes);
         if let Ok(source) = Source::parse(&text) {
-            let (mut file, _, doubt) = reading::read(&source);
+            let (mut file, _, unread) = reading::read(&source);
             file.tolerate(tolerance);
             sketch.units = file.units.unwrap_or_default();
-            (sketch.bodies, sketch.scene) = resolution::sketch(&file, doubt);
+            (sketch.bodies, sketch.scene) = resolution::sketch(&file, unread);
             sketch.title = file.title.unwrap_or_default();
         }
         sketch.places = (sketch.problems.list.iter())

@@ -130,14 +130,16 @@ mod tests {
         let one = e.index(1);
         let range = source
             .find(&one.key("b").path(), Mark::Value)
-            .expect("found");
+            .expect("a range of bytes");
         assert_eq!(&text[range.clone()], "22");
         assert_eq!(source.place(range.start), (2, 18));
-        let twice = source.find(&top.key("a").path(), Mark::Key).expect("found");
+        let twice = source
+            .find(&top.key("a").path(), Mark::Key)
+            .expect("a range of bytes");
         assert_eq!(source.place(twice.start), (3, 11));
         let missing = source
             .find(&one.key("c").path(), Mark::Value)
-            .expect("found");
+            .expect("a range of bytes");
         assert_eq!(&text[missing], "{\"b\": 22}");
         assert_eq!(source.find(&top.path(), Mark::Value), Some(0..1));
     }

@@ -1,7 +1,8 @@
 //! Executes the steps of a scene file one after the other, and creates a [`Frame`] after each step.
 //!
-//! The order within a step is: release, remove, place, hold, plan. If a step cannot be executed as written, the problem
-//! is reported, and the step is executed as it was most likely meant, so that one mistake gives only one problem.
+//! The order within a step is: release, remove, place, hold, plan. If a step cannot be executed as written, the
+//! problem is reported, and the step is executed as it was most likely meant, so that one mistake causes only one
+//! problem.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +16,8 @@ use super::problem;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
-/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of 4 000 blocks laid one by one.
+/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of almost 4 000 blocks that are
+/// placed in one step each.
 const MAX_PLACED_BLOCKS: usize = 8_000_000;
 
 /// The parts of the scene that the steps refer to.
@@ -26,7 +28,7 @@ pub(super) struct StepContext<'s> {
     pub(super) robots: &'s Names<'s>,
     /// Every block's centroid; the origin for a block that could not be read.
     pub(super) centroids: &'s [Point],
-    /// Every robot's own grip point for the block it holds.
+    /// For each robot, the block in its key `holds` and the grip point on this block; `None` if it has no such key.
     pub(super) grips: &'s [Option<(BlockId, Point)>],
 }
 
@@ -86,7 +88,7 @@ pub(super) fn frames(
 
 /// The placed blocks and the blocks held by robots, after the steps so far.
 struct StepState {
-    /// In which step a block was placed, and its number in placing order.
+    /// For each placed block, the number of the step that placed it, and its number in placing order.
     placed_in_step: BTreeMap<BlockId, (usize, usize)>,
     /// The blocks in placing order.
     by_placing_order: BTreeMap<usize, BlockId>,

@@ -3,8 +3,9 @@
 //! The entries of all lists are stored in one vector, and those of all objects in another. A file with many points
 //! therefore needs few allocations.
 //!
-//! The parser accepts strict JSON (RFC 8259), exactly like serde_json; a test compares the two. It stops at the first
-//! error, and [`SyntaxError`] describes what was expected there.
+//! The parser accepts strict JSON (RFC 8259), like serde_json; a test compares the two. Only numbers that are too
+//! large for a float are not an error here: they are reported later. The parser stops at the first error, and
+//! [`SyntaxError`] describes what was expected there.
 
 mod string;
 
@@ -19,8 +20,9 @@ pub(super) const MAX_DEPTH: usize = 127;
 pub(super) struct Tree<'t> {
     /// The topmost value.
     pub(super) root: Node<'t>,
-    /// The entries of all lists, and of all objects, in one vector each.
+    /// The entries of all lists.
     items: Vec<Node<'t>>,
+    /// The entries of all objects.
     entries: Vec<Entry<'t>>,
 }
 
@@ -51,12 +53,12 @@ impl List {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Object(Range<usize>);
 
-/// A JSON value with its place.
+/// A JSON value with its position in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node<'t> {
-    /// Its bytes in the text.
+    /// The range of its bytes in the text.
     pub(super) range: Range<usize>,
-    /// What it is.
+    /// Its kind and content.
     pub(super) kind: NodeKind<'t>,
 }
 
@@ -69,7 +71,7 @@ pub(super) enum NodeKind<'t> {
     Flag(bool),
     /// A number; infinite if it is too large for a float.
     Number(f64),
-    /// A string, its escapes resolved.
+    /// A string, with its escape sequences resolved.
     Text(Cow<'t, str>),
     /// A list.
     List(List),
@@ -80,9 +82,9 @@ pub(super) enum NodeKind<'t> {
 /// A key and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry<'t> {
-    /// The key, its escapes resolved.
+    /// The key, with its escape sequences resolved.
     pub(super) name: Cow<'t, str>,
-    /// The key's bytes in the text, quotes included.
+    /// The range of the key's bytes in the text, including the quotes.
     pub(super) name_range: Range<usize>,
     /// The value.
     pub(super) value: Node<'t>,
@@ -110,7 +112,7 @@ pub(super) enum Why {
     Escape,
     /// An escape is half of a surrogate pair.
     Surrogate,
-    /// A comma, at this byte, stands before a closing bracket.
+    /// A closing bracket follows the comma at this byte.
     TrailingComma(usize),
     /// A value is expected.
     Value,
@@ -149,19 +151,20 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     }
 }
 
-/// Bytes per value in a list of points, at least; used to reserve memory.
+/// An estimate of the number of bytes for each value of a list. It is used to reserve memory.
 const MIN_BYTES_PER_ITEM: usize = 8;
 
 struct Parser<'t> {
     text: &'t str,
     bytes: &'t [u8],
     at: usize,
-    /// The brackets that are open, with their places.
+    /// The open brackets, each with its byte in the text.
     open: Vec<(char, usize)>,
     items: Vec<Node<'t>>,
     entries: Vec<Entry<'t>>,
-    /// The entries of the lists and objects that are still open, the innermost last.
+    /// The entries of the lists that are still open, those of the innermost list last.
     loose_items: Vec<Node<'t>>,
+    /// The entries of the objects that are still open, those of the innermost object last.
     loose_entries: Vec<Entry<'t>>,
 }
 

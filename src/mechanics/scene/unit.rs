@@ -13,9 +13,10 @@ use crate::geometry::{Point, Polygon};
 pub struct Unit {
     /// The parts of its symbol, for example `kN`, `·` and `mm`.
     symbol: [&'static str; 3],
-    /// Its size in the SI unit.
+    /// Its size in SI units.
     pub(crate) size: f64,
-    /// Whether the scene chooses it. Otherwise it is the SI unit, and gets a prefix where the number needs one.
+    /// Whether the scene file sets this unit. Otherwise it is an SI unit, and large or small numbers are written with
+    /// a prefix such as k.
     pub(crate) is_chosen: bool,
 }
 

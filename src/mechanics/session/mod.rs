@@ -1,12 +1,12 @@
 //! [`Session`]: places and removes blocks one by one, and returns the verdict after each step.
 //!
 //! A session is for planners and training loops that need a verdict after each step. The solution of the last step is
-//! the warm start for the next. It is accepted only with a proof, so a session gives the same verdict as a scene file
-//! with the same blocks and holds.
+//! the warm start for the next. It is accepted only with a proof. The verdict is therefore the same as for a scene
+//! file with the same blocks and holds.
 //!
-//! On a lattice, a step costs only what is new: contacts are decided by whole numbers. In other scenes, every new block
-//! can change the contact tolerance, which depends on all coordinates. The scene is therefore read again after each
-//! step.
+//! On a lattice, contacts are found with integer arithmetic, so a step updates only the contacts of one block. In
+//! other scenes, every new block can change the contact tolerance, which depends on all coordinates. The scene is
+//! therefore read again after each step.
 
 mod error;
 
@@ -48,7 +48,7 @@ use crate::solve::DeadlineGuard;
 pub struct Session {
     /// The given scene file with the blocks placed so far, without holds.
     file: SceneFile,
-    /// The same without bodies, robots and loads: the context for reading a single block.
+    /// The scene file without bodies, robots and loads: the context for reading a single block.
     bare: SceneFile,
     /// The block that each robot holds, with the grip point if it was given.
     grips: BTreeMap<RobotId, (String, Option<Point>)>,
@@ -316,8 +316,8 @@ impl Session {
     }
 
     /// Adds a block that consists of lattice cells, without reading the whole scene again. Returns false, and adds
-    /// nothing, if the block has no cells or overlaps another block. The caller then reads the whole scene again, which
-    /// adds the block or gives an error.
+    /// nothing, if the block has no cells or overlaps another block. The caller then reads the whole scene again,
+    /// which adds the block or returns an error.
     fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],

@@ -11,9 +11,11 @@ pub struct LeastAdhesion {
     pub forces: Amounts,
     /// The adhesion (tension, and friction beyond its limit) of that balance.
     pub adhesion: Amounts,
-    /// A motion along which the loads do work and the contacts do none: three velocities for each block.
+    /// A motion along which the loads do work and the contacts do none: three velocities for each block. `None` if
+    /// the solver ended without a status.
     pub motion: Option<Vec<f64>>,
-    /// Whether admissible forces had a small cost in the program. Then contacts may do a little work along the motion.
+    /// Whether admissible forces had a small cost in the program. If so, contacts may do a little work along the
+    /// motion.
     pub priced: bool,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,

@@ -9,7 +9,7 @@ pub enum Status {
     Solved,
     /// The rows contradict each other; z is a certificate (Aᵀz = 0, bᵀz < 0).
     Infeasible,
-    /// The objective has no lower bound; x is a direction along which it decreases without end.
+    /// The objective has no lower bound; x is a direction along which it decreases without limit.
     Unbounded,
     /// The solver ended without a result: too many iterations, the deadline, or numerical trouble.
     Unsolved,
@@ -42,7 +42,7 @@ impl Answer {
         }
     }
 
-    /// Returns the same answer, but with the status `Unsolved` if it contains an infinite number or NaN.
+    /// Returns this answer, with the status changed to `Unsolved` if it contains an infinite number or NaN.
     pub(super) fn if_finite(self) -> Answer {
         let is_sound = [&self.x, &self.z, &self.s].map(|list| is_finite(list));
         Answer {

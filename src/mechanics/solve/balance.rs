@@ -21,16 +21,17 @@ use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 pub struct Balance {
     /// Forces that balance every block, if there are any.
     pub forces: Option<Amounts>,
-    /// If there are none: a motion along which the loads do work and no contact does, three velocities for each block.
+    /// If no forces balance every block: a motion along which the loads do work and no contact does, three velocities
+    /// for each block.
     pub motion: Option<Vec<f64>>,
-    /// If there are forces: a motion along which no unit force takes more work than it costs. The loads' power along it
-    /// is a lower bound of the sum of forces.
+    /// If forces were found: a motion along which the negative work of each unit force is at most its cost. The
+    /// loads' power along it is a lower bound of the sum of forces.
     pub witness: Option<Vec<f64>>,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,
 }
 
-/// Margins of [`Dual::active`] that are tried in turn for the face of optima; pure numbers.
+/// Margins of [`Dual::active`] that are tried in turn for the face of optima, dimensionless.
 ///
 /// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
 /// the cost then differs, and a smaller margin helps. Near the limit of stability a column may be missing by mistake;
@@ -45,7 +46,7 @@ const ACTIVE_MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 const COST_TOL: f64 = 2e-8;
 
 /// The relative difference of cost up to which a balance is accepted if none meets [`COST_TOL`]; the cheapest one is
-/// taken.
+/// chosen.
 ///
 /// With very high friction the solver loses digits, and the cost of a balance is then more accurate than its objective.
 const ROUGH_COST_TOL: f64 = 1e-6;
@@ -53,7 +54,7 @@ const ROUGH_COST_TOL: f64 = 1e-6;
 /// The residual that the least squares may leave, relative to the largest load: half of what a proof allows.
 const BALANCE_TOL: f64 = 5e-8;
 
-/// From this number of blocks, an attempt with plain conditioning stops early, and full conditioning is not tried.
+/// From this number of blocks on, an attempt with plain conditioning stops early, and full conditioning is not tried.
 const MANY_BLOCKS: usize = 200;
 
 /// The largest number of iterations for a program of many blocks.
@@ -65,12 +66,12 @@ const MAX_ITERATIONS_MANY: usize = 60;
 
 /// The largest number of iterations in the first attempt at a program of many blocks.
 ///
-/// Walls of 400 to 900 bricks take 6 iterations if they stand upright and 7 to 9 if they fall by far; arches of 1 000
-/// and 10 000 stones take 11 and 13. Structures that take more are near their limit. For these the program without
-/// cost, which is tried next, takes 12 to 20.
+/// Walls of 400 to 900 bricks take 6 iterations if they stand upright and 7 to 9 if they clearly fall. Arches of
+/// 1 000 and 10 000 stones take 11 and 13. Structures that take more are near their limit. For these, the program
+/// without cost, which is tried next, takes 12 to 20.
 const MAX_ITERATIONS_FIRST_LOOK: usize = 15;
 
-/// If more than this share of the basic columns is doubtful, a program of many blocks is solved again to a finer
+/// If more than this fraction of the basic columns is doubtful, a program of many blocks is solved again to a finer
 /// tolerance.
 ///
 /// In walls whose coordinates have 4 decimals, thousands of columns have an amount and a slack of about the same size,
@@ -241,7 +242,7 @@ fn solve_dual(
 }
 
 /// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if none of the
-/// [`ACTIVE_MARGINS`] gives such a balance.
+/// [`ACTIVE_MARGINS`] leads to such a balance.
 ///
 /// `settings` contains the settings for the repair of a balance, followed by the settings for the least squares.
 fn least_squares_balance(

@@ -2,17 +2,18 @@
 //!
 //! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance
 //! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work. The reason: at
-//! the nearest point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|². `loads` is the right-hand side, minus the load vector
-//! (Moreau's two polar cones). Forces have no cost, so the method finds any forces that balance, not those of least
-//! sum. The result is only a candidate: the proof checks it.
+//! the nearest point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). The right-hand side `loads` is
+//! the negative of the load vector. Forces have no cost, so the method finds any forces that balance, not those of
+//! least sum. The result is only a candidate: the proof checks it.
 //!
-//! The active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, with upper bounds. Steps:
+//! The method is the active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, extended by
+//! upper bounds. Steps:
 //!
 //! 1. gradient Aᵀr: columns at a bound whose gradient points inwards are candidates;
 //! 2. candidates enter the passive set;
 //! 3. least squares on the passive set, by the Cholesky factor of its Gram matrix, which is kept up to date;
-//! 4. if an amount would leave its bounds, a ratio test: move until the first bound is met, remove that column, repeat
-//!    3;
+//! 4. if an amount would leave its bounds, a ratio test: move until an amount reaches its bound, remove that column,
+//!    repeat 3;
 //! 5. if there are no candidates, the amounts are the optimum.
 //!
 //! The passive set is a warm start for a changed program: its factor depends neither on the loads nor on other columns.
@@ -186,8 +187,8 @@ impl BoundedNnls {
         Some(entered)
     }
 
-    /// Moves the amounts to the least-squares solution of the passive set, and removes each column whose amount meets a
-    /// bound on the way. `None` after too many pivots.
+    /// Moves the amounts to the least-squares solution of the passive set, and removes each column whose amount
+    /// reaches a bound on the way. `None` after too many pivots.
     fn solve_passive(&mut self, search: &mut Search, digits: Digits) -> Option<Progress> {
         let (loads, columns) = (search.loads, search.columns);
         let mut progress = Progress::Stayed;
@@ -202,7 +203,7 @@ impl BoundedNnls {
             if step > 0.0 {
                 progress = Progress::Moved;
             }
-            // Move to the first bound, and remove the column that meets it.
+            // Move to the first bound, and remove the column that reaches it.
             let meets_limit = optimum[first] > 0.0;
             for (amount, optimal) in self.amounts.iter_mut().zip(&optimum) {
                 *amount += step * (optimal - *amount);
@@ -222,12 +223,12 @@ impl BoundedNnls {
     }
 
     /// Ratio test: returns the longest step (as a fraction) towards the optimum of the passive set that keeps all
-    /// bounds. Also returns the position, in the passive set, of the column that meets its bound first. `None` if the
-    /// full step keeps all bounds.
+    /// bounds. Also returns the position, in the passive set, of the column that reaches its bound first. `None` if
+    /// the full step keeps all bounds.
     fn ratio_test(&self, optimum: &[f64], columns: &[Column]) -> Option<(f64, usize)> {
         let mut shortest: Option<(f64, usize)> = None;
         for (place, (amount, optimal)) in self.amounts.iter().zip(optimum).enumerate() {
-            // The fraction of the step at which the amount meets 0 or its limit.
+            // The fraction of the step at which the amount reaches 0 or its limit.
             let limit = columns[self.passive[place]].limit;
             let step = if *optimal < 0.0 {
                 amount.max(0.0) / (amount.max(0.0) - optimal)
@@ -243,10 +244,10 @@ impl BoundedNnls {
         shortest
     }
 
-    /// Returns the amounts of the passive columns that give the least residual if their bounds are ignored.
+    /// Returns the amounts of the passive columns that minimise the residual if their bounds are ignored.
     ///
-    /// The normal equations give half of the digits. With [`Digits::All`], one step of iterative refinement gives the
-    /// rest.
+    /// The normal equations determine the amounts to half of the digits of f64. With [`Digits::All`], one step of
+    /// iterative refinement adds the other digits.
     fn least_squares(&self, loads: &[f64], columns: &[Column], digits: Digits) -> Vec<f64> {
         let mut residual = loads.to_vec();
         for k in &self.at_limit {
@@ -320,7 +321,7 @@ enum Digits {
     All,
 }
 
-/// Whether amounts changed before a bound was met.
+/// Whether amounts changed before a bound was reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Progress {
     Moved,
@@ -360,7 +361,9 @@ mod tests {
     fn found(program: &Program) -> (Vec<f64>, Amounts) {
         let columns = generators(program);
         let mut active_set = BoundedNnls::default();
-        let rest = active_set.find(&program.loads, &columns).expect("an end");
+        let rest = active_set
+            .find(&program.loads, &columns)
+            .expect("the search ends");
         (rest, active_set.to_forces(program, &columns))
     }
 
@@ -377,10 +380,10 @@ mod tests {
         let columns = generators(&program);
         assert!(
             columns.iter().all(|c| c.dot(&rest) < 1e-9),
-            "no force objects"
+            "no force opposes the motion"
         );
         let work: f64 = rest.iter().zip(&program.loads).map(|(r, b)| r * b).sum();
-        assert!(work > 1.0, "the loads work: {work}");
+        assert!(work > 1.0, "the loads do work: {work}");
     }
 
     #[test]
@@ -390,7 +393,7 @@ mod tests {
             arm: Vector::new(0.0, 0.0),
             limits: [limit, 0.0, 0.0],
         };
-        // Friction resists at most 5 of the push of 9, so the robot must give 4.
+        // Friction resists at most 5 of the push of 9, so the robot must exert at least 4.
         let (rest, amounts) = found(&block(0.0, 9.0, vec![grip(6.0)]));
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
         assert!(amounts.grip[0][0].abs() <= 6.0 + 1e-12);
@@ -407,10 +410,14 @@ mod tests {
         let program = block(0.25, 1.0, vec![]);
         let columns = generators(&program);
         let mut active_set = BoundedNnls::default();
-        active_set.find(&program.loads, &columns).expect("an end");
-        let first = active_set.used_columns().next().expect("used");
+        active_set
+            .find(&program.loads, &columns)
+            .expect("the search ends");
+        let first = active_set.used_columns().next().expect("a column is used");
         active_set.renumber(|k| (k != first).then_some(k));
-        let rest = active_set.find(&program.loads, &columns).expect("an end");
+        let rest = active_set
+            .find(&program.loads, &columns)
+            .expect("the search ends");
         assert!(rest.iter().all(|v| v.abs() < 1e-10), "{rest:?}");
     }
 }

@@ -3,8 +3,8 @@
 //! clarabel is a primal-dual interior-point method on the homogeneous embedding ([Goulart24](crate::doc::references)).
 //! These settings differ from its defaults:
 //!
-//! - `direct_solve_method` is `qdldl`. The automatic choice for large programs is faer: 13.1 s against 4.6 s at 10⁴
-//!   blocks;
+//! - `direct_solve_method` is `qdldl`. The automatic choice for large programs is faer, which takes 13.1 s instead of
+//!   4.6 s at 10⁴ blocks;
 //! - presolve is off, because it only removes infinite bounds, and these programs have none;
 //! - equilibration and iterative refinement are off with [`Conditioning::Plain`].
 

@@ -6,8 +6,8 @@
 //! kinematic:  max loadsᵀy − Σ limit·multiplier    s.t.  columnᵀy − multiplier ≤ cost
 //! ```
 //!
-//! y are the velocities, three for each block; each limited column has one multiplier. Both forms give the same
-//! [`Dual`]. Reference: [Livesley78](crate::doc::references).
+//! y are the velocities, three for each block; each limited column has one multiplier. Both forms have the same
+//! solution, [`Dual`]. Reference: [Livesley78](crate::doc::references).
 
 use super::amounts::Effort;
 use super::answer::{Answer, Status};
@@ -26,9 +26,10 @@ pub struct Dual {
     pub amounts: Vec<f64>,
     /// The slack of each column, its reduced cost: cost − columnᵀy (plus its multiplier) ≥ 0.
     pub slack: Vec<f64>,
-    /// The multiplier of each column's limit: what one more unit of limit would save; 0 without a limit.
+    /// The multiplier of each column's limit: by how much the cost falls per unit of additional limit. It is 0 for a
+    /// column without a limit.
     pub multipliers: Vec<f64>,
-    /// The objective of the dual, which is the least cost.
+    /// The objective at the optimum, which is the least cost.
     pub objective: f64,
 }
 
@@ -73,7 +74,7 @@ pub fn dual(
 }
 
 /// Converts a solver's answer for a kinematic dual to velocities, and to the amounts and slacks of the columns.
-/// `row_of` gives the row of each column.
+/// `row_of` contains the row of each column.
 pub(super) fn from_kinematic_answer(
     loads: &[f64],
     columns: &[Column],
@@ -117,8 +118,8 @@ pub(super) fn from_kinematic_answer(
 
 /// Returns the amounts of columns: the multipliers of their rows.
 ///
-/// `row_of` gives the row of each column, or `usize::MAX` for the second column of an opposite pair that shares one
-/// equality. The amount of that column is the multiplier with the opposite sign.
+/// `row_of` contains the row of each column, or `usize::MAX` for the second column of an opposite pair that shares
+/// one equality. The amount of that column is the multiplier with the opposite sign.
 pub(super) fn amounts_of_rows(answer: &Answer, row_of: &[usize]) -> Vec<f64> {
     let rows = row_of.iter().enumerate();
     rows.map(|(k, row)| match *row {

@@ -1,18 +1,18 @@
 //! Solves small systems of equilibrium equations by elimination. Finds the balance if it is unique, and otherwise the
 //! balance of least Σ force².
 //!
-//! An interior-point method gives nine digits in many iterations; elimination gives sixteen digits at once. If
-//! elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan, Matrix Computations,
-//! 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
+//! An interior-point method reaches nine digits after many iterations; elimination reaches sixteen digits without
+//! iteration. If elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan,
+//! Matrix Computations, 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
 
 use super::residual_norm::largest;
 use crate::program::{Column, product};
 
-/// The largest number of rows. Larger systems go to the sparse solver, because the work of dense elimination grows with
-/// the cube of the rows.
+/// The largest number of rows. Larger systems are solved by the sparse solver, because the work of dense elimination
+/// grows with the cube of the rows.
 const MAX_ROWS: usize = 120;
 
-/// The smallest pivot. With a smaller one the columns are linearly dependent, and the balance is not unique.
+/// The smallest pivot. With a smaller one the columns count as linearly dependent, and the balance as not unique.
 ///
 /// The entries are near 1. If this value were ten times smaller, the amounts could lose one more digit; if it were ten
 /// times larger, columns of short contacts would be refused.
@@ -97,10 +97,10 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
 /// Computes the amounts ≥ 0 of least Σ force² that balance the loads, by an active-set method. `None` if a few rounds
 /// of the method do not find them, or if it does not apply.
 ///
-/// The method applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be the
-/// square of a unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has λ_j
-/// = g_jᵀy / p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops the
-/// columns with negative amounts.
+/// The method applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be Σ
+/// force² for one unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has
+/// λ_j = g_jᵀy / p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops
+/// the columns with negative amounts.
 pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
     let mix = |pair: &[Column]| product(&pair[0].force, &pair[1].force).is_some_and(|p| p != 0.0);

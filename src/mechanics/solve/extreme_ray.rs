@@ -1,8 +1,8 @@
 //! [`extreme_ray`]: moves from any motion in the cone of admissible motions to an extreme ray of the cone.
 //!
 //! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is
-//! not such a sum, so it has as few hinges and slips as possible. All numbers are without units: rows have a length
-//! of about 1, motions a size of about 1.
+//! not such a sum, so it has as few hinges and slips as possible. All numbers are dimensionless. Rows and motions
+//! have a length of about 1.
 //!
 //! The method is purification, the crossover of linear programming to a vertex (Megiddo 1991). All moves keep the power
 //! b·y and every tight row, so they lie in the null space of these rows. Steps:
@@ -73,7 +73,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
             null_space.remove(row);
         }
         open = still_open;
-        // If no new row became tight, drop one direction, or else the same step would be repeated without end.
+        // If no new row became tight, drop one direction. Otherwise the same step would be repeated forever.
         if null_space.basis.len() == dimension {
             null_space.basis.pop();
         }
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn without_rows_the_motion_follows_the_load() {
+    fn without_rows_the_extreme_ray_is_along_the_load() {
         let y =
             extreme_ray(&[], &dense(&[0.0, -2.0, 0.0]), &[0.3, -1.0, 0.2]).expect("it has power");
         assert!(

@@ -11,8 +11,8 @@ use super::exact;
 use super::settings::SolverSettings;
 use crate::program::{Column, Program, least_squares};
 
-/// A face of the polyhedron of balances: the columns that may carry force on it, and those that are at their limits on
-/// all of it.
+/// A face of the polyhedron of balances. It is described by the columns whose amounts may vary on the face, and by
+/// the columns that are at their limits everywhere on the face.
 #[derive(Clone)]
 pub(super) struct Face {
     /// The loads that `columns` must balance: the given loads minus the forces of the columns at their limits.

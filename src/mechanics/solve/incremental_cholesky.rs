@@ -1,10 +1,11 @@
 //! [`IncrementalCholesky`]: a Cholesky factor that is updated when a row and column is added to the matrix or removed
 //! from it.
 //!
-//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): appending a row takes one
-//! forward substitution, removing one takes Givens rotations. Rows are stored from their first nonzero entry (skyline
-//! storage). In the Gram matrix of forces, two forces have a product only if they act on a common block. If the columns
-//! are ordered by blocks, the work of a change grows with the width of the structure, not with the number of blocks.
+//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): a row is appended by
+//! one forward substitution and removed by Givens rotations. Rows are stored from their first nonzero entry (skyline
+//! storage). In the Gram matrix of forces, two forces have a nonzero product only if they act on a common block. If
+//! the columns are ordered by blocks, the work of a change grows with the width of the structure, not with the number
+//! of blocks.
 
 /// The lower triangular factor L of the matrix L·Lᵀ.
 #[derive(Clone, Debug, Default)]

@@ -6,14 +6,14 @@
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solve_with_retry};
 use crate::program::{Column, Correction, least_norm, least_squares};
 
-/// The largest number of rounds of [`refine_balance`]. Each gains nine digits, so two rounds reach the precision of
-/// f64.
+/// The largest number of rounds of [`refine_balance`]. Each round adds about nine correct digits, so two
+/// rounds reach the precision of f64.
 const MAX_ROUNDS: usize = 2;
 
 /// A residual up to this fraction of the largest load is rounding, and is not refined further.
 const ROUNDING_TOL: f64 = 1e-14;
 
-/// Adds to the amounts the change of least Σ change² that removes their residual. This takes one linear system.
+/// Adds to the amounts the change of least Σ change² that removes their residual. It solves one linear system.
 ///
 /// An amount that would become negative is set to 0, which may leave a residual. If the system is not solved, the
 /// amounts are returned unchanged.
@@ -40,9 +40,9 @@ pub(super) fn balance_by_least_change(
 
 /// Refines amounts until they balance the loads to rounding, or until a round does not reduce the residual.
 ///
-/// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and gains about nine digits.
-/// Without refinement, the imbalance of a very light block under a very heavy block is hidden by the rounding errors of
-/// the heavy block.
+/// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and adds about nine correct
+/// digits. Without refinement, the imbalance of a very light block under a very heavy block is hidden by the rounding
+/// errors of the heavy block.
 pub(super) fn refine_balance(
     loads: &[f64],
     columns: &[Column],

@@ -39,13 +39,13 @@ const FORCE_COSTS: [f64; 2] = [1e-6, 1e-4];
 
 /// Stage 3 drops adhesion at a point below this fraction of the largest adhesion.
 ///
-/// The second value is tried if the first drops needed adhesion, such as that against a light load.
+/// The second value is tried if the first drops adhesion that is needed, for example to carry a light load.
 const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
 
 /// [`DROP_TOL`] for many blocks.
 ///
-/// At 10⁻⁵ a needed column was dropped in a wall of 4 128 bricks, and the least squares took 1.8 s to show it. At 10⁻⁹
-/// the solver's rounding is kept too, which gives up to 40 % more points.
+/// At 10⁻⁵ a needed column was dropped in a wall of 4 128 bricks, and the least squares took 1.8 s to show it. At
+/// 10⁻⁹ adhesion that is only the solver's rounding is kept too, so the result has up to 40 % more points.
 const DROP_TOL_MANY: [f64; 2] = [1e-6, 1e-9];
 
 /// Whether a program has few or many blocks. This decides how it is scaled and solved.
@@ -263,7 +263,7 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
     reduced_columns.expand_optimum(&whole.columns, solved)
 }
 
-/// Stages 2 to 4: chooses the balance that is shown, among all balances of least adhesion.
+/// Stages 2 to 4: chooses one balance among all balances of least adhesion.
 ///
 /// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least force
 /// decreases by a tenth while the adhesion increases by only a millionth. In this case, the balance of stage 1 is
@@ -375,8 +375,8 @@ fn solve_stage(
     }
 }
 
-/// Stage 3: reduces the face to few points with adhesion. `None` if the columns of a program of many blocks have no
-/// balance.
+/// Stage 3: reduces the face to few points with adhesion. `None` if the program has many blocks and the
+/// remaining columns cannot balance the loads.
 fn concentrate(
     face: &Face,
     drop_tolerance: f64,

@@ -13,7 +13,7 @@ const SMALL_ADHESION: f64 = 1e-3;
 
 /// A least sum of adhesion below this fraction of the largest load counts as 0: it is the rounding of the loads.
 ///
-/// A push on a heavy stone without friction may be missing although it is far below the solver's tolerance.
+/// A push on a heavy stone without friction needs adhesion, even if the push is far below the solver's tolerance.
 const ZERO_ADHESION: f64 = 1e-15;
 
 /// [`ZERO_ADHESION`] for many blocks, where a refinement takes long: the solver's tolerance.
@@ -76,8 +76,7 @@ pub(super) fn precise_optimum(
     }
 }
 
-/// Chooses the balance that is shown among all balances of least adhesion: least force, then fewest points with
-/// adhesion.
+/// Chooses one balance among all balances of least adhesion: least force, then fewest points with adhesion.
 ///
 /// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
 pub(super) fn least_force_optimum(

@@ -1,4 +1,4 @@
-//! Two linear programs that decide components near the limit of stability, where the program of least force fails: any
+//! Two linear programs for components near the limit of stability, where the program of least force fails: any
 //! balance, and least residual.
 //!
 //! Near that limit the program of least force ends without a status: just before the limit its optimum grows without

@@ -1,7 +1,7 @@
 //! Refines the optimum of a linear program until it is accurate relative to the load of each body.
 //!
-//! An interior-point method balances every body to about 10⁻⁹ of the heaviest load. For a body that is a billion times
-//! lighter, this is no balance at all. Iterative refinement of linear programs
+//! An interior-point method balances every body to about 10⁻⁹ of the heaviest load. For a body that is a billion
+//! times lighter, this residual is as large as the load. Iterative refinement of linear programs
 //! ([GleixnerSteffyWolter16](crate::doc::references)) solves the program again for its residual, level by level. Each
 //! level has the size of the residual of the previous level:
 //!
@@ -13,8 +13,8 @@
 //!    multipliers correct the velocities.
 //! 4. Clean-up: a column whose slack exceeds its amount is set exactly to its bound.
 //!
-//! The velocities of a light body are not accurate until a level has the size of its load. Each level gains about six
-//! digits.
+//! The velocities of a light body are not accurate until a level has the size of its load. Each level adds about six
+//! correct digits.
 
 use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,

@@ -1,10 +1,10 @@
-//! Limit analysis: computes the largest load factor, or the smallest force or torque limit of a robot that suffices.
-//! Each takes one linear program.
+//! Limit analysis: computes the largest load factor, the load factor nearest to 0, or the least force or torque limit
+//! of a robot with which the loads can be balanced. Each is the optimum of one linear program.
 //!
 //! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
 //! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier
 //! of this row. The velocities are the collapse mechanism at the limit. The least sufficient limit of a robot is the
-//! least amount of its own component if all other forces have no cost. Reference:
+//! least amount of the limited component if all other forces have no cost. Reference:
 //! [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
@@ -33,9 +33,11 @@ pub enum Limit {
 pub struct ExtremeValue {
     /// The extreme value.
     pub limit: Limit,
-    /// Forces that balance the loads at the extreme value.
+    /// Forces that balance the loads at the extreme value; `None` if `limit` is not [`Limit::At`].
     pub forces: Option<Amounts>,
-    /// The collapse mechanism just beyond it: three velocities for each block.
+    /// Three velocities for each block. With [`Limit::At`], they are the collapse mechanism just beyond the extreme
+    /// value. With [`Limit::Infeasible`], they are a motion along which the loads do work for every load factor;
+    /// `None` if it was not computed.
     pub motion: Option<Vec<f64>>,
 }
 
@@ -49,15 +51,15 @@ impl From<Limit> for ExtremeValue {
     }
 }
 
-/// From this number of blocks, the finest of [`TOLERANCES`] is not tried: with it, a wall of 410 bricks ends without a
-/// status.
+/// From this number of blocks on, the finest of [`TOLERANCES`] is not tried: with it, a wall of 410 bricks ends
+/// without a status.
 const MANY_BLOCKS: usize = 200;
 
 /// The right-hand side of directionᵀy ≥ 1 for many blocks: it scales the velocities.
 ///
-/// With 1, the velocities of a wall of 915 bricks are about a thousandth: its limit takes 97 iterations with full
-/// conditioning and is accurate to 10⁻⁶. With 1 000 it takes 38 iterations with plain conditioning and is accurate to
-/// 10⁻⁷.
+/// With 1, the velocities of a wall of 915 bricks are about 0.001. Its limit then takes 97 iterations with full
+/// conditioning and is accurate to 10⁻⁶. With 1 000, the limit takes 38 iterations with plain conditioning and is
+/// accurate to 10⁻⁷.
 const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 
 /// The tolerances that are tried in turn until the solver ends with a status.
@@ -86,7 +88,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// Returns how many of the last rows of the program have multipliers that give λ.
+    /// Returns the number of rows at the end of the program whose multipliers determine λ.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,

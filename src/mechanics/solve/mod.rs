@@ -2,8 +2,8 @@
 //! it falls.
 //!
 //! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts:
-//! [`crate::proof`] checks the forces and the motion and decides. Among several optima, the one of least Σ force² is
-//! shown.
+//! [`crate::proof`] checks the forces and the motion and decides. Of several optima, the one of least Σ force² is
+//! chosen by default ([`Choice::Unique`]).
 //!
 //! | files | what they do |
 //! |---|---|

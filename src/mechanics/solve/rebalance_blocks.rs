@@ -1,12 +1,13 @@
 //! Changes the forces of a solver slightly until every block is balanced relative to the forces on that block.
 //!
-//! A solver balances every block to a billionth of the heaviest load. This is accurate for a wall, but it can exceed
-//! the weight of a pebble in it. Two programs correct the forces by iterative refinement:
+//! A solver balances every block to a billionth of the heaviest load. For a wall as a whole, this is accurate. For
+//! a pebble in the wall, however, the error can exceed its weight. Two programs correct the forces by iterative
+//! refinement:
 //!
 //! - [`rebalance_relative`]: the residual of each block is measured relative to the forces on it, and the change of
 //!   each ray of a friction cone relative to its amount. The least change is the solution of a linear system.
-//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. It is used for a
-//!   part of a structure in its own scale; the forces on it from outside do not change.
+//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. It is used for
+//!   a part of a structure that is scaled separately. The forces on this part from outside do not change.
 //!
 //! Residuals are small differences of large forces, so they are summed with twice the digits of f64. Reference: Higham,
 //! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
@@ -18,7 +19,7 @@ use crate::program::{
     Column, Correction, Force, Program, QuadraticProgram, columns, least_squares,
 };
 
-/// The largest number of rounds. Each round gains the digits of the solver.
+/// The largest number of rounds. Each round adds about as many correct digits as the solver reaches.
 const MAX_ROUNDS: usize = 4;
 
 /// The weight of the remaining residual of a block, compared with the relative changes of forces (a quadratic penalty).
@@ -97,7 +98,7 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
             normal,
             friction,
         } => {
-            // `friction_use` is s with the sign of T: the share of the friction limit that is used.
+            // `friction_use` is s with the sign of T: the fraction of the friction limit that is used.
             let pressed = amounts.normal[contact][point];
             let mu = program.contacts[contact].friction;
             let [first, second] = amounts.normal[contact];
@@ -213,7 +214,7 @@ pub fn rebalance_relative(
         }
         let next = apply(&best, &list, &changes);
         let (after, total) = block_residuals(program, &next);
-        // Convergence test: the sum of the digits of all blocks must increase. Some blocks may have no balance at all.
+        // Convergence test: the sum of the digits of all blocks must increase. Some blocks may have no balance.
         if balanced_digits(&after, &row_scales(program, &total))
             < balanced_digits(&residual, &scales) + MIN_DIGITS_GAINED
         {

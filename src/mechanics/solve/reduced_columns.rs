@@ -1,8 +1,9 @@
-//! [`ReducedColumns`]: the columns of a program, without the pure normal forces that are sums of two rays of a friction cone.
+//! [`ReducedColumns`]: the columns of a program, without the pure normal forces that are sums of two rays of a
+//! friction cone.
 //!
-//! If admissible forces have no cost, a pure normal force is redundant. It is half the sum of the two rays of its
-//! friction cone times 1 + μ. The rays are (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Omitting these columns
-//! removes a third of the rows.
+//! If admissible forces have no cost, a pure normal force is redundant. It is (1 + μ)/2 times the sum of the two rays
+//! of its friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Without the redundant columns, the dual has a
+//! third fewer rows.
 
 use super::Dual;
 use crate::program::{Column, Force};

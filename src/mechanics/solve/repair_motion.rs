@@ -1,12 +1,13 @@
-//! Removes a solver's error from a motion. In the corrected motion, every contact opens a little or stays closed to
-//! rounding.
+//! Removes a solver's error from a motion. In the corrected motion, every contact opens a little or stays closed up
+//! to rounding errors.
 //!
-//! A motion from an interior-point method violates contacts by a billionth of its speed. Forces of a billion times the
-//! loads could exploit that. The method is iterative refinement: each round scales the violations to size 1 and finds
-//! the shortest change that removes them, by a quadratic program. This gains the nine digits of the solver. If nothing
-//! is wedged, all contacts can open at once, and the change opens each by [`EXTRA_OPENING`], so that rounding closes
-//! none. Otherwise, contacts that cannot open stay closed to rounding. Reference: Higham, Accuracy and Stability of
-//! Numerical Algorithms, 2002, chapter 12 (iterative refinement).
+//! A motion from an interior-point method violates contacts by about a billionth of its speed. Contact forces of a
+//! billion times the loads could then oppose it. The method is iterative refinement: each round scales the violations
+//! to size 1 and finds the shortest change that removes them, by a quadratic program. Each round adds about nine
+//! correct digits. If nothing is wedged, all contacts can open at once, and the change opens each by
+//! [`EXTRA_OPENING`], so that rounding closes none. Otherwise, contacts that cannot open stay closed up to rounding
+//! errors. Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative
+//! refinement).
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
 use crate::program::{Column, Force, Program, columns, least_change};

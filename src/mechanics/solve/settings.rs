@@ -28,7 +28,7 @@ pub struct SolverSettings {
 ///
 /// If the optimum is strictly complementary, two to eleven iterations beyond the tolerance bring the slack of basic
 /// columns close to 0. If it is not, as in walls near their limit, no number of iterations does; stopping early then
-/// saves about ten.
+/// saves about ten iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossoverTolerance {
     /// The method stops at this fraction of the tolerance, if it reaches it.
@@ -57,7 +57,7 @@ pub(super) struct StoppingCriteria {
 pub enum Choice {
     /// Any of them: the one at which the interior-point method ends. This is sufficient for a verdict.
     Any,
-    /// The one of least Σ force², which does not depend on the order of the file.
+    /// The one of least Σ force², which does not depend on the order of the blocks in the file.
     Unique,
 }
 

@@ -1,9 +1,9 @@
 //! The single entry point to the solvers: takes a [`QuadraticProgram`] and returns an [`Answer`].
 //!
 //! Linear programs of many blocks are first solved on the normal equations ([`super::normal`]), all others by
-//! clarabel. If a chain ends there without a status, clarabel solves it at once; other programs only if the caller
-//! tries again with full conditioning. Data with NaN are rejected here, because the solvers would report them as
-//! solved.
+//! clarabel. If a chain of blocks, such as an arch, ends there without a status, clarabel solves it at once. Other
+//! programs are solved by clarabel only if the caller tries again with full conditioning. Data with NaN are rejected
+//! here, because the solvers would report them as solved.
 
 use super::answer::{Answer, is_finite};
 use super::clarabel_solver::by_clarabel;

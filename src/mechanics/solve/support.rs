@@ -1,9 +1,10 @@
 //! Computes the largest force that a grip without limits can exert in a direction while all blocks stay balanced, by
 //! one linear program.
 //!
-//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip. The dual is kinematic: max loadsᵀy s.t.
-//! columnᵀy ≤ 0, and the grip point moves along −y with the velocity d. The multipliers of the rows of this last
-//! condition are F. The velocities are the mechanism by which the structure fails under a larger force.
+//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip and d the direction. The dual is kinematic:
+//! max loadsᵀy s.t. columnᵀy ≤ 0, and in the motion −y the grip point has the velocity d. The multipliers of the
+//! condition on the grip point are F. The motion −y is the mechanism by which the structure fails under a larger
+//! force.
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};

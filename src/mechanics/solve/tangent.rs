@@ -2,10 +2,10 @@
 //!
 //! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|. It is 0 if the structure stands and above
 //! 0 if it falls. A *sibling* of the program has another friction coefficient or other application points. To first
-//! order, the V of a sibling is V plus a difference of works. It is the work of the contact forces along the motion
-//! in this program, minus their work in the sibling. The forces are the normal forces with full friction. This
-//! estimate is linear in the friction coefficient and in the kernel, so its zero is the next value to try: Newton's
-//! method on V. Reference: Nocedal and Wright, Numerical Optimization, 2006, section 12.8 (multipliers and
+//! order, the V of a sibling is V plus a difference of works. This difference is the work of the contact forces along
+//! y in this program, minus their work along y in the sibling. The forces are the normal forces with full friction.
+//! This estimate is linear in the friction coefficient and in the kernel, so its zero is the next value to try:
+//! Newton's method on V. Reference: Nocedal and Wright, Numerical Optimization, 2006, section 12.8 (multipliers and
 //! sensitivity).
 
 use super::dual::amounts_of_rows;

@@ -14,7 +14,7 @@ use crate::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 
 /// Coordinates across the plane that differ by less than this share of the largest coordinate are equal.
 const EQUAL_COORDINATE_TOL: f64 = 1e-6;
-/// Corners of both ends of a prism are compared with this many steps per unit.
+/// Coordinates are rounded to this many steps per unit of length before the two ends of a prism are compared.
 const STEPS_PER_UNIT: f64 = 1e6;
 
 /// A plane: its name, and the axes to the right, up and across.
@@ -102,7 +102,9 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         scene.thickness = Some(thick);
     }
     let notes = vec![
-        format!("the section of all blocks in the plane {plane}; a unit of length is {metres} m"),
+        format!(
+            "the blocks are imported as sections in the plane {plane}; a unit of length is {metres} m"
+        ),
         format!("the blocks are {thick} m thick across the plane"),
     ];
     Ok((scene, notes))
@@ -240,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_section_of_prisms_is_taken() {
+    fn prisms_are_imported_as_their_sections() {
         let (scene, _) =
             read(&assembly(block(0.25, 1.0, 0.0)), &Options::default()).expect("prisms");
         assert_eq!((scene.blocks.len(), scene.ground.len()), (1, 1));
@@ -254,8 +256,8 @@ mod tests {
 
     #[test]
     fn a_block_that_is_not_a_prism_is_reported_by_name() {
-        let problems =
-            read(&assembly(block(0.0, 1.0, 0.3)), &Options::default()).expect_err("leans");
+        let problems = read(&assembly(block(0.0, 1.0, 0.3)), &Options::default())
+            .expect_err("a block that is not a prism");
         assert!(
             problems[0].message.contains("block 1 is not a prism"),
             "{problems:?}"

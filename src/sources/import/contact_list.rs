@@ -11,7 +11,8 @@ use crate::scene::format::{BlockEntry, ContactEntry, SceneFile};
 
 /// Directions larger than this, in radians, are most likely degrees.
 const MAX_DIRECTION: f64 = 7.0;
-/// A direction within this many degrees of a multiple of 15° was meant to be that multiple: π is often written as 3.1416.
+/// A direction within this many degrees of a multiple of 15° is replaced by that multiple: π is often written as
+/// 3.1416.
 const SNAP_DEGREES: f64 = 0.01;
 
 /// One body or contact, with a description of its place in the file.
@@ -133,8 +134,9 @@ fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     let (mut rows, mut problems) = (Vec::new(), Vec::new());
     for (number, line) in text.lines().enumerate() {
         let line = line.split(['#', '%']).next().unwrap_or("");
-        let is_gap = |c: char| matches!(c, ',' | ';' | '[' | ']' | '"') || c.is_whitespace();
-        let cells: Vec<&str> = line.split(is_gap).filter(|cell| !cell.is_empty()).collect();
+        let is_separator = |c: char| matches!(c, ',' | ';' | '[' | ']' | '"') || c.is_whitespace();
+        let cells = line.split(is_separator).filter(|cell| !cell.is_empty());
+        let cells: Vec<&str> = cells.collect();
         let labelled = cells.first().is_some_and(|cell| {
             let word = cell.trim_end_matches(':').to_lowercase();
             matches!(word.as_str(), "body" | "contact")
@@ -242,8 +244,8 @@ mod tests {
             "contacts": [[1, 2, 60, 60, 3.14159265, 0.5], { "i": 1, "j": 0, "x": 0, "y": 0, "normal": 1.5707963, "mu": 0.1 },
                 { "bodies": [2, 0], "at": [60, 0], "theta": 1.5707963, "friction": 0.5 }, [2, 0, 72, 0, 1.5707963, 0.5]] }"#;
         let options = Options::default();
-        let (first, _) = read(rows, &options).expect("read");
-        let (second, _) = read(json, &options).expect("read");
+        let (first, _) = read(rows, &options).expect("a contact list");
+        let (second, _) = read(json, &options).expect("a contact list");
         assert_eq!(first, second);
         assert_eq!((first.blocks.len(), first.contacts.len()), (2, 4));
         assert_eq!(first.contacts[0].normal, 180.0);
@@ -251,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_rows_are_named() {
+    fn wrong_rows_are_reported_with_their_lines() {
         let text = "25 35 2\n1 2 60 60\n1 0 0 0 90 0.5\n1 7 0 0 0 0.5\n1 0 x 0 0 0.5";
         let problems = read(text, &Options::default()).expect_err("refused");
         let places: Vec<&str> = problems.iter().map(|p| p.element.as_str()).collect();

@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, Point};
 const MIN_ORIGIN_DISTANCE_RATIO: f64 = 20.0;
 /// A structure on the globe extends at most this many degrees, about 100 km.
 const MAX_EXTENT_DEGREES: f64 = 1.0;
-/// Collections are not nested deeper.
+/// The largest depth to which nested collections are searched for coordinates.
 const MAX_DEPTH: usize = 50;
 
 /// Returns a message if the coordinates are taken to be longitudes and latitudes in degrees; it says why, and what to
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn degrees_are_recognised_and_lengths_are_not() {
         let munich = "[11.5801, 48.1301], [11.5809, 48.1301], [11.5809, 48.1306]";
-        let why = says(munich, "").expect("degrees");
+        let why = says(munich, "").expect("a message about degrees");
         assert!(
             why.contains("11.5801 to 11.5809") && why.contains("--unit m"),
             "{why}"

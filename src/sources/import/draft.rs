@@ -60,7 +60,7 @@ pub(super) enum Role {
     Block,
     Ground,
     Robot,
-    /// It is left out: its name begins with `ignore` or `guide`.
+    /// The element is left out, because its name begins with `ignore` or `guide`.
     Ignored,
 }
 
@@ -73,8 +73,8 @@ pub(super) struct Values {
 }
 
 impl Role {
-    /// Returns the role of an element from the beginning of its name, in upper or lower case. `None` if the name gives
-    /// no role.
+    /// Returns the role of an element from the beginning of its name, in upper or lower case. `None` if no role
+    /// follows from the name.
     pub(super) fn from_name(name: &str) -> Option<Role> {
         let begins = |with: &str| {
             name.get(..with.len())
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_beginning_of_a_name_gives_the_role() {
+    fn the_role_follows_from_the_beginning_of_a_name() {
         for (name, kind) in [
             ("Ground", Some(Role::Ground)),
             ("robot-1", Some(Role::Robot)),

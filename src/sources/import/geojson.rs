@@ -269,7 +269,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn features_bring_their_names_kinds_and_values() {
+    fn the_names_kinds_and_values_of_features_are_read() {
         let text = r##"{ "type": "FeatureCollection", "features": [
             { "type": "Feature", "properties": { "name": "soil", "ground": true, "friction": 0.4 },
               "geometry": { "type": "Polygon", "coordinates": [[[0, 0, 7], [4, 0, 7], [4, -1, 7], [0, 0, 7]]] } },

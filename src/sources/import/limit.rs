@@ -10,11 +10,11 @@ use crate::geometry::snap::Corner;
 
 /// The largest number of outlines, copies included.
 pub(super) const MAX_BODIES: usize = 20_000;
-/// The largest number of pairs with overlapping bounding boxes: a constant, plus a number for each outline. The
-/// voussoirs of an arch overlap by their boxes with a few neighbours each.
+/// The largest number of pairs with overlapping bounding boxes: a constant, plus a number for each outline. In an
+/// arch, for example, the box of each voussoir overlaps those of a few neighbours.
 const MAX_PAIRS: usize = 100_000;
 const MAX_PAIRS_PER_BODY: usize = 10;
-/// The largest number of comparisons of a corner with an edge for the holes of one path.
+/// The largest number of comparisons of a corner with an edge in the search for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
 /// Returns a remark if a drawing has too many outlines, or too many outlines that overlap. `boxes` are the bounding
@@ -41,7 +41,8 @@ pub(super) fn too_many(count: usize) -> Remark {
         message: format!(
             "the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"
         ),
-        help: "import a part of it, or rename layers without blocks to ignore".into(),
+        help: "import a part of it, or give layers without blocks names that begin with ignore"
+            .into(),
     }
 }
 

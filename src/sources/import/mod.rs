@@ -2,7 +2,7 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, layers give the roles | `svg`, `dxf`, `geojson`, `wkt` |
+//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, roles follow from layers and names | `svg`, `dxf`, `geojson`, `wkt` |
 //! | 2. flatten curves into chords, and close open ends | `subpath` |
 //! | 3. find regions and their holes by the fill rule | `region` |
 //! | 4. refuse drawings with too many overlapping outlines | `limit` |
@@ -43,10 +43,11 @@ use naming::Naming;
 use outline::Outlines;
 use scale::Scale;
 
-/// The default for chords and gaps, relative to the size of the drawing: about a pixel on a screen. Nobody draws more
-/// accurately by hand.
+/// The default largest distance of a chord from its curve, and the default gap, as fractions of the size of the
+/// drawing. This is about a pixel on a screen; nobody draws more accurately by hand.
 const LENGTH_TOL: f64 = 1e-3;
-/// The default gap relative to the thinnest body. Both faces of a body may move, so the body keeps half its thickness.
+/// The largest default gap, as a fraction of the thickness of the thinnest body. Both faces of a body may move, so
+/// the body keeps half its thickness.
 const MAX_GAP_TO_THICKNESS: f64 = 0.25;
 
 /// The format of a drawing.
@@ -84,14 +85,14 @@ impl Format {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Metres per unit of the drawing. Default: the physical size of an SVG, the unit of a DXF (`$INSUNITS`), the scale of a figure
-    /// by this library, or 1.
+    /// Metres per unit of the drawing. Default: computed from the physical size of an SVG, from the unit of a DXF
+    /// (`$INSUNITS`) or from the scale of a figure by this library; 1 if the drawing states none of these.
     pub scale: Option<f64>,
     /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit that the
     /// drawing states; a drawing that states no unit needs `scale` too.
     pub ratio: Option<f64>,
-    /// Names of further layers and elements that are ground; names that begin with `ground` always are. Upper and
-    /// lower case are equal.
+    /// Names of additional layers and elements that are ground, in upper or lower case. Layers and elements whose
+    /// names begin with `ground` are always ground.
     pub ground_layers: Vec<String>,
     /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
@@ -100,13 +101,14 @@ pub struct Options {
     pub gap: Option<f64>,
     /// The frame to import from a figure by this library, counted from 0. Default: the last.
     pub frame: Option<usize>,
-    /// Friction, kernel, density, thickness and gravity of the scene. The other keys are overwritten.
+    /// Title, friction, kernel, density, thickness and gravity of the scene. For drawings, the other keys have no
+    /// effect.
     pub scene: SceneFile,
 }
 
 impl Options {
     setters! {
-        scene: SceneFile, "Friction, kernel, density, thickness and gravity of the scene.";
+        scene: SceneFile, "Title, friction, kernel, density, thickness and gravity of the scene.";
         ground_layers: Vec<String>, "Names of layers and elements that are ground.";
     }
 
@@ -162,12 +164,13 @@ pub struct DrawingProblems {
 /// Imports a drawing.
 ///
 /// # Units
-/// The scene is in metres with y up. The y axis of an SVG points down and is flipped. The lower left corner of the page
-/// becomes the origin.
+/// The scene is in metres with y up. The y axis of an SVG points down and is flipped, and the lower left corner of
+/// its page becomes the origin.
 ///
 /// # Errors
-/// Returns an error if an option is not valid, if the text does not have the format, if no element is a block, if
-/// blocks overlap, or if [`Scene::from_json`] reports another problem.
+/// Returns an error if an option is not valid, if the text is not in this format, if no element is a block, if too many
+/// outlines overlap, if blocks still overlap after nearby edges were snapped together, or if [`Scene::from_json`]
+/// reports another problem.
 ///
 /// # Example
 /// ```

@@ -32,10 +32,10 @@ const GROUND_WORDS: [&str; 21] = [
 /// The largest number of names that are kept for messages.
 const MAX_KEPT_NAMES: usize = 1000;
 
-/// The rules that give roles to elements by their names.
+/// The rules that determine the roles of elements from their names.
 #[derive(Debug, Default)]
 pub(super) struct Naming<'o> {
-    /// Names of layers and elements that are ground by an option.
+    /// Names of layers and elements that an option declares as ground.
     pub(super) ground: &'o [String],
     /// Whether a name such as "abutment" makes an element ground.
     pub(super) guess: bool,
@@ -53,7 +53,7 @@ impl<'o> Naming<'o> {
         }
     }
 
-    /// Returns the role of an element with this name. `None` if the name gives no role.
+    /// Returns the role of an element with this name. `None` if no role follows from the name.
     pub(super) fn role(&self, name: &str) -> Option<Role> {
         let name = name.trim();
         keep(&self.seen, name);

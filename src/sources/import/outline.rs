@@ -174,7 +174,8 @@ impl Outlines {
                 .and_then(|i| self.robots.get(i))
                 .map(|r| r.element.clone())
         };
-        // The user does not know the numbers of the ground, so `ground[2]` is replaced by the name of its element.
+        // The user does not know the numbers of the ground's parts, so replace `ground[2]` by the name of its
+        // element.
         let mut message = String::new();
         let mut segments = problem.message.split("ground[");
         message.extend(segments.next());
@@ -216,7 +217,8 @@ fn closed_rings(
             (open, all) if open == all => format!("all {open} of its outlines are open; left out"),
             (open, all) => format!("{open} of its {all} outlines are open; these are left out"),
         };
-        let help = "close it, or rename its layer to ignore if it is not a block";
+        let help =
+            "close it; if it is not a block, give it or its layer a name that begins with ignore";
         draft.remark(&part.element, message, help);
     } else if rings.is_empty() {
         draft.remark(&part.element, "it has no outline; left out", "");
@@ -242,7 +244,7 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
         }
         Some(PolygonError::HoleOutside { .. }) => (
             "its holes overlap or lie outside it; left out".into(),
-            "draw them apart",
+            "draw the holes inside the outline and apart from each other",
         ),
         _ => (
             "it encloses no area; left out".into(),

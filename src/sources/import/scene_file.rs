@@ -10,8 +10,8 @@ use crate::scene::format::{
     BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
 };
 
-/// Coordinates are rounded to this, relative to the size of the drawing. The contact tolerance of a scene is about a thousand
-/// times larger, so rounding opens no contact.
+/// The step to which coordinates are rounded, as a fraction of the size of the drawing. The contact tolerance of a
+/// scene is about a thousand times larger, so rounding does not separate bodies that touch.
 const COORDINATE_STEP: f64 = 1e-9;
 
 /// Returns the scene file of the outlines. `size` is the size of the drawing in metres, to which the rounding of
@@ -157,7 +157,7 @@ fn rounded(text: String) -> String {
     text.parse::<f64>().map_or(text, |x| x.to_string())
 }
 
-/// Rounds coordinates to a power of ten.
+/// Rounds coordinates to multiples of a power of ten.
 struct Rounding {
     /// Coordinates times this factor are whole numbers; 0 for no rounding.
     factor: f64,
@@ -201,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_lose_rounding_errors_only() {
+    fn rounding_removes_only_rounding_errors() {
         let round = Rounding::new(3.7e-9);
         assert_eq!(round.number(0.1 + 0.2), 0.3);
         assert_eq!(round.number(-1e-12).to_bits(), 0);

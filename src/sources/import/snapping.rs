@@ -7,7 +7,7 @@ use super::outline::Outlines;
 use crate::geometry::snap::{self, Rings};
 use crate::geometry::{Bounds, Tolerance};
 
-/// If there are more bodies than this, they share one remark.
+/// If more bodies than this are left as drawn, they share one remark.
 const MAX_LISTED_BODIES: usize = 12;
 
 impl Outlines {

@@ -4,10 +4,10 @@
 ///
 /// # Sources
 /// Density: EN 1991-1-1:2002, table A.1 (concrete) and A.2 (natural stone), the middle of the range in kN/m³ divided
-/// by 9.81 m/s². Friction: the lower end of the dry range of the basic friction angle of sawn rock surfaces in Barton
-/// and Choubey, "The shear strength of rock joints in theory and practice", Rock Mechanics 10 (1977), pages 1 to 54;
-/// for concrete the smooth joint of EN 1992-1-1:2004, 6.2.5. Stones differ: measure density and friction if the
-/// result depends on them.
+/// by 9.81 m/s². Friction: the tangent of the basic friction angle of dry sawn rock surfaces, at the lower end of its
+/// range, in Barton and Choubey, "The shear strength of rock joints in theory and practice", Rock Mechanics 10
+/// (1977), pages 1 to 54; for concrete the smooth joint of EN 1992-1-1:2004, 6.2.5. Stones differ: measure density
+/// and friction if the result depends on them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stone {
@@ -84,7 +84,7 @@ mod tests {
             ("limestone", 20.0, 29.0, 31.0),
             ("sandstone", 21.0, 27.0, 26.0),
         ] {
-            let stone = Stone::from_name(name).expect("known");
+            let stone = Stone::from_name(name).expect("a known material");
             let density = 500.0 * (low + high) / 9.81;
             assert!((stone.density - density).abs() < 6.0, "{name} {density}");
             let friction = libm::tan(f64::to_radians(angle));

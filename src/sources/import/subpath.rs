@@ -1,7 +1,7 @@
 //! [`Subpath`]: a connected sequence of lines and curves, which can be flattened into corners.
 //!
 //! A curve is divided into equal steps of its parameter. The number of steps follows from a bound on the distance
-//! between chord and curve. Adaptive subdivision would need fewer steps. Equal steps give the same corners if the
+//! between chord and curve. Adaptive subdivision would need fewer steps, but equal steps give the same corners if the
 //! curve is drawn in the other direction, as in the outline of the neighbouring block. The two blocks therefore touch
 //! along the whole curve.
 
@@ -19,7 +19,7 @@ const MAX_CHORDS: f64 = 4096.0;
 pub(super) struct Subpath {
     pub(super) start: Point,
     pub(super) segments: Vec<Segment>,
-    /// Whether it ends at its start.
+    /// Whether the subpath is closed. A straight line then joins its end to its start if these are different points.
     pub(super) closed: bool,
 }
 
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_curve_backwards_has_the_same_corners() {
+    fn a_reversed_curve_has_the_same_corners() {
         let p = [(0.0, 0.0), (1.0, 3.0), (4.0, 3.5), (6.0, -1.0)].map(|p| Point::new(p.0, p.1));
         let there = Segment::Cubic(p[1], p[2], p[3]).inner(p[0], 0.01);
         let mut back = Segment::Cubic(p[2], p[1], p[0]).inner(p[3], 0.01);

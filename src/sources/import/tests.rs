@@ -26,13 +26,13 @@ fn ids(imported: &Imported) -> Vec<&str> {
 }
 
 fn bounds(imported: &Imported, block: usize) -> [f64; 4] {
-    let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
+    let scene = Scene::from_json(&imported.scene.to_json()).expect("a valid scene");
     let b = scene.blocks[block].body.polygon.bounds();
     [b.min.x, b.min.y, b.max.x, b.max.y]
 }
 
 #[test]
-fn layers_and_names_give_the_role_of_each_element() {
+fn the_role_of_an_element_follows_from_its_layer_and_name() {
     let imported = taken(
         "<g id='Ground_layer'><rect y='9' width='20' height='1' fill='#777'/></g>
          <g inkscape:groupmode='layer' inkscape:label='Blocks'>
@@ -154,7 +154,7 @@ fn overlapping_blocks_are_refused_with_their_elements() {
         Format::Svg,
         &Options::default(),
     )
-    .expect_err("they overlap");
+    .expect_err("overlapping blocks");
     assert_eq!(refusal.problems.len(), 1);
     assert_eq!(refusal.problems[0].element, "rect \"a\"");
     assert!(
@@ -187,7 +187,7 @@ fn an_empty_drawing_and_wrong_options_are_refused() {
     };
     assert_eq!(
         import("", Format::Wkt, &options)
-            .expect_err("wrong")
+            .expect_err("invalid options")
             .problems
             .len(),
         3
@@ -238,11 +238,11 @@ fn the_common_curve_of_two_neighbours_has_no_gaps() {
          <path id='cradle' d='M3 9V4H4A4 4 0 0 0 12 4H13V9Z'/>
          <path id='bowl' d='M4 4A4 4 0 0 0 9 7.873A4 4 0 0 0 12 4Z'/>",
     );
-    let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
+    let scene = Scene::from_json(&imported.scene.to_json()).expect("a valid scene");
     let area: f64 = scene.blocks.iter().map(|b| b.body.polygon.area()).sum();
     assert!(
         (area - 50.0).abs() < 1e-6,
-        "they fill the box between them: {area}"
+        "together they fill a box: {area}"
     );
     let bowl = scene.blocks[1].body.polygon.bounds();
     assert!((bowl.min - Point::new(4.0, 2.0)).norm() < 0.02, "{bowl:?}");

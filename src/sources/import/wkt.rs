@@ -93,7 +93,7 @@ fn named(line: &str) -> (&str, &str) {
 struct Reader<'t> {
     rest: &'t str,
     scale: f64,
-    /// Whether points are allowed: only as grip points of robots.
+    /// Whether points are allowed. They are allowed only as grip points of robots.
     robot: bool,
     geometries: Vec<PartGeometry>,
 }
@@ -243,7 +243,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_named_geometries() {
+    fn each_line_is_a_geometry_with_an_optional_name() {
         let text = "# a comment\nground; POLYGON((0 0, 4 0, 4 -1, 0 0))\n\
             a\tMULTIPOLYGON (((0 0,1 0,0 1,0 0)), ((5 0,6 0,5 1),(5.1 0.1,5.2 0.1,5.1 0.2)))\n\
             SRID=25832;polygon z ((0 0 1, 1e0 0 1, 0 +1 1))\n\

@@ -5,8 +5,8 @@ use crate::scene::format::{Pair, SceneFile};
 
 /// A semicircular arch of equal voussoirs on level ground.
 ///
-/// A thin arch falls. With sufficient friction and many voussoirs, its thickness must be at least 0.1075 times the
-/// radius of its centre line.
+/// A thin arch falls. With sufficient friction and many voussoirs, an arch stands if its thickness is at least 0.1075
+/// times the radius of its centre line.
 ///
 /// # Example
 /// ```

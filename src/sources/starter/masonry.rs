@@ -1,4 +1,4 @@
-//! [`Wall`], [`Tower`] and [`Doorway`]: blocks with level joints.
+//! [`Wall`], [`Tower`] and [`Doorway`]: structures of blocks with horizontal joints.
 
 use super::{STONE_DENSITY, block, floor, rectangle, rounded};
 use crate::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
@@ -76,7 +76,7 @@ impl Wall {
     }
 }
 
-/// A stack of blocks, each shifted to the right relative to the one below.
+/// A stack of blocks, each shifted to the right relative to the block below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tower {
     /// The number of blocks.
@@ -85,7 +85,8 @@ pub struct Tower {
     pub width: f64,
     /// Height of a block, metres.
     pub height: f64,
-    /// The shift of each block to the right relative to the one below, in metres; it stands up to the width divided by the number of blocks.
+    /// The shift of each block to the right relative to the block below, in metres. The tower stands if the shift is
+    /// at most the width divided by the number of blocks.
     pub lean: f64,
     /// Friction coefficient.
     pub friction: f64,
@@ -163,7 +164,7 @@ pub struct Doorway {
 }
 
 impl Default for Doorway {
-    /// Returns a doorway 1 m wide and 2 m high. Each jamb has 4 blocks. Every step stands.
+    /// Returns a doorway 1 m wide and 2 m high. Each jamb has 4 blocks. The structure stands after every step.
     fn default() -> Doorway {
         Doorway {
             courses: 4,

@@ -1,7 +1,7 @@
 //! Generates the scene files of common structures from their dimensions and numbers of blocks.
 //!
-//! They are starting points for users (`drystone new arch`), benchmarks and tests. Blocks that touch share their rounded
-//! corners, so rounding opens no joint. Lengths are in metres, x points right, y up.
+//! They are starting points for users (`drystone new arch`), benchmarks and tests. Blocks that touch share their
+//! rounded corners, so rounding does not open any joint. Lengths are in metres, x points right, y up.
 
 mod arch;
 mod lattice;
@@ -13,8 +13,8 @@ pub use masonry::{Doorway, Tower, Wall};
 
 use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 
-/// Coordinates have this many significant digits of the smallest length: enough for a person to read, and far below any
-/// joint.
+/// Coordinates are rounded to this many significant digits of the smallest length of the structure. The numbers are
+/// short, and the rounding error is far smaller than any block.
 const SIGNIFICANT_DIGITS: f64 = 4.0;
 
 /// Rounds a coordinate, in metres, to four significant digits of `least`, the smallest length of the structure in

@@ -1,9 +1,9 @@
-//! Tests of the lines through a few nodes, and of the nodes that are moved onto them.
+//! Tests of the lines through a few nodes, and of moving nodes onto these lines.
 
 use super::*;
 use crate::geometry::snap::{Corner, Gaps};
 
-/// Nodes for the corners of one body, which are never merged, however close they are.
+/// One node for each corner of one body. Corners of the same body are never merged, however close they are.
 fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
     let corner = |p: &[f64; 2]| Corner {
         at: Point::new(p[0], p[1]),
@@ -17,21 +17,21 @@ fn transposed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     places.iter().map(|[x, y]| [*y, *x]).collect()
 }
 
-/// Turned by 36.9° and moved.
+/// The points, rotated by 36.9° about the origin and then moved.
 fn tilted(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let turn = |[x, y]: &[f64; 2]| [0.8 * x - 0.6 * y + 3.0, 0.6 * x + 0.8 * y - 7.0];
     places.iter().map(turn).collect()
 }
 
-/// The kind of the line through all of these places. Each side is given by the numbers of its two ends.
+/// The kind of the line that is fitted to all points, as text. Each side is given by the numbers of its two ends.
 fn kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
     let nodes = nodes(places, gap);
     let line = Line::new(&nodes, (0..places.len()).collect(), sides)?;
     assert_eq!(line.nodes.len(), places.len());
     Some(match line.kind {
         LineKind::Side(ends) => format!("{ends:?}"),
-        LineKind::Level => "level".to_owned(),
-        LineKind::Upright => "upright".to_owned(),
+        LineKind::Horizontal => "horizontal".to_owned(),
+        LineKind::Vertical => "vertical".to_owned(),
         LineKind::Closest => "closest".to_owned(),
     })
 }
@@ -45,7 +45,7 @@ fn assert_kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str
 }
 
 #[test]
-fn the_longest_side_gives_the_line_if_all_nodes_lie_along_it() {
+fn the_line_runs_along_the_longest_side_if_all_nodes_lie_along_it() {
     // A side of length 4 that begins at x = 1, a shorter side near it, and a corner that is a quarter beyond either
     // end, or a quarter above or below.
     let at = |end: f64, off: f64| {
@@ -66,11 +66,11 @@ fn the_longest_side_gives_the_line_if_all_nodes_lie_along_it() {
     }
     for end in [0.5, 5.5] {
         let places = at(end, 0.0);
-        assert_kind(&places, 0.25, &sides, "level");
-        assert_kind(&transposed(&places), 0.25, &sides, "upright");
+        assert_kind(&places, 0.25, &sides, "horizontal");
+        assert_kind(&transposed(&places), 0.25, &sides, "vertical");
         assert_kind(&tilted(&places), 0.25, &sides, "closest");
     }
-    // Of two sides of equal length the first counts, whatever its direction.
+    // If two sides have the same length, the line runs along the first, whatever its direction.
     assert_kind(
         &[[0.0, 0.0], [4.0, 0.0], [0.0, 0.5], [4.0, 0.5]],
         0.5,
@@ -85,20 +85,21 @@ fn there_is_no_line_if_a_node_would_be_farther_away_than_its_gap() {
     let places = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0]];
     let sides = [[0, 2]];
     assert_eq!(kind(&places, 0.66, &sides), None);
-    assert_kind(&places, 0.67, &sides, "level");
+    assert_kind(&places, 0.67, &sides, "horizontal");
     let off = [[0.0, 0.0], [9.0, 0.0], [4.5, 1.0], [f64::NAN, 0.0]];
     assert_eq!(kind(&off, 0.67, &[[0, 1]]), None);
 }
 
 #[test]
-fn a_line_is_level_or_upright_if_the_scatter_of_its_corners_allows_this() {
-    // Four corners in a row of length 6 are off by ±1/64. With this scatter one end may be up to 1/32 higher.
+fn a_fitted_line_is_made_horizontal_or_vertical_within_the_scatter_of_its_corners() {
+    // Four corners in a row of length 6 are off by ±1/64. With this scatter, one end of the row may be up to 1/32
+    // higher than the other.
     let row = |rise: f64, off: f64| {
         let at = |k: usize, s: f64| [2.0 * k as f64, rise * (k as f64 / 3.0 - 0.5) + s * off];
         [at(0, 1.0), at(1, -1.0), at(2, -1.0), at(3, 1.0)]
     };
     let sides = [[1, 2]];
-    for (rise, off, level) in [
+    for (rise, off, horizontal) in [
         (0.0, 1.0 / 64.0, true),
         (0.03, 1.0 / 64.0, true),
         (-0.03, 1.0 / 64.0, true),
@@ -116,14 +117,14 @@ fn a_line_is_level_or_upright_if_the_scatter_of_its_corners_allows_this() {
                 &places,
                 1.0,
                 &sides,
-                if level { "level" } else { "closest" },
+                if horizontal { "horizontal" } else { "closest" },
             );
             let across = transposed(&places);
             assert_kind(
                 &across,
                 1.0,
                 &sides,
-                if level { "upright" } else { "closest" },
+                if horizontal { "vertical" } else { "closest" },
             );
         }
     }
@@ -214,16 +215,16 @@ fn a_step_leads_to_the_nearest_point_of_one_line_or_to_the_crossing_of_two() {
 
 #[test]
 fn a_step_towards_lines_without_a_common_point_leads_to_their_middle() {
-    // Two level lines and an upright line; then pairs of parallel lines.
-    let level = |y: f64| line([0.0, y], [0.0, 1.0]);
-    let upright = |x: f64| line([x, 0.0], [1.0, 0.0]);
+    // Two horizontal lines and a vertical line; then pairs of parallel lines.
+    let horizontal = |y: f64| line([0.0, y], [0.0, 1.0]);
+    let vertical = |x: f64| line([x, 0.0], [1.0, 0.0]);
     steps_to(
         [5.0, 9.0],
-        &[level(1.0), level(3.0), upright(-4.0)],
+        &[horizontal(1.0), horizontal(3.0), vertical(-4.0)],
         [-4.0, 2.0],
     );
-    steps_to([5.0, 9.0], &[level(1.0), level(3.0)], [5.0, 2.0]);
-    steps_to([5.0, 9.0], &[upright(1.0), upright(3.0)], [2.0, 9.0]);
+    steps_to([5.0, 9.0], &[horizontal(1.0), horizontal(3.0)], [5.0, 2.0]);
+    steps_to([5.0, 9.0], &[vertical(1.0), vertical(3.0)], [2.0, 9.0]);
     // x + y = 0 and x + y = 4 are equally far from x + y = 2.
     steps_to(
         [5.0, 1.0],
@@ -235,10 +236,10 @@ fn a_step_towards_lines_without_a_common_point_leads_to_their_middle() {
         &[line([0.0, 0.0], [1.0, -1.0]), line([2.0, 0.0], [1.0, -1.0])],
         [3.5, 2.5],
     );
-    // Two lines at a little more than a hundredth of a radian have a crossing, 98 m away. At a little less they count
-    // as parallel.
+    // If the angle of two lines is slightly more than 0.01 rad, the step leads to their crossing, 98 m away. If it is
+    // slightly less, the lines count as parallel.
     let crossing = |sine: f64| {
-        let lines = [level(0.0), line([0.0, 1.0], [-sine, 1.0])];
+        let lines = [horizontal(0.0), line([0.0, 1.0], [-sine, 1.0])];
         least_squares_step(Point::new(0.0, 0.0), lines.iter()).norm()
     };
     assert!((crossing(0.0102) * 0.0102 - 1.0).abs() < 1e-9);
@@ -280,7 +281,7 @@ fn sides_that_share_two_nodes_have_one_line() {
     assert_eq!(lines_of(&wide, &sides), [vec![0, 1, 3, 4], vec![1, 2, 3]]);
 }
 
-/// The places of the nodes after they have been moved onto the lines of the sides.
+/// The positions of the nodes after they have been moved onto the lines of the sides.
 fn settled(mut nodes: Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Point> {
     let on = sides
         .iter()
@@ -299,7 +300,8 @@ fn lie_at(found: &[Point], wanted: &[[f64; 2]]) {
 
 #[test]
 fn corners_move_to_their_line_or_to_the_crossing_of_two_lines() {
-    // A level joint and an upright joint, each along one side. The corner in both joints lies off both lines.
+    // A horizontal joint and a vertical joint, each along one side. The corner that belongs to both joints lies off
+    // both lines.
     let drawn = [
         [0.0, 0.0],
         [8.0, 0.0],

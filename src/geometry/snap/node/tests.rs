@@ -1,4 +1,4 @@
-//! Tests of which corners are merged into one node, and of the place of the node.
+//! Tests of which corners are merged into one node, and of the position of the node.
 
 use super::*;
 use crate::geometry::snap::Corner;
@@ -13,7 +13,7 @@ fn bodies(all: &[&[[f64; 2]]]) -> Vec<Rings> {
     all.iter().map(ring).collect()
 }
 
-/// One corner for each body, all on a line. Also returns the node of each corner.
+/// The nodes of bodies with one corner each, all at the same height. Also returns the number of each corner's node.
 fn along(places: &[f64], gaps: &[f64], kept: &[bool]) -> (Nodes, Vec<usize>) {
     let corners: Vec<[[f64; 2]; 1]> = places.iter().map(|x| [[*x, 7.0]]).collect();
     let all: Vec<&[[f64; 2]]> = corners.iter().map(|c| &c[..]).collect();
@@ -41,7 +41,11 @@ fn corners_are_merged_up_to_and_including_the_smaller_gap() {
         assert_eq!(nodes.all.len(), if one { 1 } else { 2 });
         assert_eq!(nodes.exact, !one);
         assert_eq!(nodes.all[0].gap, if one { 0.25 } else { gaps[0] });
-        assert_eq!(nodes.all[0].at, Point::new(1.0, 7.0), "the earlier stays");
+        assert_eq!(
+            nodes.all[0].at,
+            Point::new(1.0, 7.0),
+            "the earlier body stays"
+        );
     }
     // The distance counts in any direction.
     for [x, y] in [
@@ -86,8 +90,8 @@ fn all_corners_of_a_node_lie_within_the_gap_of_each_other() {
 
 #[test]
 fn of_pairs_at_the_same_distance_the_earlier_bodies_are_merged() {
-    // The distance is 5 from the third to the first and the second, and from the first to the fourth. The second and
-    // the fourth are 11 apart, the other pairs 8.9.
+    // The third corner is 5 away from the first and from the second; the fourth is 5 away from the first. The second
+    // and the fourth are 11 apart, the other pairs 8.9.
     let all = bodies(&[&[[5.0, 0.0]], &[[-3.0, 4.0]], &[[0.0, 0.0]], &[[8.0, 4.0]]]);
     let nodes = Nodes::new(&all, Gaps::new(&[9.0; 4]), &[false; 4]);
     assert_eq!(nodes.bodies(&nodes.all[0]), [0, 1, 2]);
@@ -116,7 +120,7 @@ fn other_corners_move_to_a_fixed_corner() {
     let (nodes, _) = along(&[0.0, 0.5], &[1.0; 2], &[true, false]);
     assert_eq!(nodes.all[0].at, Point::new(0.0, 7.0));
     assert!(!free(&[0.0, 0.5], &[1.0; 2]).0.all[0].fixed);
-    // Two fixed corners are merged only if their places are equal.
+    // Two fixed corners are merged only if their positions are equal.
     let (nodes, numbers) = along(&[0.0, 0.0, 0.5], &[1.0; 3], &[true; 3]);
     assert_eq!(numbers, [0, 0, 1]);
     assert!(nodes.exact && nodes.all.iter().all(|n| n.fixed));

@@ -21,8 +21,8 @@ fn the_area_of_an_anticlockwise_ring_is_positive() {
     assert_eq!(area(&[]), 0.0);
 }
 
-/// The nodes near the sides of the first body: the node's body, the side's first corner, the distance along the side,
-/// and the distance from it.
+/// The nodes near the sides of the first body. Each entry contains the node's body, the side's first corner, the
+/// distance along the side, and the distance from the side.
 fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, usize, f64, f64)> {
     let nodes = Nodes::new(bodies, Gaps::new(gaps), kept);
     let sides = sides(bodies, &nodes);
@@ -98,14 +98,14 @@ fn a_fixed_curve_gets_no_corners() {
 
 const NONE: [usize; 0] = [];
 
-/// Which of two bodies are damaged. An overlap of a millionth does not count.
+/// The numbers of the bodies that are damaged. An overlap may become deeper by a millionth of a metre.
 fn worse(before: [Rings; 2], after: [Rings; 2]) -> Vec<usize> {
     let wrong = damaged_bodies(&before, &after, &[0.001, 1.0], 0.001);
     wrong.into_iter().collect()
 }
 
 #[test]
-fn a_body_is_damaged_if_it_is_turned_over_or_loses_half_its_area() {
+fn a_body_is_damaged_if_its_ring_is_reversed_or_loses_half_its_area() {
     let far = || rectangle(9.0, 9.0, 1.0, 1.0);
     let to = |after: Rings| worse([rectangle(0.0, 0.0, 2.0, 2.0), far()], [after, far()]);
     assert_eq!(to(rectangle(0.0, 0.0, 2.0, 1.0)), [0]);
@@ -113,7 +113,7 @@ fn a_body_is_damaged_if_it_is_turned_over_or_loses_half_its_area() {
     assert_eq!(
         to(rectangle(0.0, 0.0, 3.0, 3.0)),
         NONE,
-        "larger is not worse"
+        "a larger body is not damaged"
     );
     assert_eq!(to(rectangle(0.0, 0.0, -2.0, 2.0)), [0]);
     let crossed = [
@@ -124,7 +124,7 @@ fn a_body_is_damaged_if_it_is_turned_over_or_loses_half_its_area() {
         (0.0, 3.0),
         (3.0, 1.0),
     ];
-    assert_eq!(to(ring(&crossed)), [0], "not an outline any more");
+    assert_eq!(to(ring(&crossed)), [0], "no longer an outline");
     // A body drawn clockwise is judged in the same way.
     let clockwise = |h: f64| rectangle(2.0, 0.0, -2.0, h);
     assert_eq!(

@@ -22,8 +22,9 @@ const MAX_STEP: f64 = 1.1;
 /// Two angles that differ by less than this, in radians, count as equal.
 const SAME_ANGLE: f64 = 1e-7;
 
-/// Where directions near the two outer directions are sampled, as shares of the interval of directions. The last vertices
-/// before an unbounded edge may be many times farther away than the others; only directions near the outer one find them.
+/// Where directions near the two outer directions are sampled, as fractions of the interval of directions. The last
+/// vertices before an unbounded edge may be many times farther away than the others; only directions near the outer
+/// one find them.
 const NEAR_OUTER: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
 /// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
@@ -68,8 +69,8 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First compute samples in the inner directions of the interval. Their forces give the size of the set: they may
-        // be far larger than the loads, most of all near the outer directions.
+        // First compute samples in the inner directions of the interval. Their forces determine the size of the set:
+        // they may be far larger than the loads, most of all near the outer directions.
         let count = ((to - from) / MAX_STEP).ceil().max(2.0);
         let inner = (1..count as usize).map(|k| k as f64 / count);
         let shares = NEAR_OUTER.into_iter().chain(inner);

@@ -33,7 +33,7 @@ pub struct LoadCapacity {
     pub block: BlockId,
     /// The point at which the force acts, metres. A free contact has two points; the force is then their resultant.
     pub at: Vec<Point>,
-    /// The robot whose force it is, if a robot holds the block at this point.
+    /// The robot that exerts the force; `None` if no robot holds the block at this point.
     pub robot: Option<RobotId>,
     /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
     pub vertices: Vec<CapacityVertex>,
@@ -44,7 +44,8 @@ pub struct LoadCapacity {
     pub edges: Vec<CapacityEdge>,
     /// A bound on the error, N: no force that the motions allow is farther than this from the set of proved forces.
     pub gap: f64,
-    /// How the frame begins to fall whatever the force is. Empty unless the set is empty and a motion proves it.
+    /// How the frame begins to fall whatever the force is. If each of several cases carries some forces, but none in
+    /// common, this is the motion of one edge of a case. Empty unless the set is empty and a motion proves this.
     pub mechanism: Vec<Motion>,
     /// The number of extreme cases in which each of these forces is carried; 1 if no range was given.
     pub cases: usize,
@@ -58,8 +59,8 @@ pub struct CapacityVertex {
     pub force: Vector,
     /// The torque of a free contact, N·m, about its first point; 0 if the force acts at one point.
     pub torque: f64,
-    /// The contact forces that balance the force of this vertex. Empty if several cases were intersected, because each
-    /// case has its own.
+    /// The contact forces that balance the force of this vertex. Empty if several cases were intersected, because the
+    /// contact forces differ between cases.
     pub contacts: Vec<VertexForce>,
     /// The proof by these forces; `None` if several cases were intersected.
     pub proof: Option<Proof>,

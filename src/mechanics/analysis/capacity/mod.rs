@@ -1,13 +1,13 @@
 //! Computes a [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the frame
 //! stands.
 //!
-//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
-//! unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]). One
-//! linear program computes the farthest force of the set in a given direction. It also gives contact forces that prove
-//! this force, and a motion that excludes every farther force. More directions are added until two polygons agree: that
-//! of the proved forces, and that of the half-planes of the motions ([`refine`]). If forces of any size are carried in
-//! some direction, the directions in which the set is unbounded are found first ([`cone`]). For several cases, the
-//! result is the intersection of their sets ([`cases`]).
+//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may
+//! be unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]).
+//! One linear program computes the farthest force of the set in a given direction. It also gives contact forces that
+//! prove this force, and a motion that excludes every farther force. More directions are added until two polygons
+//! agree: the convex hull of the proved forces, and the intersection of the half-planes of the motions ([`refine`]).
+//! If forces of any size are carried in some direction, the directions in which the set is unbounded are found first
+//! ([`cone`]). For several cases, the result is the intersection of their sets ([`cases`]).
 
 mod cases;
 mod cone;
@@ -54,7 +54,8 @@ impl Analysis {
     /// Computes the motion by which the frame falls under a force just beyond an edge of the capacity, as an elementary
     /// mechanism (see [`Analysis::elementary`]) for drawing. The list is empty if the frame or the edge does not exist.
     ///
-    /// The fastest point has speed 1.
+    /// The fastest point has speed 1. If the capacity belongs to several cases or to a free contact, the result is
+    /// the motion that proves the edge.
     pub fn edge_mechanism(
         &self,
         frame: usize,
@@ -179,7 +180,7 @@ fn capacity_of_assembly(
             own = Some((component, body));
             continue;
         }
-        // The component does not contain the block. It must stand by itself.
+        // The component does not contain the block. It must stand without the additional force.
         match decide_verdict(
             &component,
             LimitDistance::Unknown,

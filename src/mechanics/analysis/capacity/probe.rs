@@ -16,14 +16,14 @@ const SHARE_BEYOND_LIMIT: f64 = 4e-3;
 /// How far inside the limit a force is tried, relative to its size, if the farthest force itself has no proof.
 const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 
-/// The last of these distances, which is a tenth of the accuracy of the polygon.
+/// The last of these distances, which is half of the relative tolerance of the refinement.
 const MAX_SHARE_INSIDE: f64 = 1e-7;
 
-/// The farthest force and the half-plane of its motion agree if the force lies within this distance of its boundary,
-/// relative to its size. Otherwise the program is solved again with higher accuracy.
+/// The farthest force and the half-plane of its motion agree if the force lies within this distance of the boundary,
+/// relative to the size of the force. Otherwise the program is solved again with higher accuracy.
 const AGREES: f64 = 1e-7;
 
-/// A motion in which the point is slower than this gives no limit of the force. The fastest point of a motion has speed
+/// A motion in which the point is slower than this does not limit the force. The fastest point of a motion has speed
 /// 1.
 const MIN_SPEED: f64 = 1e-9;
 
@@ -35,6 +35,7 @@ pub(super) struct Probe {
     program: Program,
     body: usize,
     at: Point,
+    /// True if the force acts at two points. The probe then also exerts a torque without limit.
     has_torque: bool,
     /// True if forces and motions are proved. They are not proved for a cone of directions: a proof is relative to the
     /// forces on each body, and without loads most bodies have no force. The loaded component proves the edges and a
@@ -139,8 +140,8 @@ impl Probe {
         self.given.contacts[contact].interface
     }
 
-    /// Returns the carried force that is farthest in a unit direction (the support point of the set). With `reach`,
-    /// both components of the force are limited to this size, N.
+    /// Returns the carried force that is farthest in a unit direction (the support point of the set). `reach` limits
+    /// the magnitude of both components of the force, N; `None` if there is no limit.
     pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
         let mut program = self.program.clone();
         if let Some(most) = reach {

@@ -157,7 +157,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
     }
     let mut ring = hull(points);
     simplify(&mut ring, tolerance);
-    // Far points stand for the rays. Begin with the first corner after them.
+    // Far points represent the rays. Begin with the first corner after them.
     let is_far = |k: usize| ring[k % ring.len()].1.is_none();
     let first = (0..ring.len()).find(|k| is_far(*k) && !is_far(k + 1));
     let count = ring.len();
@@ -233,7 +233,7 @@ pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector
     in_half_plane(ring, |force| normal.dot(force) - limit)
 }
 
-/// Returns the four corners of a square around a force, anticlockwise. `half` is half its side.
+/// Returns the four corners of a square around a force, anticlockwise. `half` is half the length of a side.
 pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     let corner = |x: f64, y: f64| centre + Vector::new(x, y) * half;
     vec![

@@ -11,7 +11,7 @@ pub struct CapacityRequest {
     pub block: BlockId,
     /// The point at which the force acts.
     pub at: ForceAt,
-    /// The cases in each of which the forces must be carried.
+    /// The ranges of uncertain quantities. The forces must be carried at all values in these ranges.
     pub cases: Cases,
 }
 
@@ -19,14 +19,14 @@ pub struct CapacityRequest {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum ForceAt {
-    /// At the grip point if a robot holds the block. The force then replaces that of this robot, without the limits of
-    /// its force. Otherwise at the centroid of the block.
+    /// At the grip point if a robot holds the block. The force then replaces the force of this robot, and its force
+    /// limits do not apply. Otherwise at the centroid of the block.
     #[default]
     Default,
     /// At this point, in metres. It moves with the block.
     Point(Point),
-    /// At two points, with a force in any direction at each. They act like one more contact; the capacity is that of
-    /// their resultant.
+    /// At two points, with a force in any direction at each. They act like an additional contact; the capacity is the
+    /// set of their resultants.
     Contact([Point; 2]),
 }
 
@@ -111,7 +111,7 @@ impl CapacityRequest {
     }
 
     /// Returns the hold of the robot whose force the request replaces. `None` if no robot holds the block, or if the
-    /// request gives its own point.
+    /// request names a point.
     pub(super) fn tool<'f>(&self, frame: &'f Frame) -> Option<&'f Hold> {
         let is_default = self.at == ForceAt::Default;
         let mut holds = frame.holds.iter();

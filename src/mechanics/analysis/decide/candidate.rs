@@ -9,15 +9,14 @@ use crate::proof::{Motion, Proof};
 use crate::scene::BlockId;
 use crate::solve::Amounts;
 
-/// Forces and velocities of a whole assembly, to be proved.
+/// Tries to prove a verdict on a whole assembly from given forces and velocities.
 pub(in crate::mechanics::analysis) struct Candidate<'a> {
     component: Component<'a>,
     options: Options,
 }
 
 impl<'a> Candidate<'a> {
-    /// Creates a checker that tries to prove a verdict on an assembly. The forces and velocities to check will be in
-    /// the units of `scale`.
+    /// Creates a candidate for an assembly. Forces and velocities are in the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
         Candidate {
             component: Component {
@@ -29,15 +28,15 @@ impl<'a> Candidate<'a> {
     }
 
     /// Returns *stable* if the forces `amounts` balance every body. Returns *unstable* if the motion along the
-    /// unbalanced load is a mechanism that no admissible forces can stop. Otherwise `None`. `negated_residual` is minus
-    /// the unbalanced load: three rows for each body, in program units.
-    pub fn verdict(&self, amounts: &Amounts, negated_residual: &[f64]) -> Option<Verdict> {
+    /// unbalanced load is a mechanism that no admissible forces can stop. Returns `None` otherwise. `residual` is
+    /// minus the unbalanced load: three rows for each body, in program units.
+    pub fn verdict(&self, amounts: &Amounts, residual: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.accepts(&forces) {
             return Some(Verdict::Stable);
         }
         // The blocks move in the direction of the unbalanced load.
-        let motion: Vec<f64> = negated_residual.iter().map(|v| -v).collect();
+        let motion: Vec<f64> = residual.iter().map(|v| -v).collect();
         let (speed, motions) = self.component.to_motions(&motion);
         if speed == 0.0 {
             return None;

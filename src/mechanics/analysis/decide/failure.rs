@@ -108,7 +108,8 @@ impl Component<'_> {
         }
     }
 
-    /// Returns a copy of the assembly in which the adhesion acts as a load. Admissible forces alone should balance it.
+    /// Returns a copy of the assembly in which the adhesion acts as a load. If the adhesion suffices, admissible
+    /// forces balance the copy.
     pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();

@@ -222,9 +222,9 @@ mod tests {
             assert!(component.accepts(&component.prove_forces(&pressed(robot)).proof));
         }
         for (robot, is_least) in [(0.0, true), (2.0, false), (1e-5, false)] {
-            let (bound, told) = found(robot);
+            let (bound, found_least) = found(robot);
             assert!((bound.expect("a bound") - 2.0).abs() < 1e-12);
-            assert_eq!(told, is_least, "{robot}");
+            assert_eq!(found_least, is_least, "{robot}");
         }
         assert_eq!(
             component.bound_force_sum(None, &pressed(0.0)),

@@ -1,7 +1,7 @@
 //! Proves forces and motions that a linear program found at the limit of stability.
 
 use super::Component;
-use super::verdict_only::{VERDICT_ONLY, decide_without_idle_limits};
+use super::verdict_only::{VERDICT_ONLY, decide_without_non_binding_limits};
 use crate::analysis::Verdict;
 use crate::assembly::Assembly;
 use crate::program::Program;
@@ -31,7 +31,7 @@ pub(in crate::mechanics::analysis) fn decided_forces(
 ) -> Option<(Forces, Proof)> {
     let component = Component::new(assembly, VERDICT_ONLY);
     let program = Program::new(assembly, component.scale);
-    let decision = decide_without_idle_limits(&component, &program);
+    let decision = decide_without_non_binding_limits(&component, &program);
     if decision.verdict != Verdict::Stable {
         return None;
     }

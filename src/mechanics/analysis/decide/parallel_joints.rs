@@ -1,5 +1,5 @@
-//! Finds forces of least sum where the solver may fail: for joints that are parallel except for rounding, and for loads
-//! far smaller than the others.
+//! Finds forces of least sum in two cases in which the solver may fail: joints that are parallel except for rounding,
+//! and slight loads, which are far smaller than the others.
 
 use super::Component;
 use super::strategy::Strategy;
@@ -7,20 +7,22 @@ use crate::program::Program;
 use crate::proof::Proof;
 use crate::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
 
-/// Forces that balance, and what is known about their sum.
+/// Forces that balance every body, with their proof and a lower bound of their sum.
 pub(super) struct LeastForce {
     pub amounts: Amounts,
     pub proof: Proof,
-    /// The lower bound of the sum, as in `Decision`.
+    /// A proved lower bound for the sum of balancing forces, N; `None` if none was proved.
     pub force_bound: Option<f64>,
+    /// Whether the forces are proved to have the least sum.
     pub least_force: bool,
 }
 
 impl Component<'_> {
     /// Returns forces with a smaller sum if there are any, otherwise the forces `found`.
     ///
-    /// Computes the least forces of simpler programs: with the nearly parallel joints made exactly parallel, and without
-    /// the slight loads. Then changes these forces as little as possible, so that they balance in the real program.
+    /// Computes the forces of least sum of two simpler programs: one with nearly parallel joints made exactly
+    /// parallel, and one without slight loads. Then changes these forces as little as possible, so that they balance
+    /// in the real program.
     pub(super) fn reduce_force_sum(
         &self,
         program: &Program,
@@ -41,7 +43,8 @@ impl Component<'_> {
         best
     }
 
-    /// Returns the least forces of the program `simpler`, changed to balance in `program`. `None` if they have no proof.
+    /// Returns the forces of least sum of the program `simpler`, changed to balance in `program`. `None` if there are
+    /// no such forces or their proof is too weak.
     fn least_force_near(
         &self,
         program: &Program,

@@ -2,8 +2,8 @@
 //!
 //! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
 //! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
-//! program has shown that no forces balance: that of least residual, or that of least adhesion. If no program shows
-//! this, the component is undecided.
+//! program has shown that no forces balance: the program of least residual or the program of least adhesion. If no
+//! program shows this, the component is undecided.
 
 use super::parallel_joints::LeastForce;
 use super::rebalance::RebalanceOutcome;
@@ -14,20 +14,21 @@ use crate::program::Program;
 use crate::proof::{Motion, Proof};
 use crate::solve::{Amounts, Effort, LeastAdhesion, is_late};
 
-/// A verdict with its proof, in the program's units.
+/// A verdict with its proof. `amounts` and `adhesion` are in program units; the mechanism and the bound are in metres
+/// and newtons.
 pub(super) struct Decision {
     pub verdict: Verdict,
-    /// Why it is undecided.
+    /// The reason if the verdict is *undecided*; `None` otherwise.
     pub doubt: Option<UndecidedReason>,
     /// Forces that balance, or that balance together with the adhesion.
     pub amounts: Amounts,
-    /// The sum that admissible forces must have at least to balance, N, if it was shown.
+    /// A proved lower bound for the sum of balancing forces, N; `None` if none was proved.
     pub force_bound: Option<f64>,
-    /// Whether the forces have that sum.
+    /// Whether the forces are proved to have the least sum.
     pub least_force: bool,
-    /// The adhesion that would have to act for a balance.
+    /// The adhesion that is missing for a balance; `None` if the component stands or no adhesion was computed.
     pub adhesion: Option<Amounts>,
-    /// Whether no adhesion at the application points could hold it.
+    /// Whether no adhesion at the application points could hold the component.
     pub adhesion_cannot_hold: bool,
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
@@ -164,7 +165,8 @@ impl Component<'_> {
     ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
-        // A motion is a proof at once if its power is larger than that of any imbalance that a proof by forces accepts.
+        // A motion is a proof at once if its power is larger than the power of any imbalance that a proof by forces
+        // accepts.
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));

@@ -1,16 +1,16 @@
 //! [`ProofCache`]: forces and motions of similar components. They may prove a verdict without solving a program.
 //!
-//! A margin needs the verdicts of many components that differ in one number. Forces that balance one often balance the
-//! next, and the motion by which one falls often proves the fall of another. Each is proved again for the new
-//! component.
+//! A margin needs the verdicts of many components that differ in one number. Forces that balance one component often
+//! balance the next one, and a motion by which one component falls often proves that another one falls. Forces and
+//! motions are proved again for each new component.
 
 use super::Component;
 use crate::assembly::Assembly;
 use crate::geometry::Point;
 use crate::proof::{self, ContactForces, Forces, Motion};
 
-/// The number of sets of forces, and of motions, that are kept. A search alternates between few values, and each
-/// trial costs a proof.
+/// The largest number of sets of forces in the cache, and the largest number of motions. A search alternates between
+/// few values, and each trial costs a proof.
 const MAX_CACHED: usize = 4;
 
 /// Forces and motions of similar components, the latest last.

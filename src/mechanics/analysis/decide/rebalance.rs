@@ -4,13 +4,13 @@
 //! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
 //! and hide that it falls. Each round does the first of these steps that helps:
 //!
-//! 1. Change all forces by small parts of their own amounts ([`rebalance_relative`]).
-//! 2. Make the least change of all forces ([`rebalance_absolute`]). It can add forces that were 0, such as that of a
-//!    robot.
-//! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Make the
-//!    least change of the forces on the set, in its own scale ([`rebalance_absolute`]).
-//! 4. If there is no such change, decide the set like a component. If it falls, the whole falls: the motion of the set
-//!    with all other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
+//! 1. Change each force by a small fraction of itself ([`rebalance_relative`]).
+//! 2. Change all forces as little as possible ([`rebalance_absolute`]). This step can add forces that were 0, such as
+//!    a robot's force.
+//! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Change the
+//!    forces on the set as little as possible, in its own scale ([`rebalance_absolute`]).
+//! 4. If no change balances the set, decide the set like a component. If it falls, the whole component falls: the
+//!    motion of the set with all other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
 //!
 //! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
@@ -23,22 +23,22 @@ use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
 use crate::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
 
-/// The number of rounds of correction. Each gains the digits of one solution; eight rounds cover weights from 1e-30
-/// to 1e30.
+/// The largest number of rounds of correction. Each round adds the accurate digits of one solution; eight rounds
+/// cover weights from 1e-30 to 1e30.
 const MAX_ROUNDS: usize = 8;
 
-/// Sets of at most this many bodies are decided on their own, even if they are nearly the whole component.
+/// Sets of at most this many bodies are decided separately, even if they contain more than half of all bodies.
 const MAX_SMALL_SET: usize = 12;
 
-/// Forces that leave more than this part of the heaviest load unbalanced do not balance the whole, and are not
-/// corrected.
+/// Forces are corrected only if the largest residual of a balance equation is at most this fraction of the largest
+/// load.
 const MAX_WHOLE_IMBALANCE: f64 = 1e-6;
 
-/// The result of correcting forces that balance the whole.
+/// The result of correcting forces that balance the component as a whole.
 pub(super) enum RebalanceOutcome {
     /// The forces balance each body.
     Stands(Amounts, Proof),
-    /// Some bodies fall by themselves.
+    /// Some bodies fall while all others rest.
     Falls(FallingPart),
     /// Neither is proved.
     Undecided,
@@ -46,13 +46,13 @@ pub(super) enum RebalanceOutcome {
 
 /// Bodies that fall while all others rest.
 pub(super) struct FallingPart {
-    /// The motion of every body of the whole.
+    /// The motion of every body of the component.
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
     /// The forces on the resting bodies, and the admissible forces on the falling bodies, which act together with the
     /// adhesion.
     pub amounts: Amounts,
-    /// The adhesion that the falling bodies lack; `None` if no adhesion can hold them.
+    /// The adhesion that the falling bodies lack; `None` if no adhesion can hold them or none was computed.
     pub adhesion: Option<Amounts>,
 }
 
@@ -109,11 +109,11 @@ impl Component<'_> {
             }
             // Steps 3 and 4: correct or decide each connected set of unbalanced bodies separately.
             let sets = self.assembly.connected(&fails);
-            let (falling, is_better) = self.rebalance_sets(sets, &mut amounts, effort);
+            let (falling, has_changed) = self.rebalance_sets(sets, &mut amounts, effort);
             if !falling.is_empty() {
                 return self.combine_falling_parts(program, amounts, &falling);
             }
-            if !is_better {
+            if !has_changed {
                 break;
             }
         }
@@ -129,19 +129,19 @@ impl Component<'_> {
         effort: &mut Effort,
     ) -> (Vec<(Substructure, PartFall)>, bool) {
         let mut falling = Vec::new();
-        let mut is_better = false;
+        let mut has_changed = false;
         for set in sets {
             let part = self.assembly.substructure(&set);
             match self.rebalance_part(&part, amounts, effort) {
                 PartOutcome::Changed(changed) => {
                     self.insert_part(amounts, &part, &changed);
-                    is_better = true;
+                    has_changed = true;
                 }
                 PartOutcome::Falls(found) => falling.push((part, found)),
                 PartOutcome::Undecided => {}
             }
         }
-        (falling, is_better)
+        (falling, has_changed)
     }
 
     /// Corrects the forces on one set of bodies, while all other bodies are fixed. If this fails, decides whether the
@@ -177,8 +177,8 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&improved, component.scale, self.scale));
         }
-        // Do not decide a part that contains nearly all bodies: it would take as long as the whole component, which is
-        // already being decided.
+        // Do not decide a large part that contains more than half of all bodies: this would take about as long as the
+        // whole component, which is already being decided.
         let (part_count, body_count) = (part.bodies.len(), self.assembly.bodies.len());
         if part_count == body_count || (part_count > MAX_SMALL_SET && 2 * part_count > body_count) {
             return PartOutcome::Undecided;
@@ -195,12 +195,12 @@ impl Component<'_> {
         }
         let decision = component.complete(&program, component.decide_by_programs(&program));
         *effort = effort.plus(decision.effort);
-        let in_own_units = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
+        let in_whole_units = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
         match decision.verdict {
-            Verdict::Stable => PartOutcome::Changed(in_own_units(&decision.amounts)),
+            Verdict::Stable => PartOutcome::Changed(in_whole_units(&decision.amounts)),
             Verdict::Unstable => PartOutcome::Falls(PartFall {
-                amounts: Some(in_own_units(&decision.amounts)),
-                adhesion: decision.adhesion.as_ref().map(in_own_units),
+                amounts: Some(in_whole_units(&decision.amounts)),
+                adhesion: decision.adhesion.as_ref().map(in_whole_units),
                 mechanism: decision.mechanism,
             }),
             Verdict::Undecided => PartOutcome::Undecided,
@@ -234,7 +234,7 @@ impl Component<'_> {
                 self.insert_part(&mut amounts, part, held);
             }
             match (&mut adhesion, &fall.adhesion) {
-                (Some(adhesion), Some(part_count)) => self.insert_part(adhesion, part, part_count),
+                (Some(adhesion), Some(missing)) => self.insert_part(adhesion, part, missing),
                 _ => adhesion = None,
             }
         }
@@ -272,13 +272,14 @@ impl Component<'_> {
     }
 }
 
-/// The result for a part, in the units of the whole.
+/// The result for a part. Forces are in the units of the whole component.
 enum PartOutcome {
     Changed(Amounts),
     Falls(PartFall),
     Undecided,
 }
 
+/// A part that falls. Forces and adhesion are in the units of the whole component; `None` if they were not computed.
 struct PartFall {
     /// One motion for each body of the part.
     mechanism: Vec<Motion>,

@@ -30,7 +30,7 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     if let Some(found) = component.in_closed_form(&program) {
         return (found.verdict, found.mechanism);
     }
-    let decision = decide_without_idle_limits(&component, &program);
+    let decision = decide_without_non_binding_limits(&component, &program);
     match decision.verdict {
         Verdict::Stable => {
             cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces)
@@ -60,15 +60,18 @@ pub(in crate::mechanics::analysis) fn verdict_from_cache(
     }
 }
 
-/// Margins need the verdict only.
+/// The options for margins, which need only the verdict.
 pub(super) const VERDICT_ONLY: Options = Options {
     verdict_only: true,
     ..Options::PLAIN
 };
 
-pub(super) fn decide_without_idle_limits(component: &Component, program: &Program) -> Decision {
-    // Leave out robot limits far above the loads. A motion that stronger robots cannot stop is a mechanism with the
-    // real limits, too.
+/// Decides a component for its verdict only, if possible without those limits of robots that are far above the loads.
+pub(super) fn decide_without_non_binding_limits(
+    component: &Component,
+    program: &Program,
+) -> Decision {
+    // A motion that stronger robots cannot stop is a mechanism with the real limits, too.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.decide_by_programs(&generous);
         let allowed = || program.allows(&decision.amounts.grip);
@@ -86,9 +89,9 @@ pub(super) fn decide_without_idle_limits(component: &Component, program: &Progra
 pub(in crate::mechanics::analysis) struct LimitResults<'a> {
     /// The program.
     pub program: &'a Program,
-    /// Forces that balance at the limit, and the component there.
+    /// Forces that balance at the limit, and the component at the limit.
     pub forces: Option<(&'a Amounts, &'a Assembly)>,
-    /// The motion by which it begins to fall, and the component well beyond the limit.
+    /// The motion by which the component begins to fall, and the component well beyond the limit.
     pub motion: Option<(&'a [f64], &'a Assembly)>,
 }
 

@@ -9,9 +9,8 @@ use crate::program::Program;
 use crate::scene::Scene;
 use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
 
-/// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and the
-/// proof. The answer is `None` if it is unknown: no component is proved to stand only by wedging, but some are
-/// undecided.
+/// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
+/// the proof. The answer is `None` if some components are undecided and none is proved to stand only by wedging.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
     components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
@@ -20,7 +19,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     for (assembly, found) in components {
         let component = Component::new(assembly, Options::default());
         let program = Program::new(assembly, component.scale);
-        let given: Vec<[f64; 3]> = found
+        let grip_forces: Vec<[f64; 3]> = found
             .forces
             .grips
             .iter()
@@ -34,7 +33,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
             let [on, from] = assembly.contacts[contact].bodies;
             format!("{}|{}", scene.name(on), scene.name(from))
         };
-        match check_self_stress(&program, &given) {
+        match check_self_stress(&program, &grip_forces) {
             SelfStressCheck::FromRest => {}
             SelfStressCheck::OnlyWedged(self_stress) => {
                 let newtons = |force: f64| {

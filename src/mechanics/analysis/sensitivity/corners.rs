@@ -13,7 +13,7 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// Two directions are equal if the sine of the angle between them is less than this.
+/// Two directions count as parallel if the sine of the angle between them is at most this.
 const PARALLEL_TOL: f64 = 1e-3;
 /// A move keeps the contacts only if no corner leaves its edge by more than this, relative to the displacement of the
 /// moved corner.
@@ -21,7 +21,7 @@ const EDGE_TOL: f64 = 1e-7;
 /// If a group of dependent corners has more unknown displacements than this, none of its corners can move.
 const MAX_DEPENDENT_UNKNOWNS: usize = 400;
 
-/// One way in which a joined corner can move. Displacements are per metre.
+/// One way in which a joined corner can move. Displacements are per metre of its own displacement.
 #[derive(Clone, Debug)]
 pub(super) struct Move {
     pub direction: Vector,
@@ -156,22 +156,23 @@ impl Corners {
             .iter()
             .flat_map(|c| (0..self.moves[*c].len()).map(|k| (*c, k)))
             .collect();
-        let side = |(corner, k): &(usize, usize)| -> Vec<f64> {
+        // A move alone violates the conditions of the guides. The followers must compensate for this.
+        let right_hand_side = |(corner, k): &(usize, usize)| -> Vec<f64> {
             let direction = self.moves[*corner][*k].direction;
             let violation = |g: &Guide| -g.factor(*corner) * g.normal.dot(&direction);
             guides.iter().map(violation).collect()
         };
-        let sides: Vec<Vec<f64>> = moved.iter().map(side).collect();
+        let sides: Vec<Vec<f64>> = moved.iter().map(right_hand_side).collect();
         let solved = Elimination::new(&rows, unknowns.len(), &sides);
-        for ((corner, k), (solution, rest)) in moved.into_iter().zip(solved.solutions) {
-            let of = &mut self.moves[corner][k];
-            if rest > EDGE_TOL {
-                of.field.clear();
+        for ((corner, k), (solution, error)) in moved.into_iter().zip(solved.solutions) {
+            let current = &mut self.moves[corner][k];
+            if error > EDGE_TOL {
+                current.field.clear();
                 continue;
             }
-            for ((follower, along), share) in unknowns.iter().zip(&solution) {
-                if share.abs() > EDGE_TOL {
-                    of.field.push((*follower, along * *share));
+            for ((follower, along), displacement) in unknowns.iter().zip(&solution) {
+                if displacement.abs() > EDGE_TOL {
+                    current.field.push((*follower, along * *displacement));
                 }
             }
         }
@@ -182,8 +183,8 @@ impl Corners {
         }
     }
 
-    /// Removes moves that rotate the normal of a contact of two corners. The derivative of such a rotation is not
-    /// computed.
+    /// Removes moves that rotate the normal of a contact of two corners, because the derivative of such a rotation is
+    /// not computed. Also removes all moves of the two bodies of a contact whose end corners are unknown.
     fn freeze(&mut self, contacts: &[InterfaceCorners], interfaces: &[&Interface]) {
         let mut is_frozen = vec![false; self.count];
         for (found, interface) in contacts.iter().zip(interfaces) {
@@ -209,7 +210,7 @@ impl Corners {
     }
 }
 
-/// Returns the position of each joined corner, metres: that of one of its corners.
+/// Returns the position of each joined corner in metres: the position of one of its corners.
 fn positions(all: &[Corner], joined: &[usize], count: usize) -> Vec<Point> {
     let mut positions = vec![Point::origin(); count];
     for (corner, joined) in all.iter().zip(joined) {

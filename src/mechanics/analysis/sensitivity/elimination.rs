@@ -50,8 +50,8 @@ impl Elimination {
             for (row, column) in table.iter().zip(&pivots) {
                 solution[*column] = row[unknowns + side];
             }
-            let rest = table[rank..].iter().map(|row| row[unknowns + side].abs());
-            (solution, rest.fold(0.0, f64::max))
+            let errors = table[rank..].iter().map(|row| row[unknowns + side].abs());
+            (solution, errors.fold(0.0, f64::max))
         };
         let null_vector = |free: usize| {
             let mut vector = vec![0.0; unknowns];
@@ -88,16 +88,16 @@ fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f
 /// Makes one column of the table a unit vector: divides the pivot row by its entry in this column, and subtracts
 /// multiples of it from all other rows.
 fn clear_column(table: &mut [Vec<f64>], pivot: usize, column: usize) {
-    let by = table[pivot][column];
+    let pivot_value = table[pivot][column];
     for value in &mut table[pivot] {
-        *value /= by;
+        *value /= pivot_value;
     }
-    let own = table[pivot].clone();
+    let pivot_row = table[pivot].clone();
     for (number, row) in table.iter_mut().enumerate() {
-        let share = row[column];
-        if number != pivot && share != 0.0 {
-            for (value, own) in row.iter_mut().zip(&own) {
-                *value -= share * own;
+        let factor = row[column];
+        if number != pivot && factor != 0.0 {
+            for (value, pivot_entry) in row.iter_mut().zip(&pivot_row) {
+                *value -= factor * pivot_entry;
             }
             row[column] = 0.0;
         }
@@ -112,9 +112,9 @@ mod tests {
     fn a_regular_system_has_one_solution_and_a_singular_one_a_line_of_them() {
         let rows = [vec![2.0, 1.0], vec![1.0, 3.0]];
         let found = Elimination::new(&rows, 2, &[vec![3.0, 5.0]]);
-        let (solution, rest) = &found.solutions[0];
+        let (solution, error) = &found.solutions[0];
         assert!((solution[0] - 0.8).abs() < 1e-14 && (solution[1] - 1.4).abs() < 1e-14);
-        assert!(*rest == 0.0 && found.null_space.is_empty());
+        assert!(*error == 0.0 && found.null_space.is_empty());
         let rows = [vec![1.0, 2.0], vec![2.0, 4.0]];
         let found = Elimination::new(&rows, 2, &[vec![1.0, 2.0], vec![1.0, 0.0]]);
         assert!(found.solutions[0].1 < 1e-14 && found.solutions[1].1 > 0.1);

@@ -5,11 +5,12 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// A corner counts as the end of a contact if its distance is at most this multiple of the admissible gap. The
-/// positions of both may be wrong by one gap.
+/// A corner counts as the end of a contact if its distance is at most this multiple of the admissible gap. The corner
+/// and the end may each be wrong by one gap.
 const CORNER_REACH_PER_GAP: f64 = 4.0;
 /// The least such distance, as a fraction of the coordinates, for scenes without tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
+
 /// A corner of a body, with its index in the outline. The corners of holes follow those of the outline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
@@ -53,7 +54,7 @@ pub(super) struct InterfaceCorners {
     pub ends: Option<[usize; 2]>,
     /// If the contact is a corner on an edge, the two corners of this edge.
     pub edge: Option<[usize; 2]>,
-    /// All corners within reach of its ends.
+    /// All corners of both bodies that count as ends of the contact.
     pub tips: Vec<usize>,
 }
 
@@ -110,6 +111,7 @@ impl<'s> Finder<'s> {
         from..to.map_or(self.all.len(), |(_, first)| *first)
     }
 
+    /// Returns the largest distance, metres, at which a corner counts as an end of the interface.
     fn reach(&self, interface: &Interface) -> f64 {
         let [a, b] = interface.bodies;
         let gap = self.scene.tolerance_between(a, b).gap;

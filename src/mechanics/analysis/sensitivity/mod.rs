@@ -136,8 +136,8 @@ impl Sensitivity {
 
     /// Returns why there are no derivatives, if neither end of the interval has any. Otherwise `None`.
     ///
-    /// This is the reason for the upper end. If the frame falls at the lower end only, as with friction, it is the
-    /// reason for the lower end.
+    /// This is the reason for the upper end. If the frame falls beyond the lower end only, as with friction, it is
+    /// the reason for the lower end.
     pub fn reason(&self) -> Option<NoSensitivity> {
         let falls_nowhere = |reason: &NoSensitivity| {
             matches!(reason, NoSensitivity::Unbounded | NoSensitivity::RangeEnds)
@@ -172,7 +172,7 @@ pub enum NoSensitivity {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EndSensitivity {
-    /// The value of the parameter at this end, in the unit of the margin.
+    /// The value of the parameter at this end: in degrees for the tilt, otherwise without a unit.
     pub value: f64,
     /// The derivatives for the corners of all placed blocks, in the order of the blocks.
     pub corners: Vec<CornerSlope>,
@@ -242,7 +242,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_reason_is_that_of_an_end_at_which_the_frame_falls() {
+    fn the_reason_comes_from_an_end_at_which_the_frame_falls() {
         use NoSensitivity::{RangeEnds, Unbounded, Unconfirmed, Unsolved};
         let reason = |low, high| {
             let (kind, low, high) = (MarginKind::Friction, Err(low), Err(high));

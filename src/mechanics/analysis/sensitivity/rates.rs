@@ -33,8 +33,8 @@ impl Rates {
         state: &State,
         interfaces: usize,
     ) -> Option<Rates> {
-        let per = -1.0 / state.work;
-        if !per.is_finite() {
+        let value_per_power = -1.0 / state.work;
+        if !value_per_power.is_finite() {
             return None;
         }
         let mut rates = Rates {
@@ -52,6 +52,7 @@ impl Rates {
             let motion = &state.motions[number];
             rates.weights[body.block.0] = changed.pull.dot(&motion.at(body.centroid));
         }
+        // The change of the power of loads without `at` per metre that the centroid of their body moves.
         let mut follows = vec![Vector::zeros(); changed.bodies.len()];
         for (rate, load) in rates.loads.iter_mut().zip(scene.loads()) {
             let Some(body) = body_of_block[load.block.0] else {
@@ -81,15 +82,18 @@ impl Rates {
                 rates.corners[corners.joined[place]] += rate;
             }
         }
-        rates.corners.iter_mut().for_each(|v| *v *= per);
-        rates.weights.iter_mut().for_each(|v| *v *= per);
-        rates.friction.iter_mut().for_each(|v| *v *= per);
-        rates.loads.iter_mut().for_each(|v| *v *= per);
+        rates.corners.iter_mut().for_each(|v| *v *= value_per_power);
+        rates.weights.iter_mut().for_each(|v| *v *= value_per_power);
+        rates
+            .friction
+            .iter_mut()
+            .for_each(|v| *v *= value_per_power);
+        rates.loads.iter_mut().for_each(|v| *v *= value_per_power);
         Some(rates)
     }
 
-    /// Adds how the power of a contact's forces changes if its ends move, which also rotates its normal, or if its
-    /// friction coefficient changes.
+    /// Adds the changes of the power of a contact's forces: if the ends of the contact move, which also rotates its
+    /// normal, and if its friction coefficient changes.
     fn add_contact(
         &mut self,
         corners: &Corners,
@@ -147,7 +151,7 @@ impl Rates {
     }
 }
 
-/// How area and centroid of a body change if one of its corners moves.
+/// How the area and the centroid of a body change if one of its corners moves.
 struct CornerShift {
     area: f64,
     /// The change of the area per metre along x and y.

@@ -28,10 +28,10 @@ const ROUNDING_TOL: f64 = 1e-8;
 /// The derivatives are not computed for more groups than this: the time grows with the cube of their number.
 const MAX_GROUPS: usize = 150;
 
-/// If there are more states than this, the others are not computed.
+/// If there would be more states than this, only the first is computed.
 const MAX_STATES: usize = 64;
 
-/// If there are more combinations of conditions than this, extreme motions are not computed.
+/// If there would be more combinations of conditions than this, extreme motions are not computed.
 const MAX_COMBINATIONS: usize = 4000;
 
 /// The largest number of Newton steps for the forces and the value.
@@ -180,8 +180,8 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
     }
     for _ in 0..MAX_NEWTON_STEPS {
         let changed = case.at(*value);
-        let rest = reduced.residual(&changed, &amounts);
-        if largest(&rest) <= 1e-3 * ROUNDING_TOL * reduced.load {
+        let residual = reduced.residual(&changed, &amounts);
+        if largest(&residual) <= 1e-3 * ROUNDING_TOL * reduced.load {
             return Some(amounts);
         }
         let growth = reduced.growth(case, &changed, &amounts, *value);
@@ -193,7 +193,7 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
         for (row, growth) in rows.iter_mut().zip(&growth) {
             row.push(growth * unit);
         }
-        let side = rest.iter().map(|v| -v).collect();
+        let side = residual.iter().map(|v| -v).collect();
         let solved = Elimination::new(&rows, basic.len() + 1, &[side]);
         let (step, _) = &solved.solutions[0];
         for (k, place) in basic.iter().enumerate() {
@@ -201,8 +201,8 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
         }
         *value += step[basic.len()] * unit;
     }
-    let rest = reduced.residual(&case.at(*value), &amounts);
-    (largest(&rest) <= ROUNDING_TOL * reduced.load).then_some(amounts)
+    let residual = reduced.residual(&case.at(*value), &amounts);
+    (largest(&residual) <= ROUNDING_TOL * reduced.load).then_some(amounts)
 }
 
 /// Returns a basis of the changes of the forces that keep the balance while the parameter keeps its value. `None` if
@@ -264,9 +264,9 @@ impl Motions {
             *last += 1.0;
         }
         let solved = Elimination::new(&rows, given.len(), &[side]);
-        let (change, rest) = &solved.solutions[0];
+        let (change, error) = &solved.solutions[0];
         let first: Vec<f64> = start.iter().zip(change).map(|(a, b)| a + b).collect();
-        (*rest <= ROUNDING_TOL * largest(&first)).then_some(Motions {
+        (*error <= ROUNDING_TOL * largest(&first)).then_some(Motions {
             first,
             null_space: solved.null_space,
         })
@@ -296,6 +296,7 @@ fn extreme_motions(
         })
         .collect();
     let speed = largest(&motions.first);
+    // True if the motion `with` · first + Σ share · other meets all conditions.
     let meets = |shares: &[f64], with: f64| {
         let tolerance = ZERO_TOL * speed.max(largest(shares));
         conditions
@@ -312,8 +313,8 @@ fn extreme_motions(
     for chosen in subsets(conditions.len(), free - 1)? {
         let found = Elimination::new(&rows(&chosen), free, &[]);
         if let [direction] = found.null_space.as_slice() {
-            let back: Vec<f64> = direction.iter().map(|v| -v).collect();
-            if meets(direction, 0.0) || meets(&back, 0.0) {
+            let opposite: Vec<f64> = direction.iter().map(|v| -v).collect();
+            if meets(direction, 0.0) || meets(&opposite, 0.0) {
                 return None;
             }
         }

@@ -5,11 +5,12 @@ use crate::assembly::{Assembly, DisjointSets};
 use crate::program::{Force, Program};
 use crate::solve::LimitState;
 
-/// A force is basic if its amount, relative to the largest amount, is larger than this. It must also be larger than the
-/// power of the column, relative to the largest velocity.
+/// A force is basic if the ratio of its amount to the largest amount is larger than this. This ratio must also be
+/// larger than the power of the column, relative to the largest velocity.
 const BASIC_TOL: f64 = 1e-8;
 
-/// The force of a robot counts as being at its limit if it is this close to it, relative to the limit.
+/// The force of a robot counts as being at its limit if it differs from the limit by at most this fraction of the
+/// limit.
 const LIMIT_TOL: f64 = 1e-6;
 
 /// A force whose amount is unknown.
@@ -24,7 +25,7 @@ pub(super) struct Unknown {
     pub is_both_ways: bool,
 }
 
-/// The place and the direction of a force.
+/// The point of application and the direction of a force.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     /// One unit of normal force at a point of a contact, with the largest friction along `side` times the tangent.

@@ -1,7 +1,10 @@
 //! Tests of programs for two blocks, and of other forms of programs, with numbers computed by hand.
 
 use super::*;
-/// A box on the ground, a board on a corner of the box, and a robot at the upper left corner of the board.
+
+/// Creates a program of two blocks, with lengths in units of L. A box, 0.5 wide and 0.75 high, stands on the ground.
+/// A board, 1 wide and 0.5 high, touches only the upper right corner of the box. A robot holds the upper left corner
+/// of the board.
 fn stacked() -> Program {
     let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
     let joint = |on, from, kind, points| ContactTerm {
@@ -73,7 +76,7 @@ fn products_of_columns_of_several_blocks_equal_products_of_dense_vectors() {
 }
 
 #[test]
-fn products_of_forces_at_different_contacts_or_robots_do_not_exist() {
+fn only_forces_of_one_kind_at_one_contact_or_robot_have_a_product() {
     let ray = |contact, point| Force::Ray {
         contact,
         point,
@@ -103,7 +106,7 @@ fn products_of_forces_at_different_contacts_or_robots_do_not_exist() {
 
 /// Two robots hold one block. Only the first has limits. Only a pair of columns without limits becomes one equality.
 #[test]
-fn only_pairs_of_unlimited_forces_are_one_row_each() {
+fn only_a_pair_of_opposite_unlimited_forces_becomes_one_equality() {
     let mut program = example();
     let other = GripTerm {
         limits: [f64::INFINITY; 3],
@@ -213,7 +216,7 @@ fn joints_that_are_nearly_parallel_or_perpendicular_are_aligned() {
     program.contacts.extend(more);
     let normals = [up + 3e-6, up - 1e-6, side + 1e-6, 0.01].map(turned);
     (program.contacts.iter_mut().zip(normals)).for_each(|(c, n)| c.normal = n);
-    let straight = program.with_parallel_joints().expect("some turn");
+    let straight = program.with_parallel_joints().expect("some joints rotate");
     // The first three rotate to the mean of 3, −1 and 1 millionths. The last joint stays.
     let expected = [up + 1e-6, up + 1e-6, side + 1e-6, 0.01].map(turned);
     for (contact, normal) in straight.contacts.iter().zip(expected) {

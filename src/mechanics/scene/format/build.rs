@@ -11,7 +11,7 @@ use super::{
 };
 use crate::scene::{NoteCode, Scene, SceneError};
 
-/// Methods that set a key whose value is text.
+/// Declares methods that set a key whose value is text.
 macro_rules! words {
     ($($key:ident, $doc:literal;)*) => {
         $(
@@ -24,7 +24,7 @@ macro_rules! words {
     };
 }
 
-/// Methods that set an outline.
+/// Declares methods that set an outline.
 macro_rules! outline {
     () => {
         /// Sets the outline to a polygon. Its corners are [x, y] in metres, clockwise or anticlockwise.
@@ -47,7 +47,7 @@ macro_rules! outline {
     };
 }
 
-/// Methods that set the outline, position, friction, material and colour of a body.
+/// Declares methods that set the outline, position, friction, material and colour of a body.
 macro_rules! body {
     () => {
         outline!();
@@ -64,7 +64,7 @@ macro_rules! body {
     };
 }
 
-/// Converts corners to a body or shape with this outline.
+/// Implements the conversion of corners to a body or a shape with this outline.
 macro_rules! from_corners {
     ($($entry:ident)*) => {
         $(
@@ -145,7 +145,7 @@ impl SceneFile {
         self
     }
 
-    /// Adds a contact between two bodies. If a scene lists contacts, the program does not search for other contacts.
+    /// Adds a contact between two bodies. If a scene lists contacts, contacts are not computed from the outlines.
     pub fn contact(mut self, contact: ContactEntry) -> Self {
         self.contacts.push(contact);
         self

@@ -5,11 +5,12 @@ use std::io;
 
 use serde_json::ser::Formatter;
 
-/// Objects down to a depth have one line per property. Each object below that depth is written on one line.
+/// Objects down to the depth `depth` have one line for each entry. Each deeper object is written on one line.
 pub(crate) struct Lines {
     depth: usize,
-    /// For every open bracket: whether it is an array, and whether it has broken into lines.
+    /// For every open bracket: whether it opens an array, and whether its entries are on separate lines.
     open: Vec<(bool, bool)>,
+    /// The number of open objects.
     objects: usize,
 }
 

@@ -40,16 +40,16 @@ mod tests {
         assert!(
             schema["properties"]["gravity"]["description"]
                 .as_str()
-                .expect("described")
+                .expect("a description")
                 .contains("m/s²")
         );
         assert!(schema.get("$id").is_none());
     }
 
     #[test]
-    fn the_reader_knows_the_keys_of_all_types() {
+    fn the_reader_lists_the_keys_of_all_types() {
         let schema: Value = serde_json::from_str(&schema()).expect("JSON");
-        let definitions = schema["$defs"].as_object().expect("types");
+        let definitions = schema["$defs"].as_object().expect("definitions");
         let objects = definitions
             .iter()
             .filter(|d| d.1["type"] == "object")
@@ -57,7 +57,7 @@ mod tests {
         assert_eq!(KEYS.len(), objects + 1);
         for (name, keys) in KEYS {
             let object = definitions.get(*name).unwrap_or(&schema);
-            let properties = object["properties"].as_object().expect("keys");
+            let properties = object["properties"].as_object().expect("properties");
             let named: Vec<&str> = properties.keys().map(String::as_str).collect();
             assert_eq!(*keys, named, "{name}");
         }

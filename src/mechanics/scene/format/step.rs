@@ -30,21 +30,21 @@ pub struct StepEntry {
     /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
-    /// The expected verdict. A frame that falls as expected ends `check` like one that stands. Default: that of the
-    /// scene.
+    /// The expected verdict. If the frame has this verdict, `check` succeeds, even if the frame falls. Default: that
+    /// of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }
 
-/// The verdict that the author of a scene expects of a frame.
+/// The verdict that the author of a scene expects for a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Expectation {
-    /// It stands.
+    /// The frame stands.
     Stable,
-    /// It falls.
+    /// The frame falls.
     Unstable,
 }
 

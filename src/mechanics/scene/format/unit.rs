@@ -10,12 +10,12 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct UnitsEntry {
-    /// Unit of all lengths: coordinates, positions, the thickness, the side of the grid and the contact tolerance.
-    /// Default "m".
+    /// Unit of all lengths: coordinates, positions, the thickness, the edge length of grid cells and the contact
+    /// tolerance. Default "m".
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = "m")))]
     pub length: Option<LengthUnit>,
-    /// Unit of all forces and weights. The unit of torques is this unit times that of lengths. Default "N".
+    /// Unit of all forces and weights. The unit of torques is this unit times the unit of lengths. Default "N".
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = "N")))]
     pub force: Option<ForceUnit>,

@@ -92,7 +92,10 @@ pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
     new_wording(
         Code::OutOfRange,
-        format!("the side {} of the grid is not positive", digits(x)),
+        format!(
+            "the edge length of the grid cells is {}, but it must be more than 0",
+            digits(x)
+        ),
         "give the edge length of a cell, more than 0",
     )
 }

@@ -100,11 +100,11 @@ pub(in crate::mechanics::scene) fn crowded(count: usize, most: usize, at: Point)
     new_wording(
         Code::TooManyTips,
         format!(
-            "corners of {count} blocks meet at {}, which gives {pairs} corner contacts; at most {most} blocks may meet \
-             in one point",
+            "corners of {count} bodies meet at {}, which makes {pairs} corner contacts; corners of at most {most} \
+             bodies may meet at one point, where each polygon of the ground counts as a body",
             point(at)
         ),
-        "remove `corner_contacts`, or cut the tips off, so that the blocks touch along edges",
+        "remove `corner_contacts`, or cut the tips off, so that the bodies touch along edges",
     )
 }
 

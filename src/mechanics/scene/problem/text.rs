@@ -1,4 +1,4 @@
-//! Messages about text that is not JSON.
+//! Messages about text that cannot be read as JSON or exceeds a limit of the reader.
 
 use super::{Code, Wording, new_wording, shortened};
 

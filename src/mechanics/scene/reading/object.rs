@@ -11,7 +11,7 @@ use super::super::path::Trail;
 use super::super::tree::{Node, NodeKind};
 use super::value::{Object, Reader};
 
-/// The keys of every type, by its name, in alphabetical order.
+/// For every type of the format: its name, and its keys in alphabetical order.
 #[cfg(test)]
 pub(in crate::mechanics::scene) const KEYS: &[(&str, &[&str])] = &[
     ("SceneFile", SCENE),

@@ -19,7 +19,7 @@ const MAX_KEYS_WITHOUT_TABLE: usize = 16;
 pub(super) struct Reader<'s, 't> {
     pub(super) source: &'s Source<'t>,
     pub(super) findings: Findings,
-    pub(super) doubt: UnreadParts,
+    pub(super) unread: UnreadParts,
 }
 
 /// The entries of a value that is an object.
@@ -49,7 +49,7 @@ impl<'s, 't> Reader<'s, 't> {
         Reader {
             source,
             findings: Findings::default(),
-            doubt: UnreadParts::default(),
+            unread: UnreadParts::default(),
         }
     }
 
@@ -59,14 +59,15 @@ impl<'s, 't> Reader<'s, 't> {
         tree.map_or(&[], |tree| tree.items(list))
     }
 
-    fn misfit(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
+    /// Reports a problem of the key or value at `at`, and records that this part of the file could not be read.
+    fn report(&mut self, at: &Trail<'_>, mark: Mark, wording: Wording) {
         if self.findings.is_full() {
             // The list of problems is full. Treat the whole file as unreadable, so that no further problems are
             // reported.
-            self.doubt.paths = vec![Trail::Top.path()];
+            self.unread.paths = vec![Trail::Top.path()];
             return;
         }
-        self.doubt.paths.push(at.path());
+        self.unread.paths.push(at.path());
         match mark {
             Mark::Key => self.findings.add_key(at, wording),
             Mark::Value => self.findings.add(at, wording),
@@ -89,7 +90,7 @@ impl<'s, 't> Reader<'s, 't> {
             }
             None => problem::entry::wrong_type(expected, &self.found(node)),
         };
-        self.misfit(at, Mark::Value, wording);
+        self.report(at, Mark::Value, wording);
     }
 
     /// Describes a value for messages, such as "the number 5" or "an object".
@@ -114,7 +115,7 @@ impl<'s, 't> Reader<'s, 't> {
             NodeKind::Number(x) if x.is_finite() => return Some(x),
             NodeKind::Number(_) => {
                 let wording = problem::text::number_too_large(self.written(node));
-                self.misfit(at, Mark::Value, wording);
+                self.report(at, Mark::Value, wording);
             }
             _ => self.wrong(node, at, "a number"),
         }
@@ -153,7 +154,7 @@ impl<'s, 't> Reader<'s, 't> {
         };
         let chosen = choices.iter().find(|c| c.0 == text).map(|c| c.1);
         if chosen.is_none() {
-            self.misfit(
+            self.report(
                 at,
                 Mark::Value,
                 problem::entry::unknown_choice(text, &names),
@@ -197,7 +198,7 @@ impl<'s, 't> Reader<'s, 't> {
                 return Some(numbers);
             }
             if sound {
-                self.misfit(at, Mark::Value, wording);
+                self.report(at, Mark::Value, wording);
             }
             return None;
         }
@@ -224,7 +225,7 @@ impl<'s, 't> Reader<'s, 't> {
             if !keys.contains(&entry.name.as_ref()) {
                 let known = keys.iter().copied().filter(|k| *k != "$schema");
                 let wording = problem::entry::unknown_key(&entry.name, known);
-                self.misfit(&at.key(&entry.name), Mark::Key, wording);
+                self.report(&at.key(&entry.name), Mark::Key, wording);
             }
         }
         Some(object)
@@ -240,7 +241,7 @@ impl<'s, 't> Reader<'s, 't> {
         for (second, first) in repeated(entries) {
             let (line, column) = self.source.place(first.name_range.start);
             let wording = problem::entry::duplicate_key(&second.name, line, column);
-            self.misfit(&at.key(&second.name), Mark::Key, wording);
+            self.report(&at.key(&second.name), Mark::Key, wording);
         }
         Some(Object { entries })
     }
@@ -273,7 +274,7 @@ impl<'s, 't> Reader<'s, 't> {
             return read(self, node, &at.key(key));
         }
         let wording = problem::entry::missing_key(key);
-        self.misfit(&at.key(key), Mark::Value, wording);
+        self.report(&at.key(key), Mark::Value, wording);
         None
     }
 

@@ -60,7 +60,7 @@ impl Resolution<'_> {
             findings.add(&at.key("holes"), problem::outline::holes_alone());
             return None;
         }
-        if findings.doubts(at) {
+        if findings.is_unread(at) {
             return None;
         }
         match (polygon, cells) {
@@ -109,7 +109,7 @@ impl Resolution<'_> {
             }
             (Some(_), None) => self.outline(findings, at, entry.polygon, entry.holes, entry.cells),
         };
-        if !sound || !self.grid_known || findings.doubts(at) {
+        if !sound || !self.grid_known || findings.is_unread(at) {
             return None;
         }
         let (polygon, cells) = outline::placed(findings, at, self.lattice, outline?, place, angle)?;

@@ -44,8 +44,8 @@ impl Closeness {
 }
 
 impl Resolution<'_> {
-    /// Determines the contact tolerance, and heals the bodies with it. Bodies are not changed if all of them consist of
-    /// lattice cells, or if the file lists the contacts.
+    /// Determines the contact tolerance, and heals the bodies with it. Bodies are not changed if all of them consist
+    /// of lattice cells, if the file lists the contacts, or if a block has no outline.
     pub(super) fn heal(
         &self,
         findings: &mut Findings,

@@ -9,7 +9,8 @@ use crate::scene::path::Trail;
 use crate::scene::problem;
 use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
 
-/// The size of a schematic centre or support, as a share of the diagonal around all centres and contacts.
+/// The size of a schematic disc or support, as a fraction of the diagonal of the rectangle around all centres and
+/// contacts.
 const SYMBOL_SIZE_SHARE: f64 = 0.03;
 /// Corners of the schematic disc around a centre.
 const DISC_CORNERS: usize = 8;

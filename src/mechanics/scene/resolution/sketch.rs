@@ -43,9 +43,9 @@ impl Placement {
 /// bodies may still overlap.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
-    doubt: UnreadParts,
+    unread: UnreadParts,
 ) -> (Vec<SketchedBody>, Option<Scene>) {
-    let mut findings = Findings::doubting(doubt);
+    let mut findings = Findings::with_unread(unread);
     let resolution = Resolution::new(&mut findings, file);
     let scene = resolution.scene(&mut findings);
     (resolution.sketch(&mut findings), scene)

@@ -25,7 +25,7 @@ impl<'a> Search<'a> {
         let mut state = vec![State::AtZero; columns.len()];
         set.passive.iter().for_each(|k| state[*k] = State::Passive);
         set.at_limit.iter().for_each(|k| state[*k] = State::AtLimit);
-        // The constant 16 gives small programs enough pivots.
+        // The constant 16 allows enough pivots for small programs.
         let max_pivots = MAX_PIVOTS_PER_COLUMN * columns.len() + 16;
         Search {
             loads,
@@ -76,7 +76,8 @@ pub(super) enum State {
 /// How many columns enter at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Entry {
-    /// The columns with the largest gradients, no two at the same block. One linear system then serves all of them.
+    /// The columns with the largest gradients, no two at the same block. One linear system is then solved for all of
+    /// them.
     Several,
     /// The column with the largest gradient: the rule of Lawson and Hanson, with which the method always terminates.
     One,

@@ -6,9 +6,9 @@
 //! one newton of additional pressure, balanced by one newton of tension, allows only μ newtons of friction.
 //!
 //! No program is solved, and the accuracy does not depend on the length of a chain. An interior-point method has no
-//! correct digits left at 10 000 blocks. Steps: order the joints from the ground outwards; sum the loads from the ends
-//! inwards; split the forces of each joint; derive the motion from the joints that give way. Reference: Hibbeler,
-//! Structural Analysis, 2012, chapter 2 (determinacy and equilibrium of parts).
+//! correct digits left at 10 000 blocks. Steps: order the joints from the ground outwards; sum the loads from the
+//! leaves to the ground; split the forces of each joint; derive the motion from the joints that give way. Reference:
+//! Hibbeler, Structural Analysis, 2012, chapter 2 (determinacy and equilibrium of parts).
 
 mod joint;
 #[cfg(test)]
@@ -29,7 +29,7 @@ const ROUNDING_TOL: f64 = 1e-12;
 /// The additional opening of every joint in a motion, relative to the largest velocity.
 ///
 /// It is about fifty times the rounding of a velocity, so that rounding cannot make a joint close. The power of the
-/// loads changes by about as little.
+/// loads changes by a similarly small fraction.
 const EXTRA_OPENING: f64 = 1e-14;
 
 /// Returns the contact forces that balance the loads. `None` if they are not unique, or if a contact cannot exert them.
@@ -99,7 +99,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
 /// Computes the velocities of the bodies from the speeds at which the joints open and slide. `None` if a velocity is
 /// not finite.
 ///
-/// Every joint opens by an additional [`EXTRA_OPENING`], unless this takes away half of the loads' power or more.
+/// Every joint opens by an additional [`EXTRA_OPENING`], unless this reduces the loads' power by half or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
     let opened = |extra: f64| {
         let mut motion = vec![0.0; program.loads.len()];

@@ -1,4 +1,4 @@
-//! Tests of random trees of blocks against the programs, and of the bounds that their motions give.
+//! Tests with random trees of blocks: the closed forms agree with the linear programs, and the motions prove bounds.
 
 use super::*;
 use crate::geometry::quarter_turn;
@@ -117,7 +117,7 @@ fn determinate_forces_need_no_adhesion() {
         let stuck = least_adhesion(&program).unwrap();
         assert!(stuck.adhesion.total() < 1e-10);
         assert_eq!(stuck.forces, forces);
-        // A single contact in tension is enough.
+        // With a single contact in tension, the contacts alone cannot balance the loads.
         let pulled = adhesion_columns(&program);
         pulled[0].add_to(&mut program.loads, 20.0);
         assert!(determinate(&program).is_none());
@@ -126,7 +126,7 @@ fn determinate_forces_need_no_adhesion() {
 }
 
 #[test]
-fn there_is_no_answer_if_forces_are_not_determinate() {
+fn there_is_no_closed_form_for_rings_corner_contacts_and_high_friction() {
     let mut numbers = RandomNumbers(5);
     let tree = branches(4, &mut numbers);
     assert!(least_adhesion(&tree).is_some());

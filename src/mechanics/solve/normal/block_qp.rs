@@ -40,10 +40,11 @@ const SHORT_STEP: f64 = 0.1;
 /// A step of this length usually leaves a third of the residual.
 const LONG_STEP: f64 = 0.8;
 
-/// The share of the primal residual above which a long step has made no progress.
+/// If more than this fraction of the primal residual remains, a long step has made no progress.
 const STALLED_SHARE: f64 = 0.8;
 
-/// After this number of consecutive steps without progress the method stops: no amounts balance the loads.
+/// After this number of consecutive steps without progress the method stops: it is then likely that no amounts
+/// balance the loads.
 const MAX_IDLE_STEPS: usize = 3;
 
 /// Solves a least-squares program in forces with lower bounds. `None` if the program has another form, or if the method
@@ -290,8 +291,8 @@ impl BlockQp {
         }
     }
 
-    /// Computes the Newton direction along which each product s·z changes by its entry of `target`, and the given share
-    /// of the residuals is removed.
+    /// Computes the Newton direction along which each product s·z changes by its entry of `target`, and the given
+    /// fraction of the residuals is removed.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
         // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.

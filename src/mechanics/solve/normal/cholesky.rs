@@ -1,7 +1,7 @@
 //! [`Cholesky`]: the sparse factorization A·W·Aᵀ = L·Lᵀ, computed supernode by supernode. A·W·Aᵀ is Σ
 //! weight·column·columnᵀ.
 //!
-//! The multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder
+//! This is the multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder
 //!
 //! 1. assembles its frontal matrix: the columns of A whose first unknown it eliminates, and the update matrices of its
 //!    children from the stack (extend-add);
@@ -223,7 +223,7 @@ impl Cholesky {
             let rows = &self.supernodes.rows[node.rows.clone()];
             let (width, height) = (node.width, node.width + rows.len());
             let values = &self.values[self.begin[p]..self.begin[p + 1]];
-            // Gather the unknowns of the supernode, and the unknowns of the rows below, which are known already.
+            // Gather the right-hand sides of the supernode, and the solved values of the rows below.
             for (n, list) in lists.iter_mut().enumerate() {
                 list.clear();
                 list.extend(x[node.first..node.first + width].iter().map(|x| x[n]));

@@ -1,9 +1,9 @@
 //! Dense kernels of the factorization: the Cholesky factor of the columns of a supernode, and the update matrix of the
 //! supernode.
 //!
-//! A right-looking blocked Cholesky factorization (Golub and Van Loan, Matrix Computations, section 4.2). Rows are
-//! packed in groups of four, so that a product of four by four numbers is sixteen independent sums, which the compiler
-//! keeps in vector registers.
+//! The method is a right-looking blocked Cholesky factorization (Golub and Van Loan, Matrix Computations, section
+//! 4.2). Rows are packed in groups of four, so that a product of four by four numbers is sixteen independent sums,
+//! which the compiler keeps in vector registers.
 
 /// A pivot up to this fraction of the diagonal entry before elimination is rounding. Its column is set to zero, so that
 /// the unknown becomes 0: nothing holds the body in that direction.

@@ -88,7 +88,7 @@ pub(super) struct OrderedGraph<'a> {
 
 impl<'a> OrderedGraph<'a> {
     /// Finds an order of elimination with little fill-in, and sorts it into a postorder of the elimination tree. `None`
-    /// if `amd` finds no order.
+    /// if the graph is too large for 32-bit indices or `amd` finds no order.
     pub fn new(graph: &'a Graph) -> Option<OrderedGraph<'a>> {
         let count = i32::try_from(graph.count()).ok()?;
         let (starts, list) = graph.as_i32()?;

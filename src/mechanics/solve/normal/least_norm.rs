@@ -7,7 +7,8 @@ use super::cholesky::Cholesky;
 use super::column_groups::ColumnGroups;
 use super::dense::max_norm;
 
-/// The number of solves with the factor: the first one and two of refinement. Each gains the digits of the factor.
+/// The number of solves with the factor: the first solve and two of refinement. Each adds about as many correct
+/// digits as the factor has.
 const MAX_SOLVES: usize = 3;
 
 /// The amounts of least norm, and the multipliers y of the balance in the order of elimination.

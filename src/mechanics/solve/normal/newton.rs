@@ -1,8 +1,8 @@
 //! [`Newton`]: one iteration of the interior-point method, with predictor, corrector and Gondzio's additional
 //! correctors.
 //!
-//! Newton's equations for a direction (df, dy, dz, dτ, dκ), where r are the residuals and η is the share of them to
-//! remove:
+//! Newton's equations for a direction (df, dy, dz, dτ, dκ), where r are the residuals and η is the fraction of them
+//! to remove:
 //!
 //! ```text
 //! A df + w dy − loads dτ = η r_primal        z df + f dz = target
@@ -10,9 +10,9 @@
 //! costᵀdf − loadsᵀdy + dκ = −η gap
 //! ```
 //!
-//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration use
-//! the same factor. A second right-hand side, solved together with the predictor's, gives the change per dτ
-//! (`tau_direction`); the last equation then gives dτ.
+//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration
+//! use the same factor. A second right-hand side, solved together with the predictor's, yields the change per unit
+//! of dτ (`tau_direction`). The last equation then determines dτ.
 
 use super::cholesky::Cholesky;
 use super::dense::dot;
@@ -31,7 +31,7 @@ const MAX_CORRECTORS: usize = 3;
 /// another solve.
 const STEP_INCREASE: f64 = 0.3;
 
-/// A corrector is accepted if it makes the step longer by at least this share of [`STEP_INCREASE`].
+/// A corrector is accepted if it makes the step longer by at least this fraction of [`STEP_INCREASE`].
 const MIN_SHARE_OF_INCREASE: f64 = 0.1;
 
 /// Products amount·slack between μ divided by this factor and μ times this factor need no correction (Gondzio's β).
@@ -60,7 +60,7 @@ pub(super) struct Newton {
 /// The right-hand sides of a direction other than those of amount·slack.
 #[derive(Clone, Copy)]
 struct Sides {
-    /// η: the share of the residuals to be removed.
+    /// η: the fraction of the residuals to be removed.
     residual_share: f64,
     /// The change of τκ, to first order.
     pair: f64,
@@ -199,8 +199,8 @@ impl Newton {
         correction(at.tau, by.tau, at.kappa, by.kappa)
     }
 
-    /// Computes the predictor direction. The same solve with two right-hand sides also gives `tau_direction` and the
-    /// pivot of dτ.
+    /// Computes the predictor direction. The same solve, with two right-hand sides, also yields `tau_direction` and
+    /// the pivot of dτ.
     fn predict(&mut self, system: &mut System, at: &Iterate, sides: Sides) {
         let lp = system.lp;
         let mut tau_side = lp.loads.to_vec();
@@ -266,7 +266,7 @@ impl Newton {
         {
             *f = weight * (*f - side);
         }
-        // The last of Newton's equations gives dτ.
+        // Compute dτ from the last of Newton's equations.
         let gap = sides.residual_share * system.gap - dot(lp.loads, &to.y)
             + dot(lp.cost, &to.f)
             + sides.pair / at.tau;

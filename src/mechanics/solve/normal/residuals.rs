@@ -23,7 +23,7 @@ const CERTIFICATE_TOL: f64 = 1e-8;
 
 /// The residual vectors of the homogeneous form.
 pub(super) struct Residuals {
-    /// loads·τ − A f, less velocity_weight·y.
+    /// loads·τ − A f − velocity_weight·y.
     pub primal: Vec<f64>,
     /// cost·τ − Aᵀy − z.
     pub dual: Vec<f64>,

@@ -8,8 +8,8 @@
 /// known.
 const FIRST_GAP: f64 = 2e-6;
 
-/// The gap must have fallen by this factor before the exponent is computed. Two points closer together would give a
-/// random exponent.
+/// The gap must have fallen by this factor before the exponent is computed. Two points closer together would not
+/// determine the exponent accurately.
 const MIN_GAP_RATIO: f64 = 10.0;
 
 /// The trend of the slack of the basic columns against the duality gap, both relative to the cost.

@@ -49,8 +49,8 @@ impl Supernodes {
     }
 }
 
-/// Symbolic factorization: computes the rows of every supernode. They are the rows of the matrix in its columns, and
-/// the rows of the update matrices of its children.
+/// Symbolic factorization: computes the rows of every supernode. They are the rows with an entry in its columns,
+/// and the rows of the update matrices of its children.
 fn symbolic_factor(
     ordered: &OrderedGraph<'_>,
     ranges: &[ColumnRange],
@@ -115,8 +115,8 @@ impl ColumnRange {
 
     /// Returns this supernode merged with its parent, which follows it; `None` if too many zeros would be stored.
     ///
-    /// The wider the supernode, the smaller the allowed share of zeros, because the work for each zero grows with the
-    /// width. CHOLMOD uses the same scheme with widths of 4, 16 and 48 and shares of 0.8, 0.1 and 0.05.
+    /// The wider the supernode, the smaller the allowed fraction of zeros, because the work for each zero grows with
+    /// the width. CHOLMOD uses the same scheme with widths of 4, 16 and 48 and fractions of 0.8, 0.1 and 0.05.
     fn merge(&self, parent: &ColumnRange) -> Option<ColumnRange> {
         let width = self.width + parent.width;
         let new = self.width * (parent.width + parent.rows).saturating_sub(self.rows);

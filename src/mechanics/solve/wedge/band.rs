@@ -1,8 +1,8 @@
 //! [`Band`]: banded linear systems, solved by LU factorization with partial pivoting.
 //!
-//! The matrices are not symmetric if faces slide. [`order`] gives blocks that touch nearby positions (Cuthill and McKee
-//! 1969). The bandwidth is then about the number of rows of one layer of the structure. Reference: Golub and Van Loan,
-//! Matrix Computations, section 4.3.
+//! The matrices are not symmetric if faces slide. [`order`] assigns nearby positions to blocks that touch (Cuthill
+//! and McKee 1969). The bandwidth is then about the number of matrix rows of one layer of blocks. Reference: Golub
+//! and Van Loan, Matrix Computations, section 4.3.
 
 use crate::program::Program;
 
@@ -112,8 +112,8 @@ impl Band {
     }
 }
 
-/// Numbers the blocks so that blocks that touch have similar numbers, which gives a small bandwidth. Returns the number
-/// of each block, and the largest difference between the numbers of two blocks that touch.
+/// Numbers the blocks so that blocks that touch have similar numbers, which keeps the bandwidth small. Returns the
+/// number of each block, and the largest difference between the numbers of two blocks that touch.
 pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
     // Build the graph whose edges connect blocks that touch.
     let mut neighbours = vec![Vec::new(); program.blocks];

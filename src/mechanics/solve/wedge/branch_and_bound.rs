@@ -2,9 +2,9 @@
 //! springs come to rest, or proves that there is none.
 //!
 //! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
-//! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance,
-//! the robots' limits and that the loads do no negative work. All rows are linear in displacements and forces. Steps
-//! for each node:
+//! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance
+//! and the robots' limits. Without robots, one more row requires that the loads do no negative work. All rows are
+//! linear in displacements and forces. Steps for each node:
 //!
 //! 1. solve the relaxation;
 //! 2. if it is infeasible, check the multipliers that prove it (Farkas), and prune the node;
@@ -30,11 +30,11 @@ const MAX_ROWS: usize = 100_000;
 /// The result of the search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum SearchOutcome {
-    /// No springs come to rest: the listed nodes cover all patterns, and each was ruled out.
+    /// The springs have no state of rest: the listed nodes cover all patterns, and each was ruled out.
     NoRest(Vec<RuledOut>),
-    /// Springs come to rest.
+    /// A pattern was found in which the springs come to rest.
     RestFound,
-    /// Undecided: too many nodes, or a node that was neither ruled out nor led to a rest.
+    /// Undecided: too many nodes, or a node that was neither ruled out nor led to a state of rest.
     Undecided,
 }
 

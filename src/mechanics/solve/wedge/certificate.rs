@@ -13,7 +13,8 @@ use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 /// would need one more digit.
 const MAX_DISPLACEMENT: f64 = 1e6;
 
-/// The largest number of corrections of the multipliers. Each gains the digits of the solver.
+/// The largest number of corrections of the multipliers. Each adds about as many correct digits as the solver
+/// reaches.
 const MAX_CORRECTIONS: usize = 6;
 
 /// The gain of the multipliers must exceed this fraction of the contribution of the loads to it.
@@ -95,10 +96,11 @@ fn proves_when_corrected(conic: &QuadraticProgram, z: &[f64], program: &Program)
     proves(conic, &z, program)
 }
 
-/// Returns the multipliers after the least change, of those that are not 0, that gives Aᵀz = 0. Multipliers of
-/// inequalities that would become negative are then set to 0, which may leave an error. `None` if Aᵀz is 0 already.
+/// Changes the multipliers that are not 0 as little as possible so that Aᵀz = 0, and returns all multipliers.
+/// Multipliers of inequalities that would become negative are then set to 0, which may leave an error. `None` if Aᵀz
+/// is already 0, or if the solver returns no answer.
 fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> {
-    // Scale the error of Aᵀz to size 1.
+    // Scale the error Aᵀz so that its largest entry is 1.
     let off = transpose_product(conic, z);
     let size = off.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if size == 0.0 {

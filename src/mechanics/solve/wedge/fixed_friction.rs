@@ -1,9 +1,10 @@
 //! Finds springs at rest by fixed-point iteration on the friction limits, with convex programs (Tresca's friction).
 //!
-//! If the friction limit of each face is fixed (Tresca's law), springs at rest have the least energy. This is a convex
-//! program, which has a solution as long as additional springs hold the blocks to the ground. Its normal forces give
-//! the next friction limits μ(N1 + N2), and so on (Panagiotopoulos 1975). Newton's method ([`super::newton`]) is faster
-//! if it converges, but next to a stone a thousand times as heavy it cycles.
+//! If the friction limit of each face is fixed (Tresca's law), springs at rest have the least energy. This is a
+//! convex program, which has a solution as long as additional springs hold the blocks to the ground. Its normal
+//! forces determine the next friction limits μ(N1 + N2), and so on (Panagiotopoulos 1975). Newton's method
+//! ([`super::newton`]) is faster if it converges, but cycles if one of two stones in contact is a thousand times
+//! heavier.
 
 use super::rest::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
@@ -44,7 +45,7 @@ impl Springs<'_> {
             if let Some(rest) = self.rest(&pattern, &u) {
                 return Some(rest);
             }
-            // Fixed-point step: the normal forces give the next friction limits.
+            // Fixed-point step: the normal forces determine the next friction limits.
             let normal: Vec<f64> = self.points.iter().map(|p| -p.column.dot(&u)).collect();
             let sums = normal_sums(self, normal.iter().map(|n| n.max(0.0)));
             for ((limit, sum), contact) in

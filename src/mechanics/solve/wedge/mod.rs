@@ -42,12 +42,13 @@ pub struct SelfStress {
     pub motion: Vec<f64>,
     /// The contacts that open or slide in this motion.
     pub contacts: Vec<usize>,
-    /// Whether the motion closes no contact at all.
+    /// True if the motion closes no contact.
     pub presses_nothing: bool,
-    /// The least sum of normal forces at these contacts in any balance, in program units.
+    /// The least sum of normal forces at `contacts` in any balance, in program units. `None` if the solver finds
+    /// none.
     pub least_normal_sum: Option<f64>,
-    /// The motion that proves this bound. Along it, these contacts take at most a work of 1 for each unit of normal
-    /// force, and all others take none.
+    /// The motion that proves `least_normal_sum`. Along it, the forces of `contacts` do a negative work of at most 1
+    /// per unit of normal force. The forces of all other contacts do no negative work.
     pub bounding_motion: Vec<f64>,
     /// The patterns that the proof ruled out. Together they cover all patterns of pressing and sliding.
     pub ruled_out: Vec<RuledOut>,
@@ -77,7 +78,7 @@ impl std::fmt::Display for WedgingUndecided {
 /// The reason why neither answer was proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WedgingUndecided {
-    /// Neither a rest nor a proof that there is none was found.
+    /// Neither a state of rest nor a proof that there is none was found.
     NotFound,
     /// The answer depends on the stiffness of the springs along the faces.
     Stiffness,
@@ -87,7 +88,8 @@ pub enum WedgingUndecided {
 /// stiffness of 1.
 const OTHER_STIFFNESSES: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
-/// The largest number of blocks for which the iteration with fixed friction is tried. It takes long for more.
+/// The largest number of blocks for which the iteration with fixed friction is tried. With more blocks, it takes too
+/// long.
 const MAX_BLOCKS_FIXED_FRICTION: usize = 400;
 
 /// A velocity below this counts as 0; the largest is 1.
@@ -98,7 +100,8 @@ const VELOCITY_TOL: f64 = 1e-6;
 /// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. The robots may exert
 /// other forces within their limits.
 ///
-/// Without friction, they always do: the springs then come to rest at the balance of least Σ N².
+/// Without friction, the forces always build up from rest: the springs then come to rest at the balance of
+/// least Σ N².
 pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressCheck {
     if program.contacts.iter().all(|c| c.friction == 0.0) {
         return SelfStressCheck::FromRest;

@@ -1,9 +1,10 @@
 //! Finds springs at rest by a semismooth Newton method, with continuation in the stiffness of springs to the ground.
 //!
 //! A pattern (which points press, which faces slide) makes the springs' law linear. A Newton step solves this linear
-//! system; the displacements give the next pattern. If the pattern does not change, the springs are in equilibrium.
-//! Additional springs to the ground make the first systems regular and are then softened. Reference: Alart and Curnier,
-//! A mixed formulation for frictional contact problems prone to Newton like solution methods, 1991.
+//! system; the displacements determine the next pattern. If the pattern does not change, the springs are in
+//! equilibrium. Additional springs to the ground make the first systems regular and are then softened. Reference:
+//! Alart and Curnier, A mixed formulation for frictional contact problems prone to Newton like solution methods,
+//! 1991.
 
 use super::band::Band;
 use super::spring::{Pattern, Rest, Springs};
@@ -14,7 +15,7 @@ const MAX_STEPS: usize = 60;
 /// The number of these steps that are full steps; later steps use a line search.
 const FULL_STEPS: usize = 15;
 
-/// The step lengths that the line search tries.
+/// The step lengths that the line search tries, as fractions of the full step.
 const STEP_SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
 
 /// The number of stiffnesses of the ground that are tried, from 1 down to 0.3²¹ ≈ 1e-11 of an application point's

@@ -64,7 +64,7 @@ impl VariableLayout {
         }
     }
 
-    /// Returns the part of a solution `x` that contains the components of the robots' forces.
+    /// Returns the part of a solution `x` that contains the forces and torques of the robots.
     pub fn grips<'x>(&self, x: &'x [f64]) -> &'x [f64] {
         &x[self.grips..self.end]
     }

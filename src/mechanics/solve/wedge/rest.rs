@@ -15,11 +15,12 @@ const ROUNDING_TOL: f64 = 1e-13;
 
 /// The largest violation of the springs' law, as a fraction of the lighter block's load.
 ///
-/// It is a tenth of [`BALANCE_TOL`], so that the balance decides. A thousandth of this fraction of the contact's forces
-/// is allowed in addition.
+/// It is a tenth of [`BALANCE_TOL`], so that such violations are small compared with the allowed residual. A
+/// thousandth of this fraction of the contact's forces is allowed in addition.
 const LAW_TOL: f64 = 1e-8;
 
-/// The largest number of steps of iterative refinement. Each gains the digits of the LU factors.
+/// The largest number of steps of iterative refinement. Each step adds about as many correct digits as the LU factors
+/// have.
 const MAX_REFINEMENTS: usize = 12;
 
 /// Returns, for each contact, the sum of the given normal forces at its application points.
@@ -171,7 +172,8 @@ impl Springs<'_> {
                 LAW_TOL * lighter + 1e-3 * LAW_TOL * (normal[k].abs() + rest.friction[k].abs())
             })
             .collect();
-        // Points: N ≥ 0 and N + g ≥ 0, up to the tolerance.
+        // Points: N = max(0, −gap), for springs of stiffness 1. N is 0 or −gap already, so only N ≥ 0 and N + gap ≥ 0
+        // remain to be checked, up to the tolerance.
         let points = self
             .points
             .iter()

@@ -53,7 +53,7 @@ pub(super) struct Rest {
     pub(super) normal: Vec<f64>,
     /// Friction force per contact.
     pub(super) friction: Vec<f64>,
-    /// Amount per robot's component.
+    /// Force per component of a robot.
     pub(super) grips: Vec<f64>,
 }
 
@@ -88,7 +88,7 @@ pub(super) struct Springs<'a> {
     pub(super) grips: Vec<SpringGrip>,
     /// ρ: the stiffness along a face, relative to that of an application point.
     pub(super) tangential_stiffness: f64,
-    /// The position of each block in the banded matrix, and its bandwidth.
+    /// The position of each block in the banded matrix, and the bandwidth of this matrix.
     position: Vec<usize>,
     bandwidth: usize,
 }

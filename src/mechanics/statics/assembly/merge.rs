@@ -6,8 +6,9 @@ use crate::geometry::{Point, Vector};
 impl Assembly {
     /// Returns the assembly in which the bodies of each group are merged into one rigid body.
     ///
-    /// `group` gives the group of each body; a body without a group becomes part of the ground. The centroid of a
-    /// merged body is the mean of its members' centroids. Contacts within a group and grips on the ground are omitted.
+    /// `group` contains the group of each body; a body without a group becomes part of the ground. The centroid of a
+    /// merged body is the mean of its members' centroids. Contacts within a group and grips on the ground are
+    /// omitted.
     pub fn merged(&self, group: &[Option<usize>]) -> Assembly {
         let count = group.iter().flatten().max().map_or(0, |last| last + 1);
         let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];
@@ -149,7 +150,7 @@ mod tests {
         // The last body belongs to the ground.
         let joined = assembly.merged(&[Some(1), Some(0), Some(1), None]);
         let [one, two] = &joined.bodies[..] else {
-            panic!("two pieces");
+            panic!("there are not two pieces");
         };
         assert_eq!((one.centroid, one.weight), (Point::new(2.0, 1.0), 1.0));
         assert_eq!((two.centroid, two.weight), (Point::new(0.5, 2.5), 2.0));
@@ -166,8 +167,8 @@ mod tests {
         let together = work(two.load, Vector::zeros());
         assert!((together - apart).abs() < 1e-12, "{together}, {apart}");
 
-        // The contacts are: on the first piece from the second, the reverse, and two on the second piece from bodies
-        // at rest. One of these two is reversed.
+        // The contacts are: on the first piece from the second, the reverse, and two between the second piece
+        // and the ground. One of these two is reversed.
         let seen: Vec<_> = joined
             .contacts
             .iter()

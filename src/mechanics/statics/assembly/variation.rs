@@ -23,8 +23,7 @@ impl Assembly {
         self
     }
 
-    /// Sets gravity, in newtons per newton of weight, and recomputes the loads. `pull` gives its direction and
-    /// strength.
+    /// Sets the gravity vector `pull`, in newtons per newton of weight, and recomputes the loads.
     pub fn with_gravity(mut self, pull: Vector) -> Assembly {
         self.pull = pull;
         self.with_summed_loads()

@@ -20,7 +20,7 @@ impl Effect for CornerContacts {
         let count = kinds.filter(|kind| *kind == ContactKind::Corner).count();
         match count {
             _ if !context.scene.corner_contacts => {
-                Applicability::skipped("not asked for; tips are unreliable")
+                Applicability::skipped("not requested; corner contacts are unreliable")
             }
             0 => Applicability::skipped("no tip touches another body"),
             1 if context.scene.lists_contacts() => {

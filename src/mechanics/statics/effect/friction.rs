@@ -1,7 +1,7 @@
 //! Friction: |T| ≤ μ (N1 + N2) at each interface (Coulomb's law).
 //!
-//! It adds two unknowns per application point: the normal force together with full friction in either direction.
-//! Source: [Vallat23](crate::doc::references) §2.0.3.
+//! It adds two unknowns per application point. Each is a normal force together with the full friction in one
+//! direction. Source: [Vallat23](crate::doc::references) §2.0.3.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;

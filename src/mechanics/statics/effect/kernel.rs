@@ -1,4 +1,5 @@
-//! Safety kernel: each application point moves inward by kernel/2 of the interface's length. It adds no unknown.
+//! Safety kernel: each application point moves inward by the fraction kernel/2 of the interface's length. It adds no
+//! unknown.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.10.
 

@@ -8,14 +8,14 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Margins;
 
-/// Returns the report on margins. `judged` is the number of changed frames whose verdicts were computed for the
-/// margins; `None` if margins were not requested.
-pub fn report(judged: Option<usize>) -> EffectReport {
-    match judged {
-        None => EffectReport::skipped(NAME, "not asked for", 0),
+/// Returns the report on margins. `decided_count` is the number of changed components whose verdicts were computed
+/// for the margins; `None` if margins were not requested.
+pub fn report(decided_count: Option<usize>) -> EffectReport {
+    match decided_count {
+        None => EffectReport::skipped(NAME, "not requested", 0),
         Some(n) => EffectReport::simulated(
             NAME,
-            format!("asked for; {} judged", counted(n, "changed frame")),
+            format!("requested; analysed {}", counted(n, "changed frame")),
             0,
         ),
     }

@@ -176,7 +176,7 @@ impl Applicability {
         Applicability::skipped_saving(reason, 0)
     }
 
-    /// Returns the result for an effect that is skipped. `saved_unknowns` is the number of unknowns that it would add.
+    /// Returns the result for a skipped effect. `saved_unknowns` is the number of unknowns that the effect would add.
     fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
         Applicability::Skipped {
             reason: reason.to_owned(),
@@ -212,7 +212,7 @@ const EFFECTS: [&dyn Effect; 8] = [
 
 /// Builds the assembly of a frame from the effects that apply. Also returns a report on each effect.
 ///
-/// The reports of simulated effects give 0 unknowns at first. The unknowns are counted later, from the programs.
+/// The reports of simulated effects contain 0 unknowns at first. The unknowns are counted later, from the programs.
 pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
     let mut assembly = Assembly::without_effects(context.scene, context.frame, context.interfaces);
     let mut reports = Vec::with_capacity(EFFECTS.len());

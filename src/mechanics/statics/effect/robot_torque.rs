@@ -23,9 +23,10 @@ impl Effect for RobotTorque {
                 "every holding robot's torque limit is 0",
                 2 * holds.len(),
             ),
-            n => {
-                Applicability::Applies(format!("{} may give a torque", counted(n, "holding robot")))
-            }
+            n => Applicability::Applies(format!(
+                "{} may apply a torque",
+                counted(n, "holding robot")
+            )),
         }
     }
 

@@ -32,7 +32,7 @@ pub fn report(blocks: usize, search: AdhesionSearch, unknowns: usize) -> EffectR
             EffectReport::simulated(NAME, why, unknowns)
         }
         AdhesionSearch::NotNeeded => {
-            EffectReport::skipped(NAME, "the program without it has a solution", unknowns)
+            EffectReport::skipped(NAME, "the frame stands without it", unknowns)
         }
         AdhesionSearch::NotRequested => {
             let why = "only the verdict was asked for, and a motion proves that it falls";

@@ -20,7 +20,7 @@ pub enum Wedging {
     NotRequested,
     /// Not checked, because the frame does not stand.
     Falls,
-    /// Undecided: a state of rest was neither found nor ruled out. The text gives the reason.
+    /// Undecided: a state of rest was neither found nor ruled out. The text states the reason.
     Undecided(String),
     /// The springs have a state of rest: the frame does not need wedging.
     FromRest,
@@ -31,19 +31,21 @@ pub enum Wedging {
 /// Returns the report on wedging. Wedging is checked only if it was requested and the frame stands.
 pub fn report(wedging: Wedging) -> EffectReport {
     match wedging {
-        Wedging::NotRequested => EffectReport::skipped(NAME, "not asked for", 0),
+        Wedging::NotRequested => EffectReport::skipped(NAME, "not requested", 0),
         Wedging::Falls => EffectReport::skipped(NAME, "the frame does not stand", 0),
         Wedging::Undecided(why) => {
-            EffectReport::simulated(NAME, format!("asked for and left open: {why}"), 0)
+            EffectReport::simulated(NAME, format!("requested, but undecided: {why}"), 0)
         }
         Wedging::FromRest => EffectReport::simulated(
             NAME,
-            "asked for: springs without stress come to rest under the loads".to_string(),
+            "requested: springs without initial stress come to rest under the loads".to_string(),
             0,
         ),
         Wedging::OnlyByWedging(shown) => EffectReport::simulated(
             NAME,
-            format!("asked for: no springs without stress come to rest under the loads; {shown}"),
+            format!(
+                "requested: springs without initial stress do not come to rest under the loads; {shown}"
+            ),
             0,
         ),
     }

@@ -15,16 +15,17 @@ const CONTACT_PER_EDGE: f64 = 0.5;
 /// point.
 ///
 /// If it were ten times larger, the edges of a circle of 100 000 corners would be dropped; if it were ten times
-/// smaller, it would come near the rounding of numbers.
+/// smaller, it would be close to the rounding errors of the coordinates.
 const MIN_EDGE_PER_TOLERANCE: f64 = 1e-6;
 
-/// The segment that two opposite edges both cover, measured along their mean direction from the start of the first.
+/// The segment that two opposite edges both cover, measured along their mean direction from the start of the
+/// first edge.
 pub(super) struct CommonSegment {
     a: Edge,
     b: Edge,
     /// The mean direction of the two edges, that of the first.
     along: Vector,
-    /// Where it begins and ends, metres.
+    /// The coordinates of its two ends along the mean direction, metres.
     pub(super) start: f64,
     pub(super) end: f64,
 }

@@ -14,13 +14,14 @@ use crate::scene::{BodyId, Scene};
 /// direction.
 const PARALLEL_BISECTORS: f64 = 1e-9;
 
-/// A corner contact is part of another contact of the two bodies if it lies within this many tolerances of it.
+/// A corner contact is part of another contact of the two bodies if their distance is at most this multiple of the
+/// tolerance.
 ///
 /// The ends of an interface and the corner are each displaced by up to one tolerance.
 const SAME_CONTACT_REACH: f64 = 4.0;
 
-/// The tolerance on a lattice, as a fraction of its side. Any small fraction serves: points are equal or at least half
-/// a side apart.
+/// The tolerance on a lattice, as a fraction of its side. Any small fraction suffices: points are equal or at least
+/// half a side apart.
 const LATTICE_TOLERANCE_PER_SIDE: f64 = 1e-6;
 
 /// A corner with the two sides that meet in it.

@@ -17,7 +17,7 @@ use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, normal_across,
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross};
 use crate::scene::{BodyId, Scene, size};
 
-/// Edges whose distance exceeds this many gaps are not mentioned in a notice.
+/// Edges farther apart than this multiple of the contact tolerance are not mentioned in a notice.
 const MAX_REPORTED_GAPS: f64 = 30.0;
 
 /// Edges whose directions differ by less than this, in radians, count as parallel however small the gap is.
@@ -33,7 +33,7 @@ const MAX_GAP_PER_SIZE: f64 = 0.01;
 
 /// Common segments up to this fraction of the tolerance's shortest contact are not even reported as too short.
 ///
-/// They are the rounding of a corner that touches the end of an edge.
+/// They result from rounding where a corner touches the end of an edge.
 const CORNER_ROUNDING: f64 = 1e-3;
 
 /// An edge longer than this fraction of a block's size (four times its area over its perimeter) is a side on which the
@@ -171,7 +171,7 @@ fn sides(scene: &Scene) -> (Vec<Side>, f64) {
     (sides, smallest)
 }
 
-/// What was found along all pairs of edges.
+/// The contacts, near misses and notices found along the pairs of edges.
 #[derive(Default)]
 struct Collection {
     interfaces: Vec<Interface>,
@@ -338,7 +338,8 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     if va.dot(&vb) >= 0.0 {
         return None;
     }
-    // Test whether the edges are parallel. If both ends move by one gap, a short edge turns more than a long one.
+    // Test whether the edges are parallel. The allowed angle is larger for short edges, because displacements of
+    // their ends by the tolerance turn them more.
     let (la, lb) = (va.norm(), vb.norm());
     let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
     let is_parallel_within = |gap: f64| {

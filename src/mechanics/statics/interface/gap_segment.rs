@@ -51,7 +51,7 @@ impl GapSegment {
 ///
 /// 1. Begin at the points where the bodies touch: at the ends of their contacts, or at the one corner on which a body
 ///    stands. A body on two corners with a hollow between them may have been meant to lie flat.
-/// 2. Drop every gap whose narrow end lies there, and continue from its wide end.
+/// 2. Drop every gap whose narrow end is near such a point, and continue from its wide end.
 ///
 /// Three kinds of gaps are kept. The first is at most as wide as the rounding of coordinates (`misfit`, metres), which
 /// can make a straight edge look bent. The second is longer than `longest` metres: a body that is drawn askew along its

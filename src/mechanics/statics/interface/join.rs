@@ -1,19 +1,20 @@
 //! [`join_segments`]: joins contact segments of the same two bodies that continue each other along one line.
 //!
-//! A corner inside a straight joint divides an edge in two, but must not change the interfaces. A joint may consist of
-//! a hundred thousand segments. Their ends are therefore searched in a grid (spatial hashing) whose cells are as wide
-//! as the largest distance of two ends that are joined.
+//! A corner inside a straight joint divides an edge in two, but must not change the interfaces. A joint may consist
+//! of a hundred thousand segments. Their ends are therefore looked up in a grid (spatial hashing) whose cells are as
+//! wide as the largest distance of two ends that are joined.
 
 use std::collections::BTreeMap;
 
 use super::{Interface, normal_across};
 use crate::geometry::{Point, Tolerance, cross};
 
-/// Two segments on one line continue each other if their ends lie within this many gaps of each other.
+/// Two segments on one line continue each other if the distance of their ends is at most this multiple of the
+/// contact tolerance.
 ///
-/// Each end of a segment comes from corners that are displaced by up to a gap each. If it were ten times smaller, the
-/// segments of one rounded joint would not be joined. If it were ten times larger, the two feet of a body would be
-/// joined across the hollow between them. This changes the interfaces that are drawn, but no verdict.
+/// Each end of a segment comes from corners that are displaced by up to the tolerance each. If the multiple were ten
+/// times smaller, the segments of one rounded joint would not be joined. If it were ten times larger, the two feet of
+/// a body would be joined across the hollow between them. This changes the interfaces that are drawn, but no verdict.
 pub(super) const JOIN_REACH: f64 = 4.0;
 
 /// Segments whose normals differ by more than this, in radians, are not on one line.
@@ -24,7 +25,7 @@ pub(super) const JOIN_REACH: f64 = 4.0;
 const SAME_LINE_TOL: f64 = 1e-6;
 
 /// Joins the contact segments of one pair of bodies that continue each other. Returns the joined segments and the
-/// segments that continue no other.
+/// segments that continue no other segment.
 pub(super) fn join_segments(segments: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
     let mut remaining = SegmentGrid::new(segments, JOIN_REACH * tolerance.gap);
     let mut joined = Vec::new();

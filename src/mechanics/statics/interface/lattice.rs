@@ -1,7 +1,7 @@
 //! Finds the interfaces of lattice scenes with integer arithmetic, so the result is exact.
 //!
-//! Two cells share an edge if one has it in one direction and the other in the opposite direction. Consecutive edges
-//! between the same two bodies along one line are one interface.
+//! Two cells share an edge if the outline of one contains it in one direction and the outline of the other in the
+//! opposite direction. Consecutive edges between the same two bodies along one line are one interface.
 
 use std::collections::BTreeMap;
 

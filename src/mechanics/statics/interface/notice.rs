@@ -33,8 +33,8 @@ impl Notices {
             .push((format!("{} and {}", names[0], names[1]), distance));
     }
 
-    /// Returns the notices as sentences for users, with lengths in the unit of the scene: at most one about contacts that are too short, and at most one about
-    /// gaps that are too wide.
+    /// Returns the notices as sentences for users, with lengths in the unit of the scene. There is at most one
+    /// sentence about contacts that are too short, and at most one about gaps that are too wide.
     pub(super) fn into_sentences(self, tolerance: Tolerance, units: UnitsEntry) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.short_count > 0 {

@@ -34,7 +34,7 @@ fn scene(ground: Vec<Vec<Pair>>, blocks: Vec<Vec<Pair>>) -> Scene {
     for (number, block) in blocks.into_iter().enumerate() {
         scene = scene.block(BlockEntry::new(format!("{number}")).polygon(block));
     }
-    scene.build().expect("a sound scene")
+    scene.build().expect("the scene is valid")
 }
 
 const FIRST: BodyId = BodyId::Block(BlockId(0));
@@ -103,7 +103,7 @@ fn tips_that_meet_press_along_their_bisector() {
 }
 
 #[test]
-fn only_corners_away_from_edge_contacts_are_contacts_of_their_own() {
+fn a_corner_is_a_contact_only_away_from_edge_contacts() {
     let floor = || vec![rectangle(-20.0, -1.0, 40.0, 1.0)];
     let alone = Interfaces::new(&scene(floor(), vec![rectangle(0.0, 0.0, 2.0, 1.0)])).all;
     let kinds: Vec<ContactKind> = alone.iter().map(|i| i.kind).collect();
@@ -170,11 +170,11 @@ fn edges_touch_within_the_tolerance_and_are_near_misses_beyond_it() {
     let found = Interfaces::new(&at(0.9 * gap, 0.0));
     assert_eq!((found.all.len(), found.near_misses.len()), (2, 0));
     assert!(found.notices.is_empty(), "{:?}", found.notices);
-    // The shared stretch extends from x = −0.75 to 1, halfway between the two edges.
-    let stretch = &found.all[0];
-    assert!((stretch.length() - 1.75 * ODD).abs() < 1e-9);
-    assert!((stretch.middle().x - 0.125 * ODD).abs() < 1e-9);
-    assert!((stretch.middle().y - 0.45 * gap).abs() < 1e-12);
+    // The shared segment extends from x = −0.75 to 1, halfway between the two edges.
+    let segment = &found.all[0];
+    assert!((segment.length() - 1.75 * ODD).abs() < 1e-9);
+    assert!((segment.middle().x - 0.125 * ODD).abs() < 1e-9);
+    assert!((segment.middle().y - 0.45 * gap).abs() < 1e-12);
 
     let apart = Interfaces::new(&at(29.0 * gap, 0.0));
     assert_eq!((apart.all.len(), apart.near_misses.len()), (1, 1));
@@ -280,7 +280,7 @@ fn a_row_of_lattice_edges_is_one_interface() {
         .block(BlockEntry::new("high").cells(row(4.0, 6.0)))
         .block(BlockEntry::new("beside").cells(cells([(2.0, 5.0), (2.0, 6.0), (3.0, 6.0)])))
         .build()
-        .expect("a sound scene");
+        .expect("the scene is valid");
     let found = Interfaces::new(&scene).all;
     let block = |n: usize| BodyId::Block(BlockId(n));
     let expected = [

@@ -1,7 +1,7 @@
 //! [`chains`]: joins open curves whose ends meet into loops.
 //!
 //! 1. Number the points at the ends of all curves. Ends within the tolerance are the same point.
-//! 2. A point where exactly two ends meet connects them.
+//! 2. If exactly two ends meet at a point, their curves are connected.
 //! 3. Follow the connections. A walk that returns to its start is a loop. Other curves remain open.
 
 use std::collections::BTreeMap;

@@ -76,7 +76,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
     })
 }
 
-/// The direction of an entity's normal relative to the drawing's.
+/// The direction of an entity's normal relative to the normal of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Extrusion {
     Up,

@@ -146,8 +146,8 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Appends an edge to a curve. The edge, or a curve of only one edge, is reversed if they meet only then. Returns an
-/// error message if they do not meet.
+/// Appends an edge to a curve. Reverses the edge if only its end meets the curve. A curve of a single edge is also
+/// reversed if only its start meets the edge. Returns an error message if the two do not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

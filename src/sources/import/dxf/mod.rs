@@ -8,8 +8,9 @@
 //! | 4. insert blocks with their transform, and sort the curves by layer | `walk` |
 //! | 5. join open curves that meet into loops | `chain` |
 //!
-//! The name of a layer gives the role, as in other drawings, or the material: a layer "granite" sets density and friction.
-//! Group codes are those of the AutoCAD DXF reference.
+//! The role of an entity follows from the name of its layer or block, as in other drawings. The name of a layer can
+//! also be a material: a layer "granite" sets density and friction. Group codes are those of the AutoCAD DXF
+//! reference.
 
 mod bounds;
 mod chain;
@@ -50,8 +51,8 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
     Ok(walk.finish())
 }
 
-/// Returns the length in metres of the unit with this `$INSUNITS` code, and a text that names the unit. `None` if the
-/// code is not a known unit of length.
+/// Returns the length in metres of the unit with this `$INSUNITS` code, and a note that the drawing states this unit.
+/// `None` if the code is not a known unit of length.
 fn unit(code: i64) -> Option<(f64, String)> {
     let (metres, name) = match code {
         1 => (0.0254, "inches"),

@@ -8,7 +8,7 @@ use super::super::limit::MAX_BODIES;
 /// The largest number of records in a file.
 const MAX_RECORDS: usize = 100 * MAX_BODIES;
 
-/// A record: an entity, a row of a table, or the begin or end of a section.
+/// A record: an entity, a row of a table, or the beginning or end of a section.
 #[derive(Debug)]
 pub(super) struct Record<'t> {
     /// The value of code 0, such as `LINE` or `SECTION`.

@@ -1,3 +1,5 @@
+//! Tests of DXF drawings with a few entities: their outlines, roles, notes and remarks.
+
 use core::f64::consts::TAU;
 
 use super::*;
@@ -5,7 +7,7 @@ use crate::geometry::Point;
 use crate::import::draft::{PartGeometry, Role};
 use crate::import::subpath::Subpath;
 
-/// A DXF file with entities, written as `code value` lines.
+/// The text of a DXF file with these blocks and entities. Each group is given as a line `code value`.
 fn file(blocks: &str, entities: &str) -> String {
     let text = format!(
         "0 SECTION\n2 BLOCKS\n{blocks}\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n{entities}\n0 ENDSEC\n0 EOF"
@@ -34,7 +36,7 @@ fn curves(draft: &Draft) -> Vec<&Subpath> {
     forms.flatten().collect()
 }
 
-/// Area by the shoelace formula after flattening; positive if anticlockwise.
+/// The area of a curve after flattening, by the shoelace formula; positive if the curve runs anticlockwise.
 fn area(curve: &Subpath) -> f64 {
     let corners = curve.flattened(1e-6, 1e-9).expect("closed");
     let at = |i: usize| corners[i % corners.len()].at;
@@ -119,7 +121,8 @@ fn blocks_are_inserted_with_scale_rotation_and_arrays() {
             .any(|p| (p - Point::new(7.0, 22.0)).norm() < 1e-12),
         "{hull:?}"
     );
-    // The last copy is in column 2 of width 2 and row 1 of height 1. The base point is subtracted.
+    // The last copy is in column 2 and row 1, counted from 0. Columns are 2 wide, rows are 1 high, and the base point
+    // is subtracted.
     let last = curves(&draft)[6].start;
     assert!((last - Point::new(3.0, 1.0)).norm() < 1e-12, "{last}");
     assert!(
@@ -130,7 +133,7 @@ fn blocks_are_inserted_with_scale_rotation_and_arrays() {
 }
 
 #[test]
-fn a_mirrored_polyline_and_a_tilted_one() {
+fn a_mirrored_polyline_is_read_and_a_tilted_polyline_is_left_out() {
     let mirrored = format!("{SQUARE}210 0\n220 0\n230 -1");
     let found = draft("", &mirrored);
     assert_eq!(curves(&found)[0].hull()[1], Point::new(-2.0, 0.0));
@@ -140,7 +143,7 @@ fn a_mirrored_polyline_and_a_tilted_one() {
 }
 
 #[test]
-fn a_hatch_counts_only_where_no_outline_is_drawn() {
+fn a_hatch_is_imported_only_if_no_outline_is_drawn_around_it() {
     let hatch = |dx: f64| {
         format!(
             "0 HATCH\n8 0\n10 0\n20 0\n91 1\n92 2\n72 0\n73 1\n93 4\n10 {dx}\n20 0\n10 {}\n20 0\n10 {}\n20 1\n10 {dx}\n20 1\n97 0\n",
@@ -163,7 +166,7 @@ fn a_hatch_counts_only_where_no_outline_is_drawn() {
 }
 
 #[test]
-fn layers_decide_what_is_read() {
+fn the_name_of_a_layer_decides_the_role_of_its_entities() {
     let on = |layer: &str| SQUARE.replacen("8 0", &format!("8 {layer}"), 1);
     let point = "0 POINT\n8 robot arm\n10 1\n20 0.5\n0 POINT\n8 0\n10 1\n20 0.5\n";
     let found = draft(

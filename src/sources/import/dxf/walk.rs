@@ -19,7 +19,7 @@ use crate::import::subpath::Subpath;
 
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
-/// Entities without outlines, which a drawing of a structure usually contains.
+/// Kinds of entities without outlines that drawings often contain. They are counted, and not reported one by one.
 const ANNOTATIONS: [&str; 17] = [
     "ACAD_PROXY_ENTITY",
     "ATTDEF",
@@ -56,11 +56,11 @@ pub(super) struct DxfWalk<'d> {
     pub(super) inserted: usize,
 }
 
-/// The place of entities: their transform, and the names around them.
+/// The properties that entities inherit: their transform, layer, block and role.
 #[derive(Clone, Debug)]
 pub(super) struct EntityContext {
     map: Affine,
-    /// The layer of the INSERT, for entities on layer 0.
+    /// The name of the layer. Entities of a block on layer 0 inherit the layer of the INSERT.
     layer: String,
     /// The name of the innermost block with a name; empty outside of blocks.
     block: String,
@@ -254,8 +254,8 @@ impl<'d> DxfWalk<'d> {
         *self.left_out.entry(reason.to_owned()).or_default() += 1;
     }
 
-    /// Joins open curves into loops, adds hatches that do not fill a drawn outline, adds the notes, and returns the
-    /// draft.
+    /// Joins open curves into loops, adds the boundaries of hatches that do not fill a drawn outline, adds notes
+    /// about everything that is left out, and returns the draft.
     pub(super) fn finish(mut self) -> Draft {
         let boxes = self
             .open

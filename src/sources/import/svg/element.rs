@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_have_the_areas_they_should() {
+    fn shapes_have_the_expected_areas() {
         let quarter = core::f64::consts::FRAC_PI_4;
         for (element, expected) in [
             ("<rect x='1' y='2' width='4' height='3'/>", 12.0),

@@ -1,7 +1,8 @@
 //! Reads SVG from Inkscape, Illustrator and other programs into a [`Draft`].
 //!
 //! 1. Parse the XML and the style sheets.
-//! 2. Walk the tree ([`SvgWalk`]). Each element inherits its transform, its style, and the role from the names around it.
+//! 2. Walk the tree ([`SvgWalk`]). Each element inherits the transform, the style and the role of the group around
+//!    it.
 //! 3. Convert shapes to subpaths in metres, with y up.
 //!
 //! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED_REMARKS`] of one kind.

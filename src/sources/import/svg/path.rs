@@ -161,7 +161,7 @@ impl SubpathBuilder {
 ///
 /// 1. Map the ellipse to the unit circle; h is half the chord.
 /// 2. If the chord is longer than the diameter, enlarge the radii (B.2.5).
-/// 3. The centre is at distance √(1 − h²) from the middle of the chord; the flags choose the side.
+/// 3. The centre is at distance √(1 − h²) from the middle of the chord; the two flags decide on which side.
 /// 4. Compute the angles of both ends, and correct the sign of the sweep.
 fn arc(
     from: Point,
@@ -194,7 +194,7 @@ fn arc(
     // Step 4: compute the angles.
     let begin = libm::atan2(start.y, start.x);
     let mut sweep = libm::atan2(cross(start, end), start.dot(&end));
-    // Correct the sign of the sweep. For a half circle, `atan2` may give +π or −π.
+    // Correct the sign of the sweep. For a half circle, `atan2` may return +π or −π.
     if clockwise && sweep < 0.0 {
         sweep += TAU;
     } else if !clockwise && sweep > 0.0 {
@@ -265,7 +265,7 @@ mod tests {
             }
             // The area of a quarter of an ellipse or of three quarters, minus or plus a triangle.
             let area = crate::geometry::snap::area(
-                &subpaths(&d).expect("data")[0]
+                &subpaths(&d).expect("path data")[0]
                     .flattened(1e-4, 1e-9)
                     .expect("closed"),
             );

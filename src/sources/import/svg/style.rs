@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn closer_declarations_take_precedence() {
+    fn declarations_take_precedence_as_in_css() {
         let cases = [
             ("<g/>", "", [255, 0, 0]),
             ("<g fill='#0f0'/>", "", [0, 255, 0]),

@@ -12,15 +12,16 @@ use crate::import::affine::Affine;
 pub(super) struct Viewport {
     pub(super) width: f64,
     pub(super) height: f64,
-    /// The size that a `<use>` element gives to its symbol.
+    /// The width and height that a `<use>` element sets for its symbol.
     pub(super) copied: (Option<f64>, Option<f64>),
 }
 
 /// The page of the root element.
 pub(super) struct Page {
     pub(super) viewport: Viewport,
-    /// The left and lower edge in user units.
+    /// The x coordinate of the left edge, in user units.
     pub(super) left: f64,
+    /// The y coordinate of the lower edge, in user units. The y axis points down.
     pub(super) bottom: f64,
     /// Metres per user unit and the size from which it follows, if the drawing has a physical size.
     pub(super) unit: Option<(f64, String)>,
@@ -143,7 +144,8 @@ fn physical(length: Length) -> Option<f64> {
     Some(length.number * metres)
 }
 
-/// Rounds a scale to 15 digits. This removes the rounding error of a division, so that 0.21 m / 210 gives 0.001.
+/// Rounds a scale to 15 digits. This removes the rounding error of a division, so that the result of 0.21 m / 210 is
+/// 0.001.
 fn neat(scale: f64) -> f64 {
     format!("{scale:.14e}").parse().unwrap_or(scale)
 }
@@ -159,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn a_physical_size_gives_the_unit_of_the_drawing() {
+    fn the_unit_of_a_drawing_follows_from_its_physical_size() {
         assert_eq!(
             unit("width='210mm' height='297mm' viewBox='0 0 210 297'"),
             Some(0.001)

@@ -32,7 +32,7 @@ pub(super) struct SvgWalk<'a, 'd> {
     pub(super) draft: Draft,
     /// The number of visited elements.
     pub(super) seen: usize,
-    /// The number of style rules that were compared with them.
+    /// The number of comparisons of style rules with these elements.
     pub(super) styled: usize,
     /// The number of shapes beyond the limit.
     pub(super) more: usize,
@@ -164,14 +164,14 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 node,
                 around,
                 "a text cannot become a block; left out",
-                "convert it to paths if it should become blocks, or rename its layer to ignore",
+                "convert it to paths if it should become blocks, or give its layer a name that begins with ignore",
             ),
             "image" => self.remark(
                 RemarkKind::Image,
                 node,
                 around,
                 "an image has no outlines; left out",
-                "trace it, or rename its layer to ignore",
+                "trace it, or give its layer a name that begins with ignore",
             ),
             "rect" | "circle" | "ellipse" | "polygon" | "polyline" | "path" | "line" => {
                 self.shape(node, &inner);

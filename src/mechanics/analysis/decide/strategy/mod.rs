@@ -79,13 +79,13 @@ pub(super) enum Strategy {
 
 /// The results of a strategy, in the program's units and not yet proved.
 pub(super) struct Attempt {
-    /// Forces that should balance.
+    /// Forces that balance the loads according to the program.
     pub forces: Option<Amounts>,
-    /// A motion that should be a mechanism.
+    /// A motion that is a mechanism according to the program.
     pub motion: Option<Vec<f64>>,
     /// From the program of least force: a motion that bounds the sum of balancing forces from below.
     pub witness: Option<Vec<f64>>,
-    /// The answer of the program of least adhesion, if that was the strategy.
+    /// The result of the program of least adhesion, if the strategy solved it.
     pub least_adhesion: Option<LeastAdhesion>,
     pub effort: Effort,
 }
@@ -111,7 +111,7 @@ impl Strategy {
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a result.
     /// 4. Least force with full precision.
-    /// 5. Least adhesion. Its optimum is the physical residual and distinguishes 0 from almost 0 best.
+    /// 5. Least adhesion. Its optimum, the sum of the missing forces, distinguishes 0 from almost 0 best.
     ///
     /// Three cases differ:
     ///

@@ -1,4 +1,4 @@
-//! Contacts of tips with edges and with other tips.
+//! Tests of contacts of tips with edges and with other tips.
 
 use super::*;
 
@@ -7,8 +7,8 @@ fn a_block_on_the_tip_of_an_earlier_block_is_pushed_upward() {
     // A roof on the floor and a board on its ridge. The contact names the board first and pushes it upward.
     let roof = odd(&[[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]);
     let board = rectangle(-1.0, 1.0, 5.0, 1.0);
-    let there = scene(vec![rectangle(-5.0, -1.0, 20.0, 1.0)], vec![roof, board]);
-    let found = Interfaces::new(&there).all;
+    let example = scene(vec![rectangle(-5.0, -1.0, 20.0, 1.0)], vec![roof, board]);
+    let found = Interfaces::new(&example).all;
     let corners: Vec<&Interface> = found
         .iter()
         .filter(|i| i.kind == ContactKind::Corner)

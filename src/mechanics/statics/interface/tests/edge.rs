@@ -1,4 +1,4 @@
-//! Edges that face each other: their distance, inclination, length and direction.
+//! Tests of edges that face each other: their distance, inclination, length and direction.
 
 use super::*;
 
@@ -26,7 +26,8 @@ fn application_points_lie_inward_of_the_ends() {
     assert_eq!(points(1.0), [seam.middle(); 2]);
 }
 
-/// A block above a ledge, and the same scene rotated by quarter turns: the distance and the place are the same.
+/// A block above a ledge, and the same scene rotated by quarter turns: the distance and the position relative to the
+/// block are the same.
 #[test]
 fn edges_are_found_on_every_side_of_a_block() {
     for times in 0..4 {
@@ -68,10 +69,10 @@ fn the_size_of_the_smaller_block_limits_near_misses() {
     );
     let floor = vec![rectangle(-5.0, -1.0, 20.0, 1.0)];
     for (share, seen) in [(0.009, 1), (0.011, 0), (0.03, 0)] {
-        let there = scene(floor.clone(), vec![small(share), large.clone()]);
-        assert_eq!(Interfaces::new(&there).near_misses.len(), seen, "{share}");
-        let there = scene(floor.clone(), vec![large.clone(), small(share)]);
-        assert_eq!(Interfaces::new(&there).near_misses.len(), seen, "{share}");
+        let example = scene(floor.clone(), vec![small(share), large.clone()]);
+        assert_eq!(Interfaces::new(&example).near_misses.len(), seen, "{share}");
+        let example = scene(floor.clone(), vec![large.clone(), small(share)]);
+        assert_eq!(Interfaces::new(&example).near_misses.len(), seen, "{share}");
     }
 }
 
@@ -102,7 +103,8 @@ fn edges_whose_overlap_is_shorter_than_their_distance_do_not_face_each_other() {
     }
 }
 
-/// A box whose right end is raised by some gaps. The floor ends at the given distance from the box's left end.
+/// A box whose right end is raised by `rise` times the gap. The floor ends `width` m to the right of the box's left
+/// end. Also returns the gap, the contact tolerance in metres.
 fn askew(rise: f64, width: f64) -> (Scene, f64) {
     let at = |rise: f64| {
         let mut block = rectangle(0.0, 0.0, 2.0, 2.0);
@@ -124,7 +126,7 @@ fn the_distance_of_inclined_edges_is_that_of_the_wider_end() {
     assert!(found.all.iter().all(|i| i.kind == ContactKind::Corner));
 }
 
-/// Over the shared 10 mm the edges are closer than the gap even at a rise of 50 gaps. This is still not a joint.
+/// Over the shared 10 mm the edges are closer than the gap even at a rise of 50 gaps. Such edges still form no joint.
 #[test]
 fn strongly_inclined_edges_have_no_joint_even_over_a_short_overlap() {
     for (rise, joints) in [(1.9, 1), (50.0, 0)] {
@@ -136,7 +138,7 @@ fn strongly_inclined_edges_have_no_joint_even_over_a_short_overlap() {
 }
 
 #[test]
-fn two_stretches_of_one_line_are_joined_and_opposite_faces_are_not() {
+fn two_segments_of_one_line_are_joined_and_opposite_faces_are_not() {
     // A corner in the floor, below the block.
     let floor = odd(&[
         [-5.0, -1.0],
@@ -145,12 +147,12 @@ fn two_stretches_of_one_line_are_joined_and_opposite_faces_are_not() {
         [0.75, 0.0],
         [-5.0, 0.0],
     ]);
-    let there = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
-    let found = Interfaces::new(&there).all;
+    let example = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
+    let found = Interfaces::new(&example).all;
     assert_eq!(found.len(), 1, "{found:?}");
     let ends = found[0].ends.map(|p| p.x);
     assert!((ends[0] - 2.0 * ODD).abs() < 1e-9 && ends[1].abs() < 1e-9);
-    // A fin in a slot. It is thinner than the distance over which stretches are joined. Its two faces are pressed in
+    // A fin in a slot. It is thinner than the distance over which segments are joined. Its two faces are pressed in
     // opposite directions.
     let width = 8e-6;
     let (left, right) = (1.0, 1.0 + width);
@@ -174,10 +176,10 @@ fn two_stretches_of_one_line_are_joined_and_opposite_faces_are_not() {
         [0.0, 0.0],
         [left, 0.0],
     ]);
-    let there = scene(vec![slotted], vec![finned]);
-    let gap = gap(&there, BodyId::Ground(0));
+    let example = scene(vec![slotted], vec![finned]);
+    let gap = gap(&example, BodyId::Ground(0));
     assert!(gap < width && width < 4.0 * gap, "{gap}");
-    let found = Interfaces::new(&there).all;
+    let found = Interfaces::new(&example).all;
     let faces: Vec<f64> = found
         .iter()
         .filter(|i| i.length() > 0.5 && i.normal.x.abs() > 0.5)
@@ -187,9 +189,9 @@ fn two_stretches_of_one_line_are_joined_and_opposite_faces_are_not() {
     assert!((faces[0] + faces[1]).abs() < 1e-9, "{faces:?}");
 }
 
-/// Two stretches that meet at a corner are not joined.
+/// Two segments that meet at a corner are not joined.
 #[test]
-fn stretches_are_joined_only_in_one_line() {
+fn segments_are_joined_only_in_one_line() {
     let stair = odd(&[[-5.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-5.0, 3.0]]);
     let block = odd(&[
         [1.0, -1.0],
@@ -218,7 +220,7 @@ fn slivers_count_as_interfaces_on_request() {
             .block(BlockEntry::new("a").polygon(rectangle(0.0, 0.0, 2.0, 1.0)))
             .block(BlockEntry::new("b").polygon(rectangle(-2.0 + shared, 1.0, 2.0, 1.0)))
             .build()
-            .expect("a sound scene")
+            .expect("the scene is valid")
     };
     let found = Interfaces::new(&at(1e-7, None));
     assert_eq!((found.all.len(), found.slivers.len()), (1, 1));

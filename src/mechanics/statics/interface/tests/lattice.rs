@@ -1,4 +1,4 @@
-//! Contacts of scenes made of cells.
+//! Tests of contacts in scenes made of cells.
 
 use super::*;
 use crate::interface::lattice::LatticeEdges;
@@ -24,7 +24,7 @@ fn lidded() -> Scene {
         .block(BlockEntry::new("bar").cells(squares(&[(1.0, 1.0)])))
         .block(BlockEntry::new("lid").cells(squares(&[(0.0, 2.0), (1.0, 2.0), (2.0, 2.0)])))
         .build()
-        .expect("a sound scene")
+        .expect("the scene is valid")
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn tips_of_cells_touch_sides_and_tips_at_nodes() {
         .block(BlockEntry::new("beside").cells(triangles(&[(-1.0, 1.0, up)])))
         .block(BlockEntry::new("above").cells(triangles(&[(0.0, 3.0, up)])))
         .build()
-        .expect("a sound scene");
+        .expect("the scene is valid");
     let found = Interfaces::new(&scene).all;
     let root = libm::sqrt(0.75);
     let expected = [
@@ -126,7 +126,7 @@ fn rows_of_triangles_share_slanted_sides() {
         .ground(GroundEntry::default().cells(triangles(&slope)))
         .block(BlockEntry::new("beside").cells(triangles(&beside)))
         .build()
-        .expect("a sound scene");
+        .expect("the scene is valid");
     let found = Interfaces::new(&scene).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!((found[0].length() - 0.6).abs() < 1e-12);
@@ -151,7 +151,7 @@ fn parts_of_the_ground_have_no_contacts_with_each_other() {
         .ground(part(2.0, 1.0))
         .block(BlockEntry::new("on").cells(squares(&[(0.0, 1.0)])))
         .build()
-        .expect("a sound scene");
+        .expect("the scene is valid");
     let on = [FIRST, BodyId::Ground(0)];
     let tip = [FIRST, BodyId::Ground(1)];
     let pairs = |scene: &Scene| {

@@ -1,4 +1,4 @@
-//! Which stone keeps a gap open, and in which frames.
+//! Tests of which stone keeps a gap open, and in which frames.
 
 use super::*;
 use crate::interface::pinned::{ContactsByBody, pinning_stone};
@@ -6,8 +6,8 @@ use crate::interface::pinned::{ContactsByBody, pinning_stone};
 const GROUND: BodyId = BodyId::Ground(0);
 const STONE: BodyId = BodyId::Block(BlockId(1));
 
-/// An interface 1 m long with this middle and this unit normal.
-fn stretch(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface {
+/// Creates an interface 1 m long with this middle and this unit normal.
+fn interface(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interface {
     let along = Vector::new(-normal[1], normal[0]) / 2.0;
     let middle = Point::new(middle[0], middle[1]);
     Interface {
@@ -29,15 +29,15 @@ fn gap() -> NearMiss {
 }
 
 fn below() -> Interface {
-    stretch([STONE, GROUND], [0.0, 0.0], [0.0, 1.0])
+    interface([STONE, GROUND], [0.0, 0.0], [0.0, 1.0])
 }
 
 fn above(x: f64, height: f64) -> Interface {
-    stretch([FIRST, STONE], [x, height], [0.0, 1.0])
+    interface([FIRST, STONE], [x, height], [0.0, 1.0])
 }
 
-fn keeps(all: &[Interface], stands: bool, tolerance: f64) -> Option<BlockId> {
-    pinning_stone(&gap(), &ContactsByBody::new(all), |_| stands, tolerance)
+fn keeps(all: &[Interface], is_present: bool, tolerance: f64) -> Option<BlockId> {
+    pinning_stone(&gap(), &ContactsByBody::new(all), |_| is_present, tolerance)
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn a_stone_between_half_and_eleven_tenths_of_the_gap_keeps_it_open() {
         (0.99, 0.0, false),
         (0.0, 0.0, false),
     ] {
-        // The place of the upper contact along the gap has no influence. Only its height counts.
+        // The position of the upper contact along the gap has no influence. Only its height counts.
         for x in [0.0, 30.0] {
             let found = keeps(&[below(), above(x, height)], true, tolerance);
             assert_eq!(found, holds.then_some(BlockId(1)), "{height} {tolerance}");
@@ -62,24 +62,24 @@ fn a_stone_between_half_and_eleven_tenths_of_the_gap_keeps_it_open() {
 }
 
 #[test]
-fn a_stone_that_keeps_a_gap_open_stands_there_and_touches_both_sides() {
+fn a_stone_keeps_a_gap_open_only_if_it_is_present_and_touches_both_bodies() {
     assert_eq!(keeps(&[below(), above(0.0, 2.0)], false, 0.0), None);
     assert_eq!(keeps(&[below()], true, 0.0), None);
     assert_eq!(keeps(&[above(0.0, 2.0)], true, 0.0), None);
     // The upper side of the stone is inclined: at 1/20 it still counts, at 3/4 it does not.
     for (normal, holds) in [([0.05, 0.998_75], true), ([0.6, 0.8], false)] {
-        let inclined = stretch([FIRST, STONE], [0.0, 2.0], normal);
+        let inclined = interface([FIRST, STONE], [0.0, 2.0], normal);
         let found = keeps(&[below(), inclined], true, 0.0);
         assert_eq!(found.is_some(), holds, "{normal:?}");
     }
     // A stone below another block does not keep this gap open, and neither does a part of the ground.
     let third = BodyId::Block(BlockId(2));
-    let other = stretch([third, STONE], [0.0, 2.0], [0.0, 1.0]);
+    let other = interface([third, STONE], [0.0, 2.0], [0.0, 1.0]);
     assert_eq!(keeps(&[below(), other], true, 0.0), None);
     let part = BodyId::Ground(1);
     let parts = [
-        stretch([FIRST, part], [0.0, 2.0], [0.0, 1.0]),
-        stretch([FIRST, GROUND], [0.0, 0.0], [0.0, 1.0]),
+        interface([FIRST, part], [0.0, 2.0], [0.0, 1.0]),
+        interface([FIRST, GROUND], [0.0, 0.0], [0.0, 1.0]),
     ];
     assert_eq!(keeps(&parts, true, 0.0), None);
 }
@@ -116,7 +116,7 @@ fn frame(placed: &[usize]) -> Frame {
 }
 
 #[test]
-fn a_frame_has_its_own_contacts_except_gaps_that_its_stones_keep_open() {
+fn a_frame_has_the_contacts_of_its_blocks_except_in_gaps_that_its_stones_keep_open() {
     let scene = pinned();
     let found = Interfaces::new(&scene);
     assert_eq!(found.pinned_gaps.len(), 1, "{:?}", found.pinned_gaps);
@@ -138,12 +138,12 @@ fn a_frame_has_its_own_contacts_except_gaps_that_its_stones_keep_open() {
 }
 
 #[test]
-fn a_gap_contains_only_interfaces_of_its_bodies_near_its_place() {
+fn a_gap_contains_only_interfaces_of_its_bodies_near_its_position() {
     let pinned_gaps = PinnedGap {
         gap: gap(),
         stone: BlockId(1),
     };
-    let seam = |x: f64, y: f64| stretch([FIRST, GROUND], [x, y], [0.0, 1.0]);
+    let seam = |x: f64, y: f64| interface([FIRST, GROUND], [x, y], [0.0, 1.0]);
     // The interface may be as far from the gap as it is long, here 1 m. Across the gap it may be no farther away than
     // the gap's 2 m.
     for (x, y, inside) in [
@@ -161,6 +161,6 @@ fn a_gap_contains_only_interfaces_of_its_bodies_near_its_place() {
     assert!(!pinned_gaps.contains(&long));
     long.ends = [Point::new(9.0, 3.9), Point::new(-9.0, 3.9)];
     assert!(pinned_gaps.contains(&long));
-    let other = stretch([STONE, GROUND], [0.0, 2.0], [0.0, 1.0]);
+    let other = interface([STONE, GROUND], [0.0, 2.0], [0.0, 1.0]);
     assert!(!pinned_gaps.contains(&other));
 }
