@@ -60,7 +60,7 @@ pub struct Scatter {
     pub front: (String, Vec<(f64, f64)>),
 }
 
-/// A picture that plotters could not draw.
+/// The error for a chart that could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("the chart could not be drawn: {0}")]
 pub struct ChartError(String);
@@ -87,7 +87,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 /// Draws points on two logarithmic axes and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If the plotters library reports an error. It reports none for finite, positive coordinates.
+/// Returns [`ChartError`] if the plotters library reports an error. It reports none for finite, positive coordinates.
 ///
 /// # Example
 /// ```
@@ -108,7 +108,7 @@ pub fn scatter(chart: &Scatter) -> Result<String, ChartError> {
     plot::document(LARGE_SIZE, &chart.title, |svg| plot::scatter(chart, svg))
 }
 
-/// Lines on two logarithmic axes, each with its name at its end.
+/// Lines on two logarithmic axes, with the name of each line at its right end.
 ///
 /// Only names distinguish the lines. Important lines are dark and thick, all others are grey.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,16 +121,16 @@ pub struct Growth {
     pub y: String,
     /// The lines.
     pub lines: Vec<GrowthLine>,
-    /// The meaning of the crosses that replace dots.
+    /// The meaning of the crosses that replace the dots of wrong points.
     pub wrong: String,
 }
 
 /// A line of a growth chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrowthLine {
-    /// Its name.
+    /// The name, which is written at the right end of the line.
     pub name: String,
-    /// Whether the line is important.
+    /// Whether the line is important, and therefore dark and thick.
     pub is_highlighted: bool,
     /// The points of the line, by ascending x.
     pub points: Vec<Point>,
@@ -139,8 +139,8 @@ pub struct GrowthLine {
 /// Draws lines on two logarithmic axes and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If there are no lines, if a line has no points, or if the plotters library reports an error. The library reports
-/// none for finite, positive coordinates.
+/// Returns [`ChartError`] if there are no lines, if a line has no points, or if the plotters library reports an
+/// error. The library reports none for finite, positive coordinates.
 pub fn growth(chart: &Growth) -> Result<String, ChartError> {
     if chart.lines.iter().any(|line| line.points.is_empty()) || chart.lines.is_empty() {
         return Err(ChartError::new("there is nothing to draw"));
@@ -167,9 +167,9 @@ pub struct Bars {
 
 impl Bars {
     /// Creates a histogram of the values, with about ten bars of equal width. The edges of the bars are round numbers
-    /// from 0 to at least `most`; `None` stands for the largest value. There are no bars if `most` is not positive and
-    /// finite. A value on the edge between two bars is counted in the upper bar. The last bar also counts all larger
-    /// values.
+    /// from 0 to at least `most`, or to at least the largest value if `most` is `None`. There are no bars if this
+    /// limit is not positive and finite. A value on the edge between two bars is counted in the upper bar. The last
+    /// bar also counts all larger values.
     ///
     /// ```
     /// use drystone::internals::chart::Bars;
@@ -204,7 +204,8 @@ impl Bars {
 /// Draws a histogram and returns it as an SVG document.
 ///
 /// # Errors
-/// If there are no bars, if there is not one more edge than counts, or if the plotters library reports an error.
+/// Returns [`ChartError`] if there are no bars, if there is not one more edge than counts, or if the plotters library
+/// reports an error.
 pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
         return Err(ChartError::new("there is nothing to count"));
@@ -229,7 +230,8 @@ pub struct Course {
 /// Draws values over the steps of a scene and returns the chart as an SVG document.
 ///
 /// # Errors
-/// If there are no steps or no values, if a value is not finite, or if the plotters library reports an error.
+/// Returns [`ChartError`] if there are no steps or no values, if a value is not finite, or if the plotters library
+/// reports an error.
 pub fn course(chart: &Course) -> Result<String, ChartError> {
     let values = chart.lines.iter().flat_map(|l| l.2.iter().flatten());
     if chart.steps.is_empty() || !values.clone().all(|v| v.is_finite()) || values.count() == 0 {
@@ -303,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn our_font_has_every_character_of_the_axes() {
+    fn the_built_in_font_has_every_character_of_the_axes() {
         for exponent in -19..20 {
             for c in power_of_ten(exponent).chars() {
                 assert!(Face::Sans.has(c), "{c}");

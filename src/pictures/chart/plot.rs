@@ -44,7 +44,9 @@ pub(super) fn document(
     let (w, h) = (width * UNITS_PER_PIXEL, height * UNITS_PER_PIXEL);
     let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
     if !svg.contains(&head) {
-        return Err(ChartError::new("the head of the SVG is not where it was"));
+        return Err(ChartError::new(
+            "the SVG of plotters does not begin with the expected attributes",
+        ));
     }
     let page = format!(
         "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",
@@ -73,7 +75,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64> + Clone) -> (i32, i32) {
 const INK: RGBColor = RGBColor(45, 45, 50);
 const GRID: RGBColor = RGBColor(225, 225, 228);
 
-/// A page.
+/// The page on which plotters draws.
 type Page<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Axes with a logarithmic scale in both directions.

@@ -79,7 +79,7 @@ impl Table {
 fn short(bytes: &mut &[u8]) -> u16 {
     let (number, rest) = bytes
         .split_first_chunk::<2>()
-        .expect("the table is complete, a test compares it with the fonts");
+        .expect("the table is complete; a test compares it with the fonts");
     *bytes = rest;
     u16::from_le_bytes(*number)
 }
@@ -101,7 +101,7 @@ pub(super) fn written(units_per_em: u16, characters: &[(char, u16)]) -> Vec<u8> 
     bytes
 }
 
-/// Compares the bytes of the table with those that the fonts give.
+/// True if `bytes` equal the stored table. The caller computes `bytes` from the fonts.
 #[cfg(test)]
 pub(super) fn is(bytes: &[u8]) -> bool {
     bytes == BYTES

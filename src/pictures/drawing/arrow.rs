@@ -99,7 +99,8 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;
-    let reach = 4.0 / 3.0 * libm::tan(step / 4.0) * radius;
+    // The distance of the control points from the ends of a curve, so that the curve approximates the arc.
+    let handle = 4.0 / 3.0 * libm::tan(step / 4.0) * radius;
     let at = |angle: f64, along: f64| {
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         centre.moved(radius * cos - along * sin, -radius * sin - along * cos)
@@ -109,9 +110,11 @@ fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep:
             start + step * part as f64,
             start + step * (part as f64 + 1.0),
         );
-        outline
-            .segments
-            .push(Segment::Curve(at(from, reach), at(to, -reach), at(to, 0.0)));
+        outline.segments.push(Segment::Curve(
+            at(from, handle),
+            at(to, -handle),
+            at(to, 0.0),
+        ));
     }
 }
 
@@ -119,8 +122,8 @@ fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep:
 mod tests {
     use super::*;
 
-    /// Distance from the tail to the point farthest along the arrow.
-    fn reach(along: (f64, f64), width: f64) -> f64 {
+    /// Returns the distance from the tail to the point that is farthest along the arrow.
+    fn tip_distance(along: (f64, f64), width: f64) -> f64 {
         let outline = straight(PagePoint::new(1.0, 2.0), along, width);
         let length = libm::hypot(along.0, along.1);
         let far = |p: PagePoint| ((p.x - 1.0) * along.0 + (p.y - 2.0) * along.1) / length;
@@ -130,8 +133,10 @@ mod tests {
     #[test]
     fn an_arrow_has_the_requested_length_from_tail_to_tip() {
         for length in [0.01, 0.5, 3.0, 8.9, 9.0, 9.1, 40.0, 1e4] {
-            assert!((reach((0.0, -length), 2.0) - length).abs() < 1e-9 * length);
-            assert!((reach((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length);
+            assert!((tip_distance((0.0, -length), 2.0) - length).abs() < 1e-9 * length);
+            assert!(
+                (tip_distance((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length
+            );
         }
         assert!(
             straight(PagePoint::new(1.0, 2.0), (0.0, 0.0), 2.0)

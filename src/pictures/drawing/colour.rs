@@ -1,6 +1,6 @@
 //! [`Colour`]: an opaque colour in sRGB, read from and written as CSS text.
 
-/// A colour, 8 bits a channel: red, green, blue.
+/// A colour with 8 bits per channel: red, green, blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Colour(pub [u8; 3]);
 
@@ -51,7 +51,7 @@ impl Colour {
         }
     }
 
-    /// Returns a mixture of this colour and `other`; `share` (0 to 1) is the share of `other`.
+    /// Returns a mixture of this colour and `other`; `share` (0 to 1) is the fraction of `other`.
     pub fn mixed(self, other: Colour, share: f64) -> Colour {
         let mix =
             |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;

@@ -1,9 +1,9 @@
 //! Computes perceived differences between colours: [`difference()`] (CIEDE2000) and [`lightness()`]. [`seen`] converts
 //! a colour to its appearance for colour-blind readers and in grey print.
 //!
-//! About 1 is the least difference that can be seen side by side. A difference of 10 is seen at a glance, and black and
-//! white differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies follow
-//! [Machado09](crate::doc::references), at full severity.
+//! A difference of about 1 is the least that can be seen if two colours are side by side. A difference of 10 is seen
+//! at a glance, and black and white differ by 100 ([Sharma05](crate::doc::references)). Colour vision deficiencies
+//! follow [Machado09](crate::doc::references), at full severity.
 
 use core::f64::consts::PI;
 
@@ -81,7 +81,7 @@ pub fn difference(a: Colour, b: Colour) -> f64 {
     between(lab(a), lab(b))
 }
 
-/// Shares of the linear channels in the luminance.
+/// The weights of the linear red, green and blue channels in the luminance.
 const LUMINANCE_WEIGHTS: [f64; 3] = [0.212_672_9, 0.715_152_2, 0.072_175_0];
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -177,7 +177,7 @@ mod tests {
     /// Pairs of colours from the supplement to Sharma, Wu and Dalal (2005), for the special cases of the formula:
     /// blue, hues on either side of 0, greys, large distances, and near black.
     #[test]
-    fn differences_are_those_published() {
+    fn differences_equal_the_published_values() {
         let pairs = [
             ([50.0, 2.6772, -79.7751], [50.0, 0.0, -82.7485], 2.0425),
             ([50.0, 3.1571, -77.2803], [50.0, 0.0, -82.7485], 2.8615),
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn all_eyes_see_greys_unchanged_and_a_grey_print_keeps_the_lightness() {
+    fn greys_look_the_same_with_every_colour_vision_and_a_grey_print_keeps_the_lightness() {
         use Sight::{Deuteranopia, Full, Grey, Protanopia, Tritanopia};
         for value in [0, 40, 128, 200, 255] {
             let grey = Colour([value; 3]);

@@ -114,11 +114,11 @@ pub enum Item {
 /// A shape with its paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// The shape. Rings that turn the other way cut holes (the nonzero rule).
+    /// The shape. It is filled by the nonzero rule: rings that turn in the opposite direction cut holes.
     pub outline: Outline,
-    /// The fill colour.
+    /// The fill colour; `None` for no fill.
     pub fill: Option<Colour>,
-    /// The line along its edge.
+    /// The line along the outline; `None` for no line.
     pub stroke: Option<Stroke>,
     /// Whether the fill covers the line, so that only the outer half of the line is visible.
     pub fill_last: bool,

@@ -41,8 +41,8 @@ const AVOIDED_COST: f64 = 110.0;
 /// Positions whose costs differ by less than this, pixels, are equally good. The first of them is taken, so that
 /// rounding errors do not decide.
 const COST_TIE_TOL: f64 = 1e-3;
-/// After this number of labels without a free position, the page is full. All further labels get their preferred
-/// position or no position. A search around an anchor among thousands of arrows takes tens of milliseconds.
+/// After this number of labels without a free position, further labels only get a preferred position or no position,
+/// because the page is probably full. A search around an anchor among thousands of arrows takes tens of milliseconds.
 const MAX_MISSES: usize = 100;
 
 /// A label that needs a position.

@@ -19,9 +19,10 @@ const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 /// The look of a figure: its colours, widths and sizes.
 ///
 /// The built-in themes are `thesis` (the default, with the colours of the thesis), `paper` (for print, also in grey),
-/// `colourblind` (after Okabe and Ito) and `dark`. The table shows the least distance of colours that can touch; a test
-/// checks the numbers. ΔE is CIEDE2000 ([`difference`](super::difference)). For `paper` it is the difference of
-/// lightness, as in a grey print. For `colourblind` it is the least value of full sight and the three deficiencies.
+/// `colourblind` (after Okabe and Ito) and `dark`. The table shows the least distance of colours that can touch; a
+/// test checks the numbers. ΔE is CIEDE2000 ([`difference`](super::difference)). For `paper` it is the difference of
+/// lightness, as in a grey print. For `colourblind` it is the least value for full colour vision and the three
+/// deficiencies.
 ///
 /// | least distance | `thesis` ΔE | `paper` ΔL* | `colourblind` ΔE | `dark` ΔE |
 /// |---|---|---|---|---|
@@ -32,10 +33,10 @@ const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 /// | text and background | 38.8 | 44.1 | 35.7 | 38.2 |
 ///
 /// A background is a block of any amplitude, a block without amplitude, the ground or the page. For an arrow on a
-/// background the greater distance counts: that of the arrow or of its border. Larger amplitudes are darker on a light
-/// page and lighter on a dark page; those of `paper` run from L* 95 to 35. Text has a contrast of at least 4.5 with its
-/// background. Colours of failure and fall differ in lightness from green colours, so that a grey print shows the
-/// difference.
+/// background, the larger of two distances counts: that of the arrow and that of its border. Larger amplitudes are
+/// darker on a light page and lighter on a dark page; those of `paper` run from L* 95 to 35. Text has a contrast of
+/// at least 4.5 with its background. Colours of failure and fall differ in lightness from green colours, so that a
+/// grey print shows the difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
     /// Background of the page.
@@ -185,7 +186,7 @@ impl Theme {
 
     /// Returns the colour of the lines between the cells of a block. The colour of a dark block is mixed with the
     /// lighter of the page and ink colours, and the colour of a bright block with the darker. `share` (0 to 1) is the
-    /// share of the page or ink colour in the mixture.
+    /// fraction of the page or ink colour in the mixture.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
         let towards = if block.brightness() < 0.5 {
             self.lighter()

@@ -172,9 +172,9 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
     match letter.accent {
         Accent::None => None,
         Accent::Arrow => {
-            let reach = (0.5 * wide).clamp(0.2 * size, 0.3 * size);
-            let (tip, head) = (middle.moved(reach, 0.0), 0.028 * HEAD_WIDTH * size);
-            let mut outline = Outline::line([middle.moved(-reach, 0.0), tip]);
+            let half = (0.5 * wide).clamp(0.2 * size, 0.3 * size);
+            let (tip, head) = (middle.moved(half, 0.0), 0.028 * HEAD_WIDTH * size);
+            let mut outline = Outline::line([middle.moved(-half, 0.0), tip]);
             outline.extend(Outline::line([
                 tip.moved(-head, -head),
                 tip,
@@ -200,7 +200,7 @@ mod tests {
     use crate::drawing::Item;
 
     #[test]
-    fn subscripts_widen_a_symbol_and_superscripts_stand_above_them() {
+    fn a_subscript_widens_a_symbol_and_a_superscript_is_above_the_subscript() {
         let plain = Symbol::new("F", Accent::Arrow, "");
         let below = Symbol::new("F", Accent::Arrow, "fl1");
         let both = below.clone().raised("(2)");

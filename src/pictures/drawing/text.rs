@@ -23,7 +23,7 @@ pub enum Face {
     SerifBold,
     /// Inter.
     Sans,
-    /// Inter, half bold.
+    /// Inter SemiBold.
     SansBold,
 }
 
@@ -85,7 +85,7 @@ impl Face {
     }
 
     fn font(self) -> FontRef<'static> {
-        FontRef::new(self.data()).expect("our font files are sound, a test opens each")
+        FontRef::new(self.data()).expect("the built-in font files are valid; a test opens each")
     }
 }
 
@@ -113,7 +113,7 @@ pub struct Text {
     pub face: Face,
     /// Size of the font in pixels.
     pub size: f64,
-    /// Colour.
+    /// The colour of the letters.
     pub fill: Colour,
     /// Colour and width in pixels of a border around the letters, which separates them from their background.
     pub halo: Option<(Colour, f64)>,
@@ -284,7 +284,7 @@ mod tests {
     use super::*;
     use crate::drawing::advance;
 
-    /// The characters of a face with their widths in units.
+    /// Returns the characters of a face with their widths in font units.
     fn characters(face: Face) -> Vec<(char, u16)> {
         let font = face.font();
         let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_of_widths_is_that_of_the_fonts() {
+    fn the_table_of_widths_contains_the_widths_of_the_fonts() {
         let table = Face::ALL.map(|face| {
             let metrics = face
                 .font()
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_gives_the_widths_that_skrifa_gives() {
+    fn the_widths_of_the_table_equal_those_of_skrifa() {
         for face in Face::ALL {
             let font = face.font();
             let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn balanced_lines_are_not_more_and_leave_no_word_alone() {
+    fn balancing_adds_no_line_and_leaves_no_line_with_a_single_word() {
         let words = "A flying buttress that takes a vault's thrust";
         let greedy = wrap(words, Face::SerifBold, 20.0, 380.0);
         let balanced = balanced(words, Face::SerifBold, 20.0, 380.0, 5);
@@ -372,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn every_face_has_all_characters_of_our_own_texts() {
+    fn every_face_has_all_characters_of_the_texts_of_drystone() {
         let ours = "ABCXYZabcxyz0123456789 .,;:·–—…()[]|/+-−×=±°²³½≤≥→∑√μΣφθ∞“”‘’□";
         for face in Face::ALL {
             for c in ours.chars() {

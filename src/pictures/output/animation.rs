@@ -27,8 +27,9 @@ pub struct Step {
 /// first picture.
 ///
 /// # Errors
-/// [`PngError::Svg`] and [`PngError::Size`] as in [`png::render`](super::png::render). [`PngError::Encode`] if there
-/// are no pictures, if they differ in size, or if a picture is shown for less than 0.01 or more than 600 seconds.
+/// Returns [`PngError::Svg`] and [`PngError::Size`] as [`png::render`](super::png::render) does. Returns
+/// [`PngError::Encode`] if there are no pictures, if they differ in size, or if a picture is shown for less than 0.01
+/// or more than 600 seconds.
 pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let failed = |e: ::png::EncodingError| PngError::Encode(e.to_string());
@@ -86,13 +87,13 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
 /// replaced by similar ones.
 ///
 /// # Errors
-/// The errors of [`apng`]. Also [`PngError::Encode`] if a pixel is transparent or a side is longer than 65 535 pixels.
+/// Returns the errors of [`apng`], and also [`PngError::Encode`] if a pixel is transparent or a side is longer than
+/// 65 535 pixels.
 pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let wrong = |why: &str| PngError::Encode(why.to_owned());
-    let palette = Palette::new(&patches).ok_or_else(|| {
-        wrong("a GIF cannot have partly transparent pixels; give the page a colour")
-    })?;
+    let palette = Palette::new(&patches)
+        .ok_or_else(|| wrong("a GIF must not have transparent pixels; give the page a colour"))?;
     let side = |pixels: u32| {
         u16::try_from(pixels).map_err(|_| wrong("a GIF has at most 65535 pixels along a side"))
     };
@@ -119,6 +120,7 @@ pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErro
         };
         encoder.write_frame(&frame).map_err(failed)?;
     }
+    // The encoder writes the end of the file when it is dropped.
     drop(encoder);
     Ok(bytes)
 }

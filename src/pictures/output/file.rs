@@ -1,8 +1,9 @@
 //! [`write_whole`] writes files. Each file is written completely or not at all.
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
-//! step. Therefore nobody ever sees an incomplete file, and a full disk leaves the old file unchanged. If the path is a
-//! link, its target is replaced; the new file has the same permissions. A device or a pipe is written to directly.
+//! step. Therefore no program ever reads an incomplete file, and a full disk leaves the old file unchanged. If the
+//! path is a link, its target is replaced; the new file has the same permissions. A device or a pipe is written to
+//! directly.
 //!
 //! Temporary files are in a list as long as they exist. `abandon` deletes them before a signal ends the process.
 
@@ -28,7 +29,7 @@ pub enum Existing {
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
-    /// The system's reason.
+    /// The error of the operating system.
     pub why: io::Error,
 }
 
@@ -42,8 +43,8 @@ static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// then renamed.
 ///
 /// # Errors
-/// The first file that could not be written. In this case nothing has changed, unless the system refuses to rename a
-/// file at the end. Files that were renamed before that one remain.
+/// Returns the error of the first file that could not be written. In this case nothing has changed, unless the system
+/// refuses to rename a file at the end. Files that were already renamed then remain.
 ///
 /// # Example
 /// ```
@@ -346,11 +347,11 @@ mod tests {
             assert!(!same(&at("a"), &at(name)), "{name}");
         }
         let null = Path::new("/dev/null");
-        assert!(!same(null, null), "a device loses nothing");
-        write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace).expect("swallowed");
+        assert!(!same(null, null), "a device may be input and output");
+        write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace).expect("written");
         assert!(
             !fs::metadata(null).expect("there").is_file(),
-            "and stays one"
+            "no file replaces the device"
         );
     }
 }

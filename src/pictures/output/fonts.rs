@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::drawing::{Face, text};
 
-/// The built-in fonts and added fonts.
+/// The built-in fonts, and fonts that were added.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fonts {
     more: Vec<Arc<Vec<u8>>>,
@@ -19,7 +19,7 @@ impl Fonts {
     /// fonts do not have is drawn in the first added font that has it.
     ///
     /// # Errors
-    /// The index, from 0, of the first file that is not a readable font.
+    /// Returns the index, from 0, of the first file that is not a readable font.
     ///
     /// # Example
     /// ```

@@ -1,8 +1,8 @@
 //! [`write()`] writes a drawing as a PDF page of the same size, with vector graphics and searchable text.
 //!
-//! The PDF is made from the SVG, as the PNG is, so all show the same picture. Only this file and its folder use krilla.
-//! The built-in fonts are embedded, reduced to the glyphs that are used. The file contains neither date nor machine:
-//! the same drawing gives the same bytes.
+//! The PDF is made from the SVG, as the PNG is, so all show the same picture. Only this file and its folder use
+//! krilla. The built-in fonts are embedded, reduced to the glyphs that are used. The file contains no date and no
+//! data of the machine: the same drawing gives the same bytes.
 
 mod paint;
 mod painter;
@@ -59,8 +59,8 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// pixel of the drawing is 1/96 inch.
 ///
 /// # Errors
-/// [`PdfError::Size`] if a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than [`MAX_SIDE_MM`];
-/// [`PdfError::Write`] if the PDF writer fails.
+/// Returns [`PdfError::Size`] if a side of the page would be shorter than [`MIN_SIDE_MM`] or longer than
+/// [`MAX_SIDE_MM`]; returns [`PdfError::Write`] if the PDF writer fails.
 ///
 /// # Example
 /// ```

@@ -80,8 +80,8 @@ pub const MAX_SIDE: u32 = 32_000;
 /// Renders an SVG and returns the bytes of a PNG file. The picture is transparent where the SVG is empty.
 ///
 /// # Errors
-/// [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or no
-/// pixels; [`PngError::Svg`] for text that is not SVG.
+/// Returns [`PngError::Size`] if the picture would have more than [`MAX_PIXELS`] pixels, a side above [`MAX_SIDE`] or
+/// no pixels; returns [`PngError::Svg`] for text that is not SVG.
 ///
 /// # Example
 /// ```
@@ -151,13 +151,13 @@ pub(super) fn rgba_in(svg: &str, size: Size, fonts: &Fonts) -> Result<Raster, Pn
 /// Checks that a drawing of this width and height in pixels gives a PNG of an allowed size.
 ///
 /// # Errors
-/// [`PngError::Size`] if the size is out of range.
+/// Returns [`PngError::Size`] if the size is out of range.
 pub fn check(width: f64, height: f64, size: Size) -> Result<(), PngError> {
     pixels(width, height, size).map(drop)
 }
 
 /// Returns the width and height of a picture in whole pixels. `natural_width` and `natural_height` are the width and
-/// height of the drawing. Fails if the size of the picture is out of range.
+/// height of the drawing. Returns an error if the size of the picture is out of range.
 fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f64), PngError> {
     let scale = match size {
         Size::Natural => 1.0,

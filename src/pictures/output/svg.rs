@@ -27,13 +27,13 @@ use crate::text::xml;
 
 /// The error for text that could not be laid out, or for a font that could not be subset.
 #[derive(Debug, thiserror::Error)]
-#[error("the words of the drawing cannot be written so: {0}")]
+#[error("the text of the drawing cannot be written in this form: {0}")]
 pub struct OutlineError(String);
 
 /// Writes a drawing as an SVG document. Text is written as text, not as outlines.
 ///
 /// # Panics
-/// If a number of the drawing is not finite. No valid scene causes this.
+/// Panics if a number of the drawing is not finite. No valid scene causes this.
 ///
 /// # Example
 /// ```
@@ -69,11 +69,11 @@ pub(super) fn numbered(drawing: &Drawing) -> String {
     document(drawing, None, "", Form::Numbered)
 }
 
-/// Writes a drawing as an SVG document with options. They can set the width in print, and they can make text
+/// Writes a drawing as an SVG document with options. The options can set the width in print, and can make text
 /// independent of the fonts that a reader has installed.
 ///
 /// # Errors
-/// [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.
+/// Returns [`OutlineError`] if the text of the drawing cannot be laid out or a font cannot be subset.
 ///
 /// # Panics
 /// See [`write()`].
@@ -141,7 +141,7 @@ fn mark_of(drawing: &Drawing, options: &Options) -> String {
 /// How the text of a document is written.
 #[derive(Clone, Copy)]
 enum Form<'f> {
-    /// As text, in fonts by their names.
+    /// As text, with the names of the fonts.
     Names,
     /// Like `Names`, without anything that is not visible.
     #[cfg(all(feature = "cli", feature = "png"))]
@@ -160,7 +160,7 @@ enum Form<'f> {
     Outlines(&'f BTreeMap<usize, String>),
 }
 
-/// The face of most text. Only text in another face names its face.
+/// The face of most text. Only text with other font families has an attribute `font-family`.
 const DEFAULT_FACE: Face = Face::Sans;
 
 fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {

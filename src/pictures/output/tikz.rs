@@ -17,7 +17,7 @@ const BIG_POINTS_PER_INCH: f64 = 72.0;
 /// inch.
 ///
 /// # Panics
-/// If a number of the drawing is not finite. No valid scene causes this.
+/// Panics if a number of the drawing is not finite. No valid scene causes this.
 ///
 /// # Example
 /// ```

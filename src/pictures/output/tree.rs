@@ -17,7 +17,7 @@ use crate::drawing::Face;
 /// Reads an SVG document as a tree of shapes and laid-out text.
 ///
 /// # Errors
-/// The message of resvg if it cannot read the SVG.
+/// Returns the message of resvg if it cannot read the SVG.
 pub(super) fn read(svg: &str, more: &Fonts) -> Result<usvg::Tree, String> {
     let svg = &legible(svg, more);
     let options = usvg::Options {
@@ -79,7 +79,7 @@ pub(super) fn texts(group: &Group) -> Vec<&usvg::Text> {
 /// A glyph and its position.
 #[derive(Clone, Debug)]
 pub(super) struct Placed {
-    /// Its index in its font.
+    /// The index of the glyph in its font.
     pub glyph: u16,
     /// The characters that it represents.
     pub characters: String,
@@ -90,9 +90,9 @@ pub(super) struct Placed {
 /// Consecutive glyphs of one face and size, in their order.
 #[derive(Clone, Debug)]
 pub(super) struct Run {
-    /// Their font.
+    /// The face of the glyphs.
     pub face: Face,
-    /// Its size in pixels.
+    /// The font size in pixels.
     pub size: f64,
     /// The glyphs.
     pub glyphs: Vec<Placed>,
@@ -134,7 +134,7 @@ pub(super) fn face(id: fontdb::ID) -> Option<Face> {
         .map(|(_, face)| *face)
 }
 
-/// The built-in fonts, and the id that resvg gave each.
+/// The built-in fonts, and the id of each font in the font database.
 type BuiltInFonts = (Arc<fontdb::Database>, Vec<(fontdb::ID, Face)>);
 
 fn fonts() -> &'static BuiltInFonts {

@@ -80,7 +80,7 @@ pub enum Head {
 pub struct ForceArrow {
     /// The body on which the force acts.
     pub on: BodyId,
-    /// The point where it begins, metres.
+    /// The tail of the arrow, metres.
     pub at: Point,
     /// The vector of the arrow at the scale of the frame, metres: from tail to tip, or only the shaft for
     /// [`Head::Beyond`].
@@ -88,11 +88,11 @@ pub struct ForceArrow {
     /// The force that the arrow shows, N. For each of the two arrows of a torque, the torque in N·m, divided by the
     /// distance of the two arrows in metres.
     pub force: Vector,
-    /// Its colour.
+    /// The colour of the arrow.
     pub colour: Colour,
-    /// Width of its shaft, metres.
+    /// The width of the shaft, metres.
     pub width: f64,
-    /// The position of its head.
+    /// The position of the head.
     pub head: Head,
     /// The kind of force that the arrow shows.
     pub kind: ArrowKind,
@@ -125,15 +125,15 @@ pub enum TurnKind {
 pub struct TurnArrow {
     /// The body on which the torque acts.
     pub on: BodyId,
-    /// Its centre, metres.
+    /// The centre of the circle, metres.
     pub at: Point,
     /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
-    /// Its length along the circle from tail to tip, metres, with the torque's sign.
+    /// The length of the arrow along the circle from tail to tip, metres, with the torque's sign.
     pub arc: f64,
-    /// Its colour.
+    /// The colour of the arrow.
     pub colour: Colour,
-    /// Width of its shaft, metres.
+    /// The width of the shaft, metres.
     pub width: f64,
     /// The kind of torque that the arrow shows.
     pub kind: TurnKind,
@@ -160,8 +160,7 @@ impl Marks {
         // Torque arrows of loads have a minimum length, so they are always visible.
         let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
         let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // The arrow of a torque is as long as the arrow of the force torque / unit: a force with this torque at a lever
-        // arm of `unit`, the length of a unit edge.
+        // The arrow of a torque is as long as the arrow of a force of magnitude torque / unit.
         let force = least / unit * self.newtons_per_unit;
         let parts = [
             ("force", forces, force, units.force()),
@@ -231,7 +230,7 @@ mod tests {
     /// A torque arrow of length L shows a torque of L times the newtons per unit edge. With an arrow of just under the
     /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit edge.
     #[test]
-    fn the_limit_of_hidden_torques_is_a_torque() {
+    fn the_note_on_hidden_torques_states_their_limit_in_newton_metres() {
         let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;
         let marks = Marks {
             turns: vec![TurnArrow {
@@ -248,7 +247,7 @@ mod tests {
         };
         for unit in [0.5, 1.0, 4.0] {
             let note = marks.unseen(unit, 1.0, UnitsEntry::default());
-            let note = note.expect("a hidden torque");
+            let note = note.expect("a note on the hidden torque");
             let limit = round_above(MIN_VISIBLE_ARROW * 10.0);
             assert_eq!(
                 note,

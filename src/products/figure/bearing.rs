@@ -5,20 +5,21 @@ use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 
-/// Forces below this share of the largest force may be numerical noise of the solver …
+/// Forces below this fraction of the largest force may be numerical noise of the solver, unless they exceed
+/// [`WEIGHT_TOL`].
 const FORCE_TOL: f64 = 1e-6;
-/// … unless they exceed this share of the block's own weight, so that forces on very light blocks count too.
+/// Forces above this fraction of the block's weight are no noise, so that forces on very light blocks count too.
 const WEIGHT_TOL: f64 = 1e-3;
 
 /// The force of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bearing {
-    /// Its normal force, N, above 0.
+    /// The normal force of the interface, N; larger than 0.
     pub pressed: f64,
     /// The distance of the resultant from the middle of the interface, divided by half the length of the safe part.
     /// `None` if the safe part is a point.
     pub eccentricity: Option<f64>,
-    /// The share of the available friction that is used; `None` if no friction is available.
+    /// The used fraction of the available friction; `None` if no friction is available.
     pub friction: Option<f64>,
 }
 

@@ -13,9 +13,9 @@ use crate::scene::{Problem, Sketch, Spot};
 
 /// Largest number of problems, and of gaps, that are marked and listed. All others are only counted.
 const MAX_MARKED: usize = 30;
-/// Width of the page if the options give none, pixels.
+/// Width of the page if the options set none, pixels.
 const DEFAULT_WIDTH: f64 = 900.0;
-/// Largest height of the picture of the structure, as a share of the page's width.
+/// Largest height of the picture of the structure, as a fraction of the page's width.
 const MAX_HEIGHT_SHARE: f64 = 0.7;
 
 /// An entry of the list below the picture.
@@ -182,9 +182,9 @@ fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
     (marks, entries)
 }
 
-/// Describes a problem with its line and path in the scene file. `has_place` is true if the picture has a mark for the
-/// problem.
-fn problem_in_words(problem: &Problem, has_place: bool) -> String {
+/// Describes a problem with its line and path in the scene file. `is_marked` is true if the picture has a mark for
+/// the problem.
+fn problem_in_words(problem: &Problem, is_marked: bool) -> String {
     let line = match problem.line {
         0 => String::new(),
         line => format!("line {line}, "),
@@ -193,11 +193,11 @@ fn problem_in_words(problem: &Problem, has_place: bool) -> String {
         "" => String::new(),
         path => format!("{path}: "),
     };
-    let place = match has_place {
+    let note = match is_marked {
         true => "",
         false => " (not marked in the picture)",
     };
-    format!("{line}{path}{}{place}.", problem.message)
+    format!("{line}{path}{}{note}.", problem.message)
 }
 
 /// Formats a positive number with two significant digits, and any other number as `0`.

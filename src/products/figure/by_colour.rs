@@ -14,6 +14,7 @@ impl ByColour {
         }
     }
 
+    /// Returns one filled path for each colour. All paths have the same stroke.
     pub fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
         let path = move |(fill, outline)| Path {
             stroke: stroke.clone(),

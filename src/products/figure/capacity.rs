@@ -3,7 +3,7 @@
 //!
 //! The tail of a force is at the loaded point. The block can carry the force if its tip lies in the polygon. A polygon
 //! that is small compared with its forces would look like a dot, so it is drawn next to the structure at a separate
-//! scale. Unbounded sets of forces are cut off at a circle, which has no line.
+//! scale. Unbounded sets of forces are cut off at a circle, which is not drawn.
 
 mod plan;
 
@@ -294,7 +294,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let length = (0.2 * shown.width.min(shown.height)).max(17.0);
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
-    // The number stands to the left of the picture, because a flat picture has no free corner.
+    // Write the number to the left of the picture, because a flat picture has no free corner.
     let at = PagePoint::new(
         shown.at.x - 1.0,
         shown.at.y + 0.5 * shown.height + 0.36 * theme.sizes.amount,

@@ -4,10 +4,10 @@
 use crate::analysis::Contact;
 use crate::geometry::Vector;
 
-/// A force has changed if the difference exceeds this share of the larger of both forces. If forces are not unique,
-/// smaller differences can come from the solver.
+/// A force has changed if the difference exceeds this fraction of the larger of both forces. If forces are not
+/// unique, smaller differences can come from the solver.
 const CHANGE_TOL: f64 = 0.05;
-/// Forces below this share of the largest force are rounding errors of the solver.
+/// Forces below this fraction of the largest force are rounding errors of the solver.
 const NOISE_SHARE: f64 = 1e-6;
 
 /// The force of an interface that two frames have in common.
@@ -15,7 +15,7 @@ const NOISE_SHARE: f64 = 1e-6;
 pub(crate) struct ForceChange<'a> {
     /// The interface in the earlier and in the later frame.
     pub contacts: [&'a Contact; 2],
-    /// Its force on the same body in both frames, N.
+    /// The force on the same body in the earlier and in the later frame, N.
     pub forces: [Vector; 2],
 }
 
@@ -44,8 +44,8 @@ impl ForceChange<'_> {
     }
 }
 
-/// Returns the largest magnitude that counts as a rounding error, N: a small share of the largest of `amounts`, which
-/// are also in N.
+/// Returns the largest magnitude that counts as a rounding error, N: a small fraction of the largest of `amounts`,
+/// which are also in N.
 pub(crate) fn noise(amounts: impl Iterator<Item = f64>) -> f64 {
     NOISE_SHARE * amounts.fold(0.0, f64::max)
 }

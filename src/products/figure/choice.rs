@@ -28,7 +28,7 @@ pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, Bl
     let block = named_block(scene, name)?;
     match placed(block) {
         Some(frame) => Ok((frame, block)),
-        None => Err(format!("block {name} is not placed in these frames")),
+        None => Err(format!("block {name} is not placed in any of the frames")),
     }
 }
 

@@ -13,8 +13,8 @@ use crate::wording::failure::{by_amount, missing_phrase};
 const MAX_DESCRIBED_BODIES: usize = 3;
 /// Largest number of blocks of a body that are named.
 const MAX_NAMED_BLOCKS: usize = 4;
-/// If rotation contributes less than this share to the speed of a body's fastest point, the text says that the body
-/// slides or falls.
+/// If the speed due to rotation is at most this fraction of the speed of the body's fastest point, the text says that
+/// the body slides or falls.
 const ROTATION_TOL: f64 = 0.02;
 
 /// Returns the text below the verdict in a figure of a mechanism: how the frame collapses, or why there is no
@@ -80,6 +80,7 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
     format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
 }
 
+/// Writes the sentences about the rigid bodies of a mechanism.
 struct Sentences<'a> {
     analysis: &'a Analysis,
     frame: usize,

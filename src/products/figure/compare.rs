@@ -24,7 +24,7 @@ use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Th
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Radius of the ring around a change, unit edges; its least and its largest radius, pixels.
+/// The radius of the ring around a change in unit edges, with its least and largest allowed radius in pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
@@ -42,7 +42,7 @@ fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     [without(now, before), without(before, now)]
 }
 
-/// Returns the blocks of `gone` whose outline no block of `new` has.
+/// Returns the blocks of `gone` whose outlines differ from the outlines of all blocks of `new`.
 fn left_behind(scene: &Scene, new: &[BlockId], gone: &[BlockId]) -> Vec<BlockId> {
     let outline = |id: &BlockId| scene.blocks[id.0].body.polygon.outline();
     let is_left = |id: &BlockId| !new.iter().any(|other| outline(other) == outline(id));

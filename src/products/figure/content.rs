@@ -22,7 +22,7 @@ use crate::analysis::{Analysis, MarginKind};
 use crate::drawing::Group;
 use crate::geometry::{Bounds, Point};
 
-/// The name of a kind of figure, and its requirements. Every kind has a name, a help and a title.
+/// The name of a kind of figure, and its requirements. Every kind has a name, a help text and a title.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct About {
     /// The name on the command line and in settings, in lower case.
@@ -49,7 +49,7 @@ pub(crate) struct About {
     pub draws_forces: bool,
     /// Whether arrows may be longer than a unit edge if unit edges are short on the page.
     pub stretches_arrows: bool,
-    /// Whether lines cross the blocks below the names of the blocks.
+    /// Whether lines are drawn across blocks. The letters of labels then have a border in the background colour.
     pub lines_cross_names: bool,
 }
 
@@ -108,7 +108,7 @@ pub(crate) trait PanelContent: Sync {
     /// Returns the entries of the legend, which explain all symbols in the figure. `unit` is the unit edge in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
-    /// Returns the text below the verdict of a frame, which gives the reason or the main result.
+    /// Returns the text below the verdict of a frame, which states the reason or the main result.
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String;
 }
 
@@ -228,10 +228,11 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
 
 /// Least length of the longest arrow, pixels (9 mm).
 const MIN_LONGEST_ARROW: f64 = 34.0;
-/// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in others.
+/// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
+/// other figures.
 const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
 const FEW_BLOCKS: usize = 40;
-/// Largest length of an arrow, as a share of the longer side of the shown part.
+/// Largest length of an arrow, as a fraction of the longer side of the shown part.
 const MAX_ARROW_SHARE: f64 = 0.25;
 
 /// Least length of the longest arrow of a load, pixels.

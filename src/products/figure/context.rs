@@ -17,10 +17,11 @@ pub(crate) const MANY_BLOCKS: usize = 1000;
 
 /// If a unit edge is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
 const MIN_UNIT_EDGE: f64 = 8.4;
-/// Figures with fewer blocks than this always have arrows; arrows too short to be visible are counted.
+/// If every frame has fewer blocks than this, the figure always has arrows. A note counts the arrows that are too
+/// short to be visible.
 const MIN_CROWD: usize = 40;
 
-/// If the share of visible arrows is smaller than this, colours show the forces and arrows are left out.
+/// If the fraction of visible arrows is smaller than this, colours show the forces and arrows are left out.
 const MIN_VISIBLE_SHARE: f64 = 0.2;
 
 /// The data that all panels of a figure share.
@@ -28,14 +29,14 @@ pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
     /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
-    /// Whether lines cross the blocks below the names of the blocks.
+    /// Whether lines are drawn across blocks. The letters of labels then have a border in the background colour.
     pub lines_cross_names: bool,
     pub options: &'a Options,
     /// The unit edge, metres.
     pub unit: f64,
     /// A box around everything that each frame shows, metres.
     pub shown: Vec<Bounds>,
-    /// A box around all of them.
+    /// A box around all boxes of `shown`, metres.
     pub view: Bounds,
     pub fills: Fills,
     /// The arrows of each frame; they move with displaced blocks.
@@ -50,7 +51,7 @@ pub(crate) struct FigureContext<'a> {
     pub statements: Vec<String>,
     /// The extreme lines of thrust of all frames; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
-    /// The number of labels until now that have no position, or only a position inside another block.
+    /// The number of labels drawn so far that have no free position, or only a position inside another block.
     pub cramped: Cell<usize>,
 }
 

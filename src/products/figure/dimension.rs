@@ -1,5 +1,5 @@
-//! Draws dimension lines at the edges of a picture. The lines show the width and the height of the structure, or those
-//! of the block that a zoomed picture shows.
+//! Draws dimension lines at the edges of a picture. The lines show the width and the height of the structure. In a
+//! zoomed picture, they show the width and the height of the block in its centre.
 
 use super::context::FigureContext;
 use super::words::quantity;
@@ -25,9 +25,8 @@ pub(crate) fn lines(
 ) -> Group {
     let group = Group::with_class("dimensions");
     let scene = &context.analysis.scene;
-    // A zoomed picture gives only the dimensions of the block at its centre.
-    let meant = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
-    let blocks = scene.frames[frame].placed.iter().filter(meant);
+    let is_measured = |id: &&BlockId| context.options.zoom.is_none_or(|zoomed| zoomed == **id);
+    let blocks = scene.frames[frame].placed.iter().filter(is_measured);
     let blocks = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds());
     let Some(all) = blocks.reduce(Bounds::union) else {
         return group;

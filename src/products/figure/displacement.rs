@@ -1,7 +1,8 @@
 //! [`Course`]: the paths of blocks in a collapse mechanism. The blocks move as rigid bodies by visible distances and
 //! keep their shapes.
 //!
-//! A mechanism only gives velocities, so the figure has to choose an amplitude. For each group of blocks in contact:
+//! A mechanism determines only velocities, so the figure has to choose an amplitude. For each group of blocks in
+//! contact:
 //!
 //! 1. The displacement of the fastest point is the larger of [`MIN_DISPLACEMENT`] and [`MIN_DISPLACEMENT_SHARE`], so
 //!    that open hinges are visible.
@@ -27,8 +28,8 @@ pub(crate) use rigid::Displacement;
 
 /// Least displacement of the fastest point, unit edges.
 const MIN_DISPLACEMENT: f64 = 0.35;
-/// Least displacement of the fastest point, as a share of the diagonal of the group. In an arch of many voussoirs, a
-/// displacement of a unit edge is too small to make an open hinge visible.
+/// Least displacement of the fastest point, as a fraction of the diagonal of the group. In an arch of many voussoirs,
+/// a displacement of a unit edge is too small to make an open hinge visible.
 const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;

@@ -86,8 +86,8 @@ pub fn film(
     pages.into_iter().zip(times).collect()
 }
 
-/// Converts a share of the time (0 to 1) to a share of the path (0 to 1). The motion is slow at its beginning and at
-/// its end.
+/// Converts a fraction of the time (0 to 1) to a fraction of the path (0 to 1). The motion is slow at its beginning
+/// and at its end.
 fn eased(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }

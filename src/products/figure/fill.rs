@@ -1,9 +1,9 @@
 //! [`Fills`]: the colours of blocks, and the quantity that these colours show.
 //!
 //! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names the quantity, which is the
-//! same for all blocks. Only the rule of the thesis has two quantities. A block that a robot holds shows the used share
-//! of the robot's limits. Any other block shows its amplitude as a share of the smallest limit of all robots. If no
-//! robot has a limit, it shows its amplitude as a share of the largest amplitude.
+//! same for all blocks. Only the rule of the thesis has two quantities. A block that a robot holds shows the used
+//! fraction of the robot's limits. Any other block shows its amplitude as a fraction of the smallest limit of all
+//! robots. If no robot has a limit, every block shows its amplitude as a fraction of the largest amplitude.
 
 use super::option::Fill;
 use super::words::quantity;
@@ -12,7 +12,7 @@ use crate::drawing::{Colour, PLASMA, Theme};
 use crate::scene::format::UnitsEntry;
 use crate::scene::{BlockId, BodyId, Frame, Scene};
 
-/// The quantity that colours show, and its value for a share of 1.
+/// The quantity that colours show, and its value at the end of the colour scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FillScale {
     /// The smallest force limit of all robots, N.
@@ -21,18 +21,18 @@ pub(crate) enum FillScale {
     Largest(f64),
     /// The largest stress in the figure, N/m², and the thickness for which it is computed, m.
     Stress(f64, f64),
-    /// The share of the available friction.
+    /// The used fraction of the available friction.
     Friction,
     /// No quantity: blocks have one plain colour.
     Plain,
 }
 
-/// Shares of all blocks in all frames.
+/// The position on the colour scale, from 0 to 1, of each block in each frame. A position is called a share.
 #[derive(Clone, Debug)]
 pub(crate) struct Fills {
-    /// The quantity, and its value for a share of 1.
+    /// The quantity that colours show, and its value at the end of the colour scale.
     pub scale: FillScale,
-    /// For each frame the shares of its placed blocks, in placing order.
+    /// For each frame, the shares of its placed blocks, in placing order.
     pub shares: Vec<Vec<f64>>,
     rule: Fill,
     units: UnitsEntry,
@@ -116,7 +116,8 @@ impl Fills {
         }
     }
 
-    /// Describes the value that the colour of a block shows, such as `colour: 12 N`. Empty if colours show no quantity.
+    /// Describes the value that the colour of a block shows, such as `colour: 12 N`. `share` is the position of the colour
+    /// on the scale, from 0 to 1. Empty if colours show no quantity.
     pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
@@ -161,8 +162,8 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// Computes the shares by the rule of the thesis; see the head of this file. Returns the quantity and the share of each
-/// block.
+/// Computes the shares by the rule of the thesis, which the documentation of this module describes. Returns the
+/// quantity and the share of each block.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
@@ -195,8 +196,8 @@ fn share(amount: f64, limit: f64) -> f64 {
     }
 }
 
-/// Returns the used share of the force limits of the robot that holds this block: the larger of |Fx| / limit and |Fy| /
-/// limit. Returns `None` if no robot holds the block, or if its force has no limits.
+/// Returns the used fraction of the force limits of the robot that holds this block: the larger of |Fx| / limit and
+/// |Fy| / limit. Returns `None` if no robot holds the block, or if the force of the robot has no limits.
 fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = frame_analysis.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;

@@ -32,16 +32,16 @@ use crate::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, St
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
-/// Width of the band of the largest force, unit edges; its least and its largest width, pixels.
+/// The width of the band of the largest force in unit edges, with its least and largest allowed width in pixels.
 const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
 /// Least width of a band, pixels; thinner bands are not visible.
 const MIN_BAND_WIDTH: f64 = 0.4;
-/// In frames with more blocks than this, bands of one colour are one path, and joints have no dots.
+/// In frames with more blocks, all bands of one colour are drawn as one shape, and joints have no dots.
 const MAX_SINGLE_STRANDS: usize = 150;
 
 /// Width of the dashed edge of a band of missing forces, pixels.
 const MISSING_EDGE: f64 = 0.9;
-/// Width of the sign of such a band in the legend, pixels.
+/// Width of the legend sign for a band of missing forces, pixels.
 const MISSING_SIGN: f64 = 26.0;
 
 /// The figure of force flow.
@@ -86,8 +86,8 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// Returns the largest magnitude of a load or missing force in a frame, N. A torque counts as the force torque / unit
-/// edge.
+/// Returns the largest magnitude of a load or missing force in a frame, N. A torque is divided by the unit edge and
+/// counts as a force.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
@@ -317,7 +317,8 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Fills a band. A band of missing forces has a dashed edge, because its colour is not visible in a grey print.
+/// Fills a band. A band of missing forces also has a dashed edge, because the colour of the band cannot be recognised
+/// in a greyscale print.
 fn filled(outline: Outline, colour: Colour, kind: StrandKind, theme: &Theme) -> Path {
     let band = Path::filled(outline, colour);
     match kind {

@@ -4,36 +4,37 @@
 //! polygon. Its construction, in [`BlockForces::funicular`]:
 //!
 //! 1. It starts at the first joint, along the line of action of that joint's force.
-//! 2. At the line of action of a load or of the weight it turns into the line of their resultant.
+//! 2. Where it meets the line of action of a load or of the weight, it continues along the resultant of both forces.
 //! 3. Step 2 is repeated for every load. The polygon must end at the second joint, along the line of action of that
 //!    joint's force.
 //!
 //! The polygon is only drawn if all its vertices and segments lie in or near the block. The order of the loads is not
-//! known, so all orders are tried, and finally the sum of all loads. No order works if three bodies press on the block,
-//! if forces are parallel on different lines, or if the forces do not balance. The path is then schematic: a straight
-//! line between the two joints, or a straight line from every joint and load to a common point. The line of thrust
-//! therefore has no gaps.
+//! known, so all orders are tried, and finally the resultant of all loads. No order works if three bodies press on
+//! the block, if forces are parallel on different lines, or if the forces do not balance. The path is then schematic:
+//! a straight line between the two joints, or a straight line from every joint and load to a common point. The line
+//! of thrust therefore has no gaps.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
 use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
 
-/// A line passes through a point if their distance is below this share of the block's size. Forces are accurate to
-/// about 1e-9, so rounding errors are far below it.
+/// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
+/// accuracy of about 1e-9, so rounding errors are far smaller.
 const LENGTH_TOL: f64 = 1e-6;
-/// Forces on a block are in equilibrium if the remainder is at most this share of the sum of their magnitudes.
+/// Forces on a block are in equilibrium if their resultant is at most this fraction of the sum of their magnitudes.
 const BALANCE_TOL: f64 = 1e-6;
-/// A line of action counts as inside the block if it leaves the block by at most this share of its mean thickness.
+/// A line of action may run outside the block by this fraction of the mean thickness of the block, and still counts as
+/// inside.
 const NEARLY_INSIDE: f64 = 0.06;
-/// If a block has more loads, only the sum of the loads is tried. Together with the weight, there are up to 4! orders
-/// of loads.
+/// Up to this number of loads on a block, every order of the loads and the weight is tried: at most 4! orders. If the
+/// block has more loads, only their sum is used.
 const MAX_ORDERED_LOADS: usize = 3;
 
 /// The origin of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ForceOrigin {
-    /// Another body. The index is that of the contact.
+    /// Another body, through the contact with this index.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
@@ -87,7 +88,7 @@ pub(crate) fn segments(
 #[derive(Clone, Copy, Debug)]
 struct LineOfAction {
     origin: ForceOrigin,
-    /// A point of the line: where the force enters the block.
+    /// A point on the line, metres, such as the point where the force enters the block.
     at: Point,
     force: Vector,
 }
@@ -241,8 +242,8 @@ impl BlockForces<'_> {
     }
 
     /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load if `last` is
-    /// `None`. The polygon meets the lines of action of `loads` in their order. Returns `None` if it does not reach its
-    /// end or leaves the block.
+    /// `None`. The polygon meets the lines of action of `loads` in their order. Returns `None` if the polygon misses
+    /// `last` or leaves the block.
     fn funicular(
         &self,
         first: &LineOfAction,

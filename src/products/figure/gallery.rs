@@ -152,14 +152,14 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         Subject::Freebody(text, block) => {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
-            let id = crate::scene::BlockId(id.expect("the block is in our own scene"));
+            let id = crate::scene::BlockId(id.expect("the built-in scene has this block"));
             // The figures of the thesis name every unknown.
             let options = Options {
                 corners: Corners::All,
                 ..options
             };
             let drawing = freebody(&Analysis::new(&scene), 0, id, &options);
-            let drawing = drawing.expect("the block is placed in our own scene");
+            let drawing = drawing.expect("the built-in scene places this block");
             let caption = format!("{}. Block {block} cut free.", scene.title);
             (drawing, caption)
         }
@@ -189,5 +189,6 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
 }
 
 fn read(text: &str) -> Scene {
-    Scene::from_json(text).expect("our own scenes are sound, a test reads each")
+    Scene::from_json(text)
+        .expect("the built-in scenes are valid, because a test reads each of them")
 }

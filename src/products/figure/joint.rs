@@ -8,8 +8,8 @@ use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
 use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId};
 
-/// Relative speeds below this share of the largest relative speed count as zero. Errors of the solver are larger in
-/// motions than in forces.
+/// Relative speeds below this fraction of the largest relative speed count as zero. The tolerance is larger than that
+/// of forces, because the solver computes motions less accurately.
 const SPEED_TOL: f64 = 2e-3;
 
 /// The relative motion of the two bodies of an interface. If there is neither a hinge nor a slip, the bodies separate.
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    fn of(text: &str) -> (Scene, Vec<Joint>) {
+    fn joints_of(text: &str) -> (Scene, Vec<Joint>) {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
         let joints = joints(&Analysis::new(&scene), 0);
         (scene, joints)
@@ -155,11 +155,11 @@ mod tests {
 
     #[test]
     fn the_hinges_of_a_thin_arch_alternate_between_its_two_faces() {
-        let (_, joints) = of(include_str!("../../../assets/study/arch-27-thin.json"));
+        let (_, joints) = joints_of(include_str!("../../../assets/study/arch-27-thin.json"));
         assert!(joints.iter().all(|j| j.slip == 0.0));
         let mut hinges: Vec<Point> = joints.iter().filter_map(|j| j.hinge).collect();
-        // Sorted from one springing to the other. The arch is a half circle about the origin, and its centreline has
-        // radius 1.
+        // Sort the hinges from one springing to the other. The arch is a half circle about the origin, and its
+        // centreline has radius 1.
         let angle = |p: &Point| libm::atan2(p.y, -p.x);
         hinges.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
         let mut outside: Vec<bool> = hinges.iter().map(|p| p.coords.norm() > 1.0).collect();
@@ -178,17 +178,17 @@ mod tests {
                      "blocks": [ {{ "id": "a", "shape": "block", "angle": 30, "weight": 5 }} ] }}"#
             )
         };
-        let (_, slides) = of(&on_slope(0.5));
+        let (_, slides) = joints_of(&on_slope(0.5));
         let [joint] = slides[..] else {
             panic!("{slides:?}")
         };
         assert_eq!(joint.hinge, None);
         assert!(joint.slip != 0.0);
-        let (_, turns) = of(&on_slope(8.0).replace("0.4", "2.0"));
+        let (_, turns) = joints_of(&on_slope(8.0).replace("0.4", "2.0"));
         let [joint] = turns[..] else {
             panic!("{turns:?}")
         };
-        let hinge = joint.hinge.expect("it turns about its lower corner");
+        let hinge = joint.hinge.expect("a hinge at the lower corner");
         assert!(hinge.coords.norm() < 1e-9 && joint.slip == 0.0, "{joint:?}");
     }
 }

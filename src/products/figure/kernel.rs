@@ -18,7 +18,7 @@ use crate::geometry::{Bounds, Point};
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.
 const KERNEL_TOL: f64 = 1.0 + 1e-6;
-/// Width of the line of a safe part, unit edges; its least and its largest width, pixels.
+/// The width of the line of a safe part in unit edges, with its least and largest allowed width in pixels.
 const SAFE_LINE_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// The figure of kernels.
@@ -139,6 +139,7 @@ fn at_end(bearing: &Bearing) -> bool {
         .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
+/// Returns the width of the line of a safe part, pixels. `unit` is the unit edge in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = SAFE_LINE_WIDTH;
     (width * unit).clamp(least, most)
@@ -155,6 +156,7 @@ fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
         .mitred()
 }
 
+/// Draws the safe part of each interface as a solid line, and the unsafe parts as dashed lines.
 fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -266,6 +268,7 @@ fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour
     (theme.ink, Outline::circle(at, radius))
 }
 
+/// Width of the sign of an interface in the legend, pixels.
 const SIGN_WIDTH: f64 = 26.0;
 
 fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {

@@ -1,4 +1,4 @@
-//! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a file of its own.
+//! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a separate file.
 
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
@@ -20,7 +20,7 @@ use crate::analysis::{CapacityRequest, Sensitivity};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::scene::Scene;
 
-/// The content of the panels of a figure.
+/// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -37,7 +37,7 @@ pub enum Kind {
     Thrust,
     /// The part of each interface in which its resultant is safe, and the position of the resultant.
     Kernel,
-    /// The used share of the available friction at each interface, and of the limits of each robot.
+    /// The used fraction of the available friction at each interface, and of the limits of each robot.
     Utilisation,
     /// The forces of every step of a construction. The arrows of all panels have the same scale.
     Build,
@@ -57,7 +57,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All kinds, in the order in which help lists them.
+    /// All kinds, in the order in which the help text lists them.
     pub const ALL: [Kind; 12] = [
         Kind::Forces,
         Kind::Flow,

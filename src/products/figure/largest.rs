@@ -6,7 +6,7 @@ use super::words::quantity;
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::scene::Scene;
 
-/// Forces that differ by less than this share are equally large.
+/// Forces that differ from the largest by at most this fraction count as equally large.
 const SIMILAR_TOL: f64 = 1e-3;
 
 /// Returns the contact with the largest force in a frame. If several forces are equal except for rounding, the result

@@ -6,7 +6,8 @@ use crate::drawing::{Face, text};
 
 /// Largest margin around a figure, pixels.
 pub(crate) const MAX_MARGIN: f64 = 36.0;
-/// Largest gap between columns, pixels; and as a share of the width of a page with a given width.
+/// Largest gap between columns in pixels, and as a fraction of the page width. The fraction matters only if the
+/// options set the page width.
 const MAX_GAP: (f64, f64) = (44.0, 0.05);
 /// Largest width of a row of panels, pixels.
 const MAX_ROW_WIDTH: f64 = 1028.0;

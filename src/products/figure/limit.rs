@@ -10,16 +10,17 @@ use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
 use crate::scene::Scene;
 
-/// A resultant acts at the edge if its distance from an end of the joint is below this share of the joint's length.
+/// A resultant acts at the edge if its distance from an end of the joint is at most this fraction of the joint's
+/// length.
 const EDGE_TOL: f64 = 0.01;
 
-/// The distance of a joint from its limit.
+/// How near a joint is to its limits of friction and of position. Each value is 1 at the limit.
 struct Nearness<'a> {
     contact: &'a Contact,
-    /// The used share of the available friction; 0 if no friction is available.
+    /// The used fraction of the available friction; 0 if no friction is available.
     friction: f64,
-    /// The distance of the resultant from the middle, as a share of the distance from the middle to the edge; 0 for a
-    /// corner.
+    /// The distance of the resultant from the middle, as a fraction of the distance from the middle to the edge; 0
+    /// for a corner.
     edge: f64,
 }
 
@@ -28,11 +29,13 @@ impl Nearness<'_> {
         self.friction >= FULL_UTILISATION || self.edge >= 1.0 - 2.0 * EDGE_TOL
     }
 
+    /// Returns the larger of the two values.
     fn share(&self) -> f64 {
         self.friction.max(self.edge)
     }
 }
 
+/// Returns how near each joint with a force is to its limits. The list is empty if the frame is not stable.
 fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
     if frame_analysis.verdict != Verdict::Stable {
         return Vec::new();
@@ -63,10 +66,11 @@ pub(crate) fn reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> V
     all.filter(Nearness::reached).map(|n| n.contact).collect()
 }
 
-/// Shares whose relative difference is below this count as equal.
+/// Two values of [`Nearness::share`] count as equal if their relative difference is below this.
 const EQUAL_SHARE_TOL: f64 = 1e-6;
 
-/// Least share for which a joint is named. A smaller share would be shown as 0 % or be numerical noise.
+/// Least value of [`Nearness::share`] for which a joint is named. A smaller value would be shown as 0 % or be
+/// numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
 /// Largest number of joints at their limit that are named.

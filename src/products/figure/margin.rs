@@ -3,8 +3,9 @@
 //!
 //! The options choose the [parameter](Toward). The figure shows the end of the interval that is nearer to the present
 //! state. If gravity is turned, a dashed line shows its present direction, and an arrow shows its direction at the
-//! margin. If a horizontal load is added, the arrow shows this load. A pale arrow shows the end on the other side. If
-//! loads grow, they are drawn with their present magnitudes. The blocks themselves are drawn in their present positions.
+//! margin. If a horizontal load is added, the arrow shows this load. A pale arrow shows the other end of the
+//! interval. If loads grow, they are drawn with their present magnitudes. The blocks are drawn in their present
+//! positions.
 
 mod reason;
 
@@ -27,9 +28,9 @@ use crate::drawing::arrow::straight;
 use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
-/// Length of the arrow of gravity, as a share of the diagonal of the structure.
+/// Length of the arrow of gravity, as a fraction of the diagonal of the structure.
 const GRAVITY_LENGTH: f64 = 0.16;
-/// Distance of the arrow of gravity from the structure, as a share of the diagonal of the structure.
+/// Distance of the arrow of gravity from the structure, as a fraction of the diagonal of the structure.
 const GRAVITY_DISTANCE: f64 = 0.12;
 
 /// The figure of a margin.
@@ -210,12 +211,13 @@ fn displacements_beyond_margin(
     Some((Course::new(&ghost, frame, unit).at(1.0), edge))
 }
 
-/// The ends of the arrow of gravity in metres: its tail, and its tip at present and at the margin.
+/// The points, in metres, of an arrow of gravity or of a horizontal load: the tail, the tip of gravity at present,
+/// and the tip at the margin.
 struct Gravity {
     from: Point,
     now: Point,
     there: Point,
-    /// Its tip at the other end of the interval, if the frame also falls there.
+    /// The tip at the other end of the interval; `None` if this end has no known value.
     other: Option<Point>,
 }
 
@@ -227,8 +229,8 @@ impl Gravity {
     }
 }
 
-/// Returns the end of the interval on the other side of 0 than `edge`, in the unit of the parameter. Returns `None` if
-/// it has no value.
+/// Returns the end of the interval whose sign is opposite to that of `edge`, in the unit of the parameter. Returns
+/// `None` if this end has no known value, and for the load factor.
 fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<f64> {
     let intervals = &analysis.frames[frame].margins.as_ref()?.intervals;
     let interval = match toward {
@@ -241,6 +243,9 @@ fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Op
     ends.find(|other| other * edge < 0.0)
 }
 
+/// Returns the arrows to the left of the structure: gravity at present, and gravity or the horizontal load at the
+/// margin and, if it is known, at the other end of the interval. `edge` is the value of the
+/// parameter at the margin. Returns `None` for the load factor, and for a frame without blocks.
 fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
     let scene = &analysis.scene;
     let blocks = scene.frames[frame].placed.iter();
@@ -255,7 +260,7 @@ fn gravity(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Opti
             let turned = Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y);
             Some(turned)
         }
-        // The arrow of the horizontal load is to the arrow of gravity as the load is to the weight.
+        // The lengths of the two arrows have the ratio of the horizontal load to the weight.
         Toward::HorizontalLoad => Some(quarter_turn(down) * edge),
         Toward::LoadFactor => None,
     };

@@ -2,11 +2,11 @@
 //! hinges and sliding joints.
 //!
 //! Blocks move along their velocities in finite rigid motions, so they keep their shapes. The amplitude is chosen for
-//! visibility, but blocks never overlap. For each part that falls one elementary mechanism is drawn
-//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). In the motion that proves a fall a sliding block
-//! also lifts, by μ per metre of sliding. If possible, it is drawn sliding along its joint; otherwise the legend says
-//! that it lifts. With a kernel a block turns about the end of the safe part, and its corner moves into its neighbour.
-//! This is the mechanism of the structure that was analysed.
+//! visibility, but blocks do not visibly overlap. For each part that falls one elementary mechanism is drawn
+//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). In the motion that proves a fall, a sliding
+//! block also lifts, by μ per metre of sliding. If possible, the block is drawn sliding along its joint; otherwise
+//! the legend states that it lifts. With a kernel, a block turns about an end of the safe part, and its corner moves
+//! into its neighbour, because the analysis only allows contact forces in the safe part.
 
 use super::arrow::Marks;
 use super::collapse;
@@ -33,7 +33,7 @@ use crate::wording;
 const HINGE_RADIUS: f64 = 0.085;
 /// Length of a half-arrow and its distance from the interface, unit edges.
 const SLIP_ARROW: (f64, f64) = (0.5, 0.11);
-/// Length of the barb of a half-arrow, as a share of the arrow.
+/// Length of the barb of a half-arrow, as a fraction of the arrow.
 const BARB_LENGTH: f64 = 0.34;
 
 /// Returns a box around all displaced blocks, metres; `None` if no block is displaced.
@@ -368,6 +368,7 @@ fn half_arrow(
     ]
 }
 
+/// Width of the sign of a block in the legend, pixels.
 const SIGN_WIDTH: f64 = 20.0;
 
 fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {

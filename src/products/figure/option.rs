@@ -15,16 +15,17 @@ pub enum ForceStyle {
     Components,
 }
 
-/// The force whose arrow is one unit edge long.
+/// The force whose arrow is one unit edge long. The unit edge is the side of a lattice cell, or a typical size of a
+/// block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Normalisation {
     /// The largest force that is drawn.
     #[default]
     Drawn,
-    /// The largest single unknown of the program (normal force of a corner, friction force of an interface, force
-    /// component of a robot) or weight. Arrows of sums can then be longer than one unit edge. Missing forces have a
-    /// scale of their own on each block. The figures of the thesis use this scale.
+    /// The largest weight, load or single unknown of the analysis (normal force of a corner, friction force of an
+    /// interface, force component of a robot). Arrows of sums can then be longer than one unit edge. Each block has a
+    /// separate scale for its missing forces. The figures of the thesis use this scale.
     Source,
 }
 
@@ -50,13 +51,13 @@ pub enum Fill {
     /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and are
     /// left out.
     Stress,
-    /// The largest used share of the available friction on one of its interfaces.
+    /// The largest used fraction of the available friction on one of its interfaces.
     Friction,
     /// No quantity: blocks have one plain colour.
     None,
-    /// The rule of the thesis, in its colours. A block that a robot holds shows the used share of the limits of this
-    /// robot. Any other block shows its amplitude as a share of the smallest limit of all robots. If no robot has a
-    /// limit, the amplitude is shown as a share of the largest amplitude.
+    /// The rule of the thesis, in its colours. A block that a robot holds shows the used fraction of the limits of
+    /// this robot. Any other block shows its amplitude as a fraction of the smallest limit of all robots. If no robot
+    /// has a limit, the amplitude is shown as a fraction of the largest amplitude.
     Source,
 }
 
@@ -68,7 +69,8 @@ pub enum Corners {
     /// each. Forces that are zero are left out.
     #[default]
     Few,
-    /// Every unknown of the program at every end with its name, even if it is zero. Arrows then only name forces.
+    /// Every unknown force at every end of an interface with its name, even if it is zero. The lengths of arrows then
+    /// show no magnitudes.
     All,
 }
 

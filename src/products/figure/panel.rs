@@ -71,8 +71,8 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// Cuts the ground at the right and the lower edge of the part that figures show. Marks beyond these edges do not seem
-/// to stand on the ground.
+/// Cuts the ground at the right and the lower edge of the part that figures show, so that marks beyond these edges do
+/// not seem to stand on the ground.
 pub(crate) fn cut_ground(pen: &Pen<'_>, picture: &mut Group) {
     let scene = &pen.context.analysis.scene;
     let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {

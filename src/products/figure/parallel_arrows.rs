@@ -3,8 +3,8 @@
 //! The ground often pushes a block up on the same line on which its weight pulls it down. On this line, the two arrows
 //! would look like one arrow with two heads. The arrows of a frame are processed one after the other, in drawing order:
 //!
-//! 1. The ideal offset of an arrow is 0. With an opposite arrow at the same point it is half a shaft and half the gap,
-//!    so that the pair is centred about its true line.
+//! 1. The ideal offset of an arrow is 0. If an opposite arrow begins at the same point, the ideal offset is half the
+//!    width of a shaft plus half the gap, so that the pair is centred about its true line.
 //! 2. If the arrow overlaps no earlier arrow at its ideal offset, it gets this offset.
 //! 3. Otherwise the candidates are 0 and, for each arrow nearby, the two offsets at which the arrows just do not
 //!    overlap. The arrow gets the candidate that is nearest to the ideal offset and at which it overlaps no earlier
@@ -30,16 +30,17 @@ const NEARBY_DISTANCE: f64 = 24.0;
 /// Largest number of candidates that are tried. If none of them is free, the page is full at this position, and the
 /// arrow is drawn at its ideal offset.
 const MAX_CANDIDATES: usize = 1000;
-/// Largest number of candidates of a frame. If arrows crowd more than this, the remaining ones are drawn at their ideal
-/// offsets: the number of candidates grows with the square of the number of arrows on one line, and three thousand
-/// loads on a block have some ten million.
+/// Largest number of candidates of a frame. After this number, the remaining arrows are drawn at their ideal offsets.
+/// The number of candidates grows with the square of the number of arrows on one line: 3000 loads on a block would
+/// have about ten million.
 const MAX_CANDIDATES_PER_FRAME: usize = 1_000_000;
 /// In frames with more arrows, no arrows are moved, because nobody can follow a single arrow there.
 const MAX_ARROWS: usize = 4000;
-/// Distances from the ideal offset are rounded to this share of a shaft's width. Rounding errors must not decide
+/// Distances from the ideal offset are rounded to this fraction of a shaft's width. Rounding errors must not decide
 /// between two offsets at the same distance.
 const OFFSET_RESOLUTION: f64 = 1e-6;
-/// Relative tolerance of the least distance, because candidates lie exactly at it.
+/// Relative tolerance of the least allowed distance. A candidate lies exactly at this distance, and a rounding error
+/// must not reject it.
 const CLEAR_TOL: f64 = 1e-6;
 
 /// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other.
@@ -78,9 +79,9 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     }
 }
 
-/// Returns the sideways offset of an arrow in metres, positive to its left. Of all offsets at which the arrow overlaps
-/// no placed arrow, the result is the nearest to `ideal`. Returns `ideal` if no such offset is found. Adds the number of
-/// candidates to `candidates`.
+/// Returns the sideways offset of an arrow in metres, positive to its left. Of the candidates at which the arrow
+/// keeps the least distance from all placed parallel arrows, the result is the nearest to `ideal`. Returns `ideal` if
+/// there is no such candidate. Adds the number of candidates found, tried or not, to `candidates`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -116,7 +117,7 @@ fn offset_of_least_change(
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
-    // If the offset is small, do not search again: arrows farther away can only give larger offsets.
+    // If the offset is small, do not search again: arrows farther away can only lead to larger offsets.
     let nearby = nearest(Some(
         space_around(arrow).grown(NEARBY_DISTANCE * arrow.width),
     ));
@@ -231,7 +232,7 @@ mod tests {
         separate_parallel_arrows(&mut marks);
         for (a, b) in marks.arrows.iter().zip(&before.arrows) {
             assert_eq!((a.vector, a.force), (b.vector, b.force));
-            // Never farther than a few widths from the line along which the force acts.
+            // Every arrow stays within a few widths of the line along which the force acts.
             assert!((a.at - b.at).norm() < 12.0 * a.width, "{a:?} {b:?}");
         }
         let overlaps = |arrows: &[ForceArrow]| {
@@ -240,13 +241,13 @@ mod tests {
                 .filter(|(i, j)| too_close(&arrows[*i], &arrows[*j]))
                 .count()
         };
-        assert!(overlaps(&before.arrows) > 0, "nothing to set apart");
+        assert!(overlaps(&before.arrows) > 0, "no arrows overlap before");
         assert_eq!(overlaps(&marks.arrows), 0);
         marks.arrows
     }
 
     #[test]
-    fn forces_on_one_line_stand_side_by_side() {
+    fn overlapping_parallel_arrows_are_moved_apart() {
         let arrows = spread(include_str!("../../../tests/scenes/one.json"));
         assert_eq!(arrows.len(), 2);
         assert!((arrows[0].at.x - arrows[1].at.x).abs() > arrows[0].width);

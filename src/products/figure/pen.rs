@@ -64,7 +64,7 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
 /// Draws the parts of a frame's picture.
 pub(crate) struct Pen<'a> {
     pub context: &'a FigureContext<'a>,
-    /// The frame, from 0.
+    /// The index of the frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
     /// The position of each block in the placing order, indexed by block; `None` for a block that is not placed.
@@ -109,6 +109,7 @@ impl<'a> Pen<'a> {
         }
     }
 
+    /// Returns the unit edge in pixels.
     pub(crate) fn unit(&self) -> f64 {
         self.camera.length(self.context.unit)
     }
@@ -199,6 +200,7 @@ impl<'a> Pen<'a> {
         wider * self.camera.length(arrow.width)
     }
 
+    /// Returns the stroke of the lines between the lattice cells of a block with this fill colour.
     fn seam(&self, fill: Colour) -> Stroke {
         Stroke::new(
             self.context.options.theme.seam_on(fill, 0.22),
@@ -261,6 +263,7 @@ impl<'a> Pen<'a> {
         group
     }
 
+    /// Draws the outlines of the blocks that robots plan to place.
     pub(crate) fn plans(&self) -> Group {
         let scene = &self.context.analysis.scene;
         let mut group = Group::with_class("plans");
@@ -279,6 +282,7 @@ impl<'a> Pen<'a> {
         group
     }
 
+    /// Draws a disc for each robot at the point where it holds a block.
     pub(crate) fn discs(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let mut group = Group::with_class("robots");

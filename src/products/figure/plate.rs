@@ -11,7 +11,7 @@ use crate::drawing::Drawing;
 /// A panel of a plate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Panel {
-    /// The index of its analysis.
+    /// The index of the analysis whose frame the panel shows.
     pub of: usize,
     /// The index of the frame in this analysis.
     pub frame: usize,
@@ -19,8 +19,8 @@ pub(crate) struct Panel {
     pub caption: &'static str,
 }
 
-/// Draws these panels on one page in their order, in rows of `columns` panels. All panels of a row show the same
-/// heights of their scenes, so their structures can be compared.
+/// Draws `panels` on one page in the given order, in rows of `columns` panels. All panels of a row show the same
+/// vertical range of their scenes, so that their structures can be compared.
 pub(crate) fn plate(
     analyses: &[Analysis],
     panels: &[Panel],

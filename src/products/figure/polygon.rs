@@ -2,9 +2,10 @@
 //! at the tip of the previous arrow.
 //!
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
-//! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If it
-//! falls, the polygon only closes with the missing forces, outside or inside the structure; the text below says so.
-//! Each arrow has the same colour and force as on the structure. The polygon has its own scale, which the legend shows.
+//! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If
+//! the structure falls, the polygon closes only with the missing forces, which act from outside or inside the
+//! structure. The text below the verdict states this. Each arrow has the same colour and force as on the structure.
+//! The polygon has its own scale, which the legend shows.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::content::{About, FrameSource, PanelContent};
@@ -26,16 +27,17 @@ use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Them
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BodyId, Unit};
 
-/// Largest width and height of the polygon, as a share of the larger side of the structure.
+/// Largest width and height of the polygon, as a fraction of the larger side of the structure.
 const POLYGON_SIZE: f64 = 0.75;
-/// Largest height of the polygon: a share of the width of the structure, unless the structure is higher.
+/// Largest height of the polygon as a fraction of the structure's width. If the structure is higher than this, the
+/// height of the structure is the limit.
 const POLYGON_HEIGHT: f64 = 0.4;
 /// Longest arrow that shows the scale of a polygon in the legend, pixels.
 const SCALE_ARROW: f64 = 64.0;
-/// Gap between structure and polygon: a share of the structure's diagonal, and the least number of unit edges.
+/// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit edges.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
-/// A polygon is closed if its gap is at most this share of the sum of all forces. Rounding errors are far smaller, and
-/// missing forces are far larger.
+/// A polygon is closed if its gap is at most this fraction of the sum of all forces. Rounding errors are far smaller,
+/// and missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
 /// True if a force acts on the structure from outside. Such a force is a side of the polygon.
@@ -95,7 +97,7 @@ impl PanelContent for ForcePolygon {
         let mut ink = label::ink(pen);
         let polygon = drawn_polygon(pen, &mut ink);
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // Cut the ground before the polygon, so that the polygon does not seem to stand on it.
+        // No label may lie where the ground to the right of the structure is cut off.
         if let Some(shown) = view::ground_shown(scene, unit(scene, None)) {
             let mut beyond = pen.camera.rect(shown);
             let right = beyond.at.x + beyond.width;
@@ -105,6 +107,7 @@ impl PanelContent for ForcePolygon {
             ink.rect(beyond);
         }
         let mut picture = composed(pen, view, pen.blocks(), parts, ink);
+        // Cut the ground, so that the polygon does not seem to rest on it.
         cut_ground(pen, &mut picture);
         picture
     }
@@ -183,7 +186,7 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let drawn = Group::with_class(class).titled(title);
         drawn.with(Path::stroked(line, stroke)).into()
     };
-    // If actions and reactions are drawn apart, two dashed lines connect positions that stand for the same point. In an
+    // If actions and reactions are drawn apart, two dashed lines each connect two positions of the same corner. In an
     // open polygon, the second line would look like the line of the gap, so it is left out.
     let closed = closed(marks);
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
@@ -201,16 +204,16 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     polygon
 }
 
-/// If the distance of reactions from actions is smaller than this share of the polygon's size, reactions are drawn next
-/// to the actions.
+/// If the distance of reactions from actions is smaller than this fraction of the polygon's size, reactions are drawn
+/// next to the actions.
 const OVERLAP_SHARE: f64 = 0.03;
-/// Distance of reactions that are drawn next to the actions, as a share of the polygon's size.
+/// Distance of reactions that are drawn next to the actions, as a fraction of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
 
 /// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale.
 struct Chain {
     sides: Vec<[Point; 2]>,
-    /// Pairs of positions that are the same point, if actions and reactions are drawn apart.
+    /// Pairs of positions of the same corner, if actions and reactions are drawn apart; otherwise empty.
     joins: Vec<[Point; 2]>,
     /// Metres per newton.
     scale: f64,
@@ -378,7 +381,7 @@ mod tests {
     use crate::scene::format::UnitsEntry;
 
     #[test]
-    fn the_key_shows_the_scale_of_every_polygon_by_its_panel() {
+    fn the_legend_shows_each_scale_of_polygons_with_the_letters_of_its_panels() {
         let said = |scales: &[(usize, f64)]| -> Vec<(f64, String)> {
             let entries = scale_entries(scales, UnitsEntry::default().force()).into_iter();
             let said = entries.map(|entry| match entry {

@@ -1,10 +1,11 @@
 //! Draws how a margin changes if corners of blocks move: an arrow at each corner shows the direction in which to move
 //! it.
 //!
-//! The arrow points where the interval of the margin grows most, and its length is in proportion to the growth per metre.
-//! Corners that move together have one arrow. The most effective changes have numbers, and the legend lists what they do;
-//! weights, loads and friction belong to them if they are as effective. A corner at a kink has no arrow. Of the two ends
-//! of a margin the figure shows the nearer one, of the load factor the upper one. The analysis determines the margin.
+//! The arrow points in the direction in which the interval of the margin grows most. Its length is in proportion to
+//! the growth per metre. Corners that move together have one arrow. The most effective changes have numbers, and the
+//! legend lists them. They include changes of weights, loads and friction. A corner has no arrow if the derivatives
+//! of the margin are not unique there (a kink). The figure shows the end of the interval that is nearer to 0; for the
+//! load factor, it shows the upper end. The options of the analysis select the margin.
 
 mod plan;
 
@@ -32,7 +33,7 @@ use plan::{CornerArrow, Plan, scale};
 
 /// Radius of the disc of a number without an arrow, as a multiple of the font size.
 const DISC_RADIUS: f64 = 0.68;
-/// Length of the arrow that shows the scale, pixels, at most.
+/// Largest length of the arrow that shows the scale, pixels.
 const MAX_SCALE_ARROW: f64 = 60.0;
 
 /// The figure of the effects of corners on a margin.
@@ -220,9 +221,9 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
         };
         // The number of a load is at the tail of its arrow.
         let near = 1e-6 * pen.context.unit;
-        let is_its = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
-        let its = loads.iter().find(|arrow| change.is_load && is_its(arrow));
-        let preferred = match its {
+        let ends_here = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
+        let load_arrow = (loads.iter()).find(|arrow| change.is_load && ends_here(arrow));
+        let preferred = match load_arrow {
             Some(arrow) => {
                 let (x, y) = pen.camera.turn(arrow.vector);
                 let share = (radius + 1.5) / libm::hypot(x, y).max(f64::MIN_POSITIVE);

@@ -9,7 +9,9 @@ use crate::drawing::{
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::scene::{Body, shape};
 
+/// Length of the side of a lattice cell, pixels.
 const UNIT_EDGE: f64 = 46.0;
+/// Largest width of a row of shapes, pixels.
 const MAX_ROW_WIDTH: f64 = 900.0;
 
 /// Draws an overview of the built-in shapes on the triangular lattice.

@@ -4,16 +4,17 @@ use crate::drawing::{Face, Theme, text};
 
 /// If a title has more lines than this, a smaller font size is used.
 const MAX_FULL_SIZE_LINES: usize = 3;
-/// The font sizes that are tried, as shares of the full size. No size is smaller than the size of a caption.
+/// The font sizes that are tried in this order, as fractions of the full size. Sizes below that of captions are
+/// raised to it.
 const SIZE_STEPS: [f64; 3] = [1.0, 0.85, 0.7];
-/// Largest number of lines of a title. Longer titles are cut.
+/// Largest number of lines of a title. A longer title is cut and ends with `…`.
 const MAX_LINES: usize = 5;
 
-/// The face of titles.
+/// The typeface of titles.
 pub(crate) const FACE: Face = Face::SerifBold;
 
-/// Breaks a title into lines of at most `room` pixels. Long titles have a smaller font. Also returns the font size in
-/// pixels.
+/// Breaks a title into lines of at most `room` pixels. Returns the lines and the font size in pixels, which is
+/// smaller for long titles.
 pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64) {
     let least = theme.sizes.caption.min(theme.sizes.title);
     let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));

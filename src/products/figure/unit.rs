@@ -34,9 +34,9 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     }
 }
 
-/// Length of the longest arrow of a load, as a share of the longer side of the structure.
+/// Length of the longest arrow of a load, as a fraction of the longer side of the structure.
 const LONGEST_LOAD: f64 = 0.1;
-/// Width of the shaft of the arrow of a load, as a share of the length of the longest arrow.
+/// Width of the shaft of the arrow of a load, as a fraction of the length of the longest arrow.
 pub(crate) const LOAD_SHAFT: f64 = 0.055;
 
 /// Returns the length of the longest arrow of a load in figures that show no other forces to the same scale, metres. It

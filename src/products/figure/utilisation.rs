@@ -1,5 +1,5 @@
-//! Draws the utilisation of a structure: the used share of the available friction at each interface, and the used share
-//! of the limits of each robot.
+//! Draws the utilisation of a structure: the used fraction of the available friction at each interface, and the used
+//! fraction of the limits of each robot.
 //!
 //! The forces shown are one of many equilibrium states. In another state, some joints may use less friction, and other
 //! joints more.
@@ -23,12 +23,12 @@ use crate::geometry::Bounds;
 use crate::scene::Scene;
 use sign::{SIGN_WIDTH, full_sign, idle_sign, smooth_sign};
 
-/// Width of the line of an interface, unit edges; its least and its largest width, pixels.
+/// The width of the line of an interface in unit edges, with its least and largest allowed width in pixels.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
 /// Length of the bar across an interface that uses all its friction, as a multiple of the width of its line.
 const BAR_LENGTH: f64 = 3.2;
 
-/// The figure of friction used.
+/// The figure of utilisation.
 pub(crate) struct Utilisation;
 
 impl PanelContent for Utilisation {
@@ -66,7 +66,7 @@ impl PanelContent for Utilisation {
         let robots = frames
             .iter()
             .flat_map(|f| &f.robots)
-            .any(|r| has_force_limits(scene, r.robot.0));
+            .any(|r| has_limits(scene, r.robot.0));
         let mut entries = Vec::new();
         let shared = all.iter().flatten().any(|b| b.friction.is_some());
         if shared || robots {
@@ -127,14 +127,15 @@ fn uses_all_friction(bearing: &Bearing) -> bool {
         .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
-fn has_force_limits(scene: &Scene, robot: usize) -> bool {
+/// True if at least one limit of a robot, for a force or a torque, is finite and larger than 0.
+fn has_limits(scene: &Scene, robot: usize) -> bool {
     let limits = scene.robots[robot].limits;
     let finite = |limit: f64| limit.is_finite() && limit > 0.0;
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
-/// Describes the interface that uses the largest share of its friction, and the robot that uses the largest share of
-/// its limits.
+/// Describes the interface that uses the largest fraction of its friction, and the robot that uses the largest
+/// fraction of its limits.
 fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
     let bearings = bearings(scene, frame_analysis);
@@ -170,14 +171,14 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         frame_analysis
             .robots
             .iter()
-            .filter(|r| has_force_limits(scene, r.robot.0))
+            .filter(|r| has_limits(scene, r.robot.0))
     };
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
     // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
     // one of them.
-    let giving = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
-    let giving: Vec<_> = giving.into_iter().flatten().collect();
-    match giving.as_slice() {
+    let equal = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
+    let most_used: Vec<_> = equal.into_iter().flatten().collect();
+    match most_used.as_slice() {
         [] => {}
         [robot] => {
             let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
@@ -185,7 +186,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         }
         [robot, ..] => stated.push(format!(
             "{} give {} of their limits",
-            counted(giving.len(), "robot"),
+            counted(most_used.len(), "robot"),
             percent(robot.limit_used)
         )),
     }
@@ -196,12 +197,14 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     }
 }
 
+/// Returns the width of the line of an interface, pixels. `unit` is the unit edge in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = LINE_WIDTH;
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of the line of an interface, which shows the used share of the available friction.
+/// Returns the colour of the line of an interface, which shows the used fraction of the available friction. The line
+/// of an interface without available friction has the colour of the page.
 fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
     match bearing.friction {
         Some(share) => theme.amplitude(share),
@@ -209,6 +212,7 @@ fn colour(bearing: &Bearing, theme: &Theme) -> Colour {
     }
 }
 
+/// Returns the colour of the borders of lines and discs.
 fn edge(theme: &Theme) -> Colour {
     theme.ink
 }
@@ -295,8 +299,8 @@ fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
         .with(path)
 }
 
-/// Draws an interface with force as a line whose colour shows the used share of the available friction. A bar across
-/// the line shows that all friction is used.
+/// Draws an interface with force as a line whose colour shows the used fraction of the available friction. A bar
+/// across the line shows that all friction is used.
 fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let bold = bold(pen.unit());
@@ -350,14 +354,15 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
-/// Draws a disc at the grip of each robot that has limits. The colour of the disc shows the used share of these limits.
+/// Draws a disc at the grip of each robot that has limits. The colour of the disc shows the used fraction of these
+/// limits.
 fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
     for robot in frame_analysis
         .robots
         .iter()
-        .filter(|r| has_force_limits(scene, r.robot.0))
+        .filter(|r| has_limits(scene, r.robot.0))
     {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();

@@ -5,12 +5,12 @@ use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// The width of ground shown beyond the blocks, as a share of the structure's diagonal; at least one unit edge is
+/// The width of ground shown beyond the blocks, as a fraction of the structure's diagonal; at least one unit edge is
 /// shown.
 const SIDE_GROUND_SHARE: f64 = 0.12;
 /// A piece of ground near the structure is not cut if both its width and its height are at most this, unit edges.
 const MAX_UNCUT_GROUND: f64 = 3.0;
-/// Distance from a block to the edge of its zoomed view, as a share of the block's larger side.
+/// Distance from a block to the edge of its zoomed view, as a fraction of the block's larger side.
 const ZOOM_PADDING: f64 = 0.5;
 /// Space around all shown items, unit edges.
 const PADDING: f64 = 0.08;
@@ -96,7 +96,8 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
-/// Returns a box around a block, metres: the bounding box, enlarged on all sides by half of its longer side.
+/// Returns a box around a block, in metres: the bounding box of the block, enlarged on all sides by half of its longer
+/// side.
 pub(crate) fn zoomed_view(scene: &Scene, block: BlockId) -> Bounds {
     let bounds = scene.blocks[block.0].body.polygon.bounds();
     bounds.grown(ZOOM_PADDING * bounds.width().max(bounds.height()))

@@ -1,7 +1,7 @@
 //! Writes an accuracy study as a page, a table or a picture.
 //!
-//! All forms come from one [`Study`]. They state the version of drystone, but no date. [`result::accuracy_json`] writes the
-//! same study as JSON.
+//! All forms come from one [`Study`]. They state the version of drystone, but no date. [`result::accuracy_json`]
+//! writes the same study as JSON.
 //!
 //! [`result::accuracy_json`]: crate::result::accuracy_json
 
@@ -20,7 +20,8 @@ use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
 use crate::wording::verdict::plain;
 
-/// Smaller errors are shown as this value. They are rounding errors, because the unit roundoff of f64 is 1.1e-16.
+/// Smaller errors are drawn at this value and written as 0. They are rounding errors, because the unit roundoff of
+/// f64 is 1.1e-16.
 const MIN_SHOWN_ERROR: f64 = 1e-16;
 /// Larger errors, and runs without an error, are drawn at this value.
 const MAX_SHOWN_ERROR: f64 = 1.0;
@@ -106,6 +107,7 @@ pub fn svg(study: &Study) -> Result<String, ChartError> {
     })
 }
 
+/// Formats a relative error: `1.2e-9`, `0` below [`MIN_SHOWN_ERROR`], or `–` if there is none.
 fn small(value: Option<f64>) -> String {
     value.map_or("–".into(), |v| match v {
         v if v < MIN_SHOWN_ERROR => "0".into(),

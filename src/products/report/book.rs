@@ -1,15 +1,16 @@
 //! [`illustrate`]: an mdBook preprocessor that draws the scenes in the chapters of a book.
 //!
-//! A fenced block that begins with `drystone` contains a scene, or names a file with `file=…`. The preprocessor replaces it
-//! by a figure with a caption. Options follow the word, as `name=value` or `name`:
+//! A fenced code block that begins with `drystone` contains a scene, or names a scene file with `file=…`. The
+//! preprocessor replaces the block by a figure with a caption. Options follow the word `drystone`, as `name=value` or
+//! `name`:
 //!
 //! | option | meaning |
 //! |---|---|
-//! | `file=scene.json` | the scene, relative to the chapter's own file |
-//! | `kind=mechanism` | the kind of figure: a name of [`Kind`], such as `forces` or `thrust`, or `freebody` |
-//! | `block=a` | the block of a free-body diagram |
-//! | `theme=dark` | the theme |
-//! | `width=600` | the width in pixels |
+//! | `file=scene.json` | the scene file; its path is relative to the file of the chapter |
+//! | `kind=mechanism` | the kind of figure: `freebody`, or the name of a [`Kind`], such as `forces` |
+//! | `block=a` | the id of the block in a free-body diagram |
+//! | `theme=dark` | the theme of the figure |
+//! | `width=600` | the width of the figure in pixels |
 //! | `amounts` | every arrow has a label with its force |
 //! | `nocaption` | no caption below the figure |
 
@@ -29,17 +30,17 @@ use crate::text;
 /// The first word after the fence of a code block that drystone draws.
 const FENCE_WORD: &str = "drystone";
 
-/// All problems of a book.
+/// All problems found in a book, one message each.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", .0.join("\n\n"))]
 pub struct BookError(pub Vec<String>);
 
-/// Draws the scenes of a book. `input` is the JSON text `[context, book]` that mdBook gives to a preprocessor. Returns
-/// the JSON text of the book with figures.
+/// Draws the scenes of a book. `input` is the JSON text `[context, book]` that mdBook gives to a preprocessor.
+/// Returns the JSON text of the book with figures.
 ///
 /// # Errors
-/// If the input is not the JSON of an mdBook preprocessor, or if scenes cannot be drawn. The error then gives
-/// chapter, line and reason for each of them.
+/// If the input is not the JSON of an mdBook preprocessor, or if scenes cannot be drawn. For each of these scenes,
+/// the error states the chapter, the line and the reason.
 pub fn illustrate(input: &str) -> Result<String, BookError> {
     let invalid = |why: &str| {
         BookError(vec![format!(
@@ -74,6 +75,7 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     }
 }
 
+/// Draws the scenes in a chapter and in its sub-chapters. `source` is the folder of the chapter files.
 fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     let path = chapter["source_path"].as_str().or(chapter["path"].as_str());
     let path = source.join(path.unwrap_or("draft.md"));
@@ -89,8 +91,8 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// Returns the text of a chapter with a figure in place of each code block that begins with `drystone`. Adds a message
-/// to `problems` for each code block that cannot be drawn.
+/// Returns the text of a chapter with a figure in place of each code block that begins with `drystone`. Adds a
+/// message to `problems` for each code block that cannot be drawn.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -138,7 +140,7 @@ fn margin(content: &str, start: usize) -> String {
     content[line..start].chars().map(kept).collect()
 }
 
-/// The options of a block.
+/// The options of a `drystone` code block.
 struct FigureRequest {
     file: Option<String>,
     kind: String,
@@ -186,6 +188,8 @@ impl FigureRequest {
     }
 }
 
+/// Returns the HTML figure for a code block. `words` are its options, `body` is its content, and `chapter` is the
+/// file of the chapter.
 fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let request = FigureRequest::read(words)?;
     let text = match &request.file {

@@ -12,11 +12,11 @@ pub type OutputFile = (String, Vec<u8>);
 
 /// The part of a report above its scenes.
 pub(super) struct Head<'r> {
-    /// The title of the page.
+    /// The title of the report.
     pub title: &'r str,
-    /// The number of scenes that stand and fall, as a sentence without a full stop.
+    /// The numbers of scenes with each verdict and of invalid files, as a sentence without a full stop.
     pub summary: String,
-    /// Further sentences.
+    /// Further sentences, shown after the summary.
     pub notes: &'r [String],
     /// The files that are not valid scenes.
     pub refused: &'r [Refused],
@@ -39,7 +39,7 @@ pub(super) const STANDS_MEANING: &str = "“Stands” means that a balance of fo
 pub struct Refused {
     /// The path as given by the user.
     pub name: String,
-    /// The problems of the scene. A file that cannot be read has one problem without a place.
+    /// The problems of the scene. A file that cannot be read has one problem without a position.
     pub problems: Vec<Problem>,
 }
 

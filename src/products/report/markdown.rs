@@ -183,12 +183,12 @@ impl Writer {
     }
 }
 
-/// Draws a margin as a row of characters, with full blocks where the structure stands. At the present value is a disc
-/// if it is certainly inside, otherwise a cross.
+/// Draws a margin as a row of characters, with full blocks for the values at which the structure stands. The present
+/// value is a disc if it is certainly one of these values, and a cross otherwise.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
-        // The cast cannot overflow: a share lies between 0 and 1.
+        // The cast cannot overflow, because the fraction is between 0 and 1.
         ((share * BAR_CHARACTERS as f64) as usize).min(BAR_CHARACTERS - 1)
     };
     let mut cells = ['─'; BAR_CHARACTERS];

@@ -1,8 +1,8 @@
 //! [`Report`]: a report on many scenes, in one of five forms.
 //!
-//! Each scene becomes an [`Entry`], which is written at once as a [`Piece`] in the requested form. The entry, its figures
-//! and its analysis are then dropped. A report on a thousand scenes therefore needs only the memory of its own text, and
-//! several threads can write the pieces in any order.
+//! Each scene becomes an [`Entry`], which is written at once as a [`Piece`] in the requested form. The entry, its
+//! figures and its analysis are then dropped. A report on a thousand scenes therefore needs only the memory of its
+//! own text, and several threads can write the pieces in any order.
 
 pub use super::head::{OutputFile, Refused, ReportError};
 
@@ -31,11 +31,12 @@ pub enum Form {
 /// The part of a report for one scene.
 #[derive(Debug)]
 pub struct Piece {
-    /// Its row in the table of all scenes.
+    /// The row of the scene in the table of all scenes.
     pub row: Row,
     body: PieceContent,
 }
 
+/// The content of a [`Piece`] in the form of its report.
 #[derive(Debug)]
 enum PieceContent {
     Text(String),
@@ -46,13 +47,13 @@ enum PieceContent {
 /// A report on many scenes.
 #[derive(Debug)]
 pub struct Report {
-    /// The title of the page.
+    /// The title of the report.
     pub title: String,
     /// The scenes, in the given order.
     pub pieces: Vec<Piece>,
     /// The files that are not valid scenes.
     pub refused: Vec<Refused>,
-    /// More sentences for the top of the page.
+    /// More sentences for the beginning of the report.
     pub notes: Vec<String>,
     /// Whether each piece compares two scenes.
     pub compares: bool,
@@ -64,7 +65,8 @@ pub struct Report {
 }
 
 impl Piece {
-    /// Writes the part of a report for one scene. `number` counts from 1. The names of figure files begin with `stem`.
+    /// Writes the part of a report for one scene. `number` counts from 1. The names of figure files begin with
+    /// `stem`.
     ///
     /// # Errors
     /// If the text of a figure cannot be laid out.
@@ -88,7 +90,7 @@ impl Piece {
     }
 }
 
-/// Returns the result of an entry as JSON. A comparison gives an object with both results and the changes.
+/// Returns the result of an entry as JSON. For a comparison, the object has the changes and both results.
 fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
@@ -237,6 +239,7 @@ impl Report {
 }
 
 impl PieceContent {
+    /// Returns the text of an HTML, Markdown or JSON piece; empty for PDF pages.
     fn text(&self) -> &str {
         match self {
             PieceContent::Text(text) | PieceContent::Files(text, _) => text,
@@ -245,8 +248,8 @@ impl PieceContent {
     }
 }
 
-/// Writes a report as PDF. It begins with the summary and the contents, unless it has only one scene, no notes, and no
-/// files that are not valid scenes.
+/// Writes a report as PDF. It begins with the summary and the table of contents. Both are left out for a single scene
+/// without notes and without invalid files.
 fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, ReportError> {
     let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
     // Count the pages before the scenes. The page numbers in the contents are placeholders here, because they do not
@@ -256,7 +259,8 @@ fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, Re
     } else {
         print::head(head, &vec![999; scenes.len()]).len()
     };
-    // Index `starts` by the numbers of the scenes, because the scenes may have been sorted.
+    // `starts` has the index of the first page of each scene, in the order of the scene numbers. The scenes may have
+    // been sorted differently.
     let mut starts = vec![0; scenes.len()];
     let mut next = first;
     for (row, pages) in head.rows.iter().zip(&scenes) {

@@ -42,7 +42,7 @@ struct Edge<'a> {
     case: usize,
 }
 
-/// The forces that prove one vertex.
+/// The balance of forces that proves one vertex.
 #[derive(Serialize)]
 struct Balance {
     torque: Number,

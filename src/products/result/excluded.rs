@@ -46,8 +46,8 @@ struct Reason<'a> {
 }
 
 impl<'a> Excluded<'a> {
-    /// Collects, for each parameter with an empty interval, the motions that exclude all its values. Returns `None` if
-    /// no interval is empty.
+    /// Collects, for each parameter with an empty interval, the motions that exclude all its values. Returns `None`
+    /// if no interval is empty.
     pub(super) fn new(scene: &'a Scene, intervals: &Intervals) -> Option<Excluded<'a>> {
         let of = |interval: &Option<Interval>| reasons(scene, interval.as_ref()?);
         let robots = intervals.robots.iter().filter_map(|robot| {

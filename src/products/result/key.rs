@@ -11,15 +11,15 @@ use crate::scene::Code;
 /// A key of a result.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Its path, for example `frames[].robots[].force`; `*` stands for the name of any robot.
+    /// The path of the key, for example `frames[].robots[].force`; `*` stands for the name of any robot.
     pub path: &'static str,
-    /// The type of its value.
+    /// The type of the value.
     pub kind: Type,
     /// The unit of the value; empty if it has no unit.
     pub unit: &'static str,
     /// The condition under which the key is present; empty if it is always present.
     pub when: &'static str,
-    /// Its meaning.
+    /// The meaning of the value.
     pub meaning: &'static str,
 }
 
@@ -42,14 +42,14 @@ const fn key(
 const IF_MARGINS_REQUESTED: &str = "with `--margins`";
 /// The condition for keys that are only present if this margin was requested. A request without names requests all
 /// margins.
-const IF_MARGIN_REQUESTED: &str = "where requested";
+const IF_MARGIN_REQUESTED: &str = "if requested";
 
 /// Every key of a result, in the order in which a result has them.
 #[rustfmt::skip]
 pub const KEYS: &[Key] = &[
     key("drystone", Type::Text, "", "", "version of the program"),
-    key("file", Type::Text, "", "from the command line", "the path as given, with the file's name where that is a folder; `-` for standard input"),
-    key("scene", Type::Text, "", "", "the scene's title; empty where it has none"),
+    key("file", Type::Text, "", "from the command line", "the path of the scene file: as given, or the given folder with the name of the file; `-` for standard input"),
+    key("scene", Type::Text, "", "", "the scene's title; empty if it has none"),
     key("contact_tolerance", Type::Object, "", "", "the largest gap at which two edges still touch, and how corners were moved to close gaps"),
     key("contact_tolerance.gap", Type::Number, "m", "", "edges at most this far apart touch; 0 on a lattice"),
     key("contact_tolerance.from", Type::Word(&["lattice", "given", "decimals", "significant_digits", "float32", "size", "noise"]), "", "", "the source of the tolerance: the lattice (exact), a given value, or an estimate from the way coordinates are written or from the size of the scene"),
@@ -64,14 +64,14 @@ pub const KEYS: &[Key] = &[
     key("notes[].message", Type::Text, "", "", "what was found"),
     key("notes[].hint", Type::Text, "", "", "how to change the scene, and how to silence the note"),
     key("frames", Type::Objects, "", "", "one object for each step; one object for a scene without steps"),
-    key("frames[].title", Type::Text, "", "", "the step's title; empty where it has none"),
+    key("frames[].title", Type::Text, "", "", "the step's title; empty if it has none"),
     key("frames[].verdict", Type::Word(&["stable", "unstable", "undecided"]), "", "", "stable: admissible forces balance all blocks; unstable: a collapse mechanism exists; undecided: neither is proved"),
     key("frames[].doubt", Type::Text, "", "if the frame is undecided", "why the frame is undecided"),
     key("frames[].length", Type::Number, "m", "", "the length L that turns torques into forces in the sums: the median length of the frame's interfaces without corner contacts (the shorter of the two in the middle); in a frame without interfaces the square root of the median block's area; 1 in an empty frame"),
-    key("frames[].total_force", Type::Number, "N", "", "sum of the amounts of all forces, Σ(N₁ + N₂ + \\|T\\|) + Σ(\\|Fx\\| + \\|Fy\\| + \\|M\\|/L)"),
+    key("frames[].total_force", Type::Number, "N", "", "the sum of the magnitudes of all forces, Σ(N₁ + N₂ + \\|T\\|) + Σ(\\|Fx\\| + \\|Fy\\| + \\|M\\|/L)"),
     key("frames[].total_force_least", Type::Flag, "", "only if `false`", "whether `total_force` is the least possible sum of forces"),
     key("frames[].total_force_bound", Type::Number, "N", "if the frame stands and a bound was found", "a lower bound of `total_force` for all balances, from a motion of the blocks (weak duality)"),
-    key("frames[].total_sticking", Type::Number, "N", "", "the sum of the amounts of the missing forces in `failures`, computed like `total_force`; 0 where the frame stands, where no adhesion would help (`unsupported`), and with `--verdict-only`, which does not compute it"),
+    key("frames[].total_sticking", Type::Number, "N", "", "the sum of the magnitudes of the missing forces in `failures`, computed like `total_force`; 0 if the frame stands, if no adhesion would help (`unsupported`), and with `--verdict-only`, which does not compute it"),
     key("frames[].weight", Type::Number, "N", "", "the weight of all placed blocks"),
     key("frames[].blocks", Type::Objects, "", "with `--blocks`", "the placed blocks, in the order in which they were placed"),
     key("frames[].blocks[].id", Type::Text, "", "", "the block"),
@@ -100,17 +100,17 @@ pub const KEYS: &[Key] = &[
     key("frames[].robots[].force", Type::Pair, "N", "", "the force of the robot on the block"),
     key("frames[].robots[].torque", Type::Number, "N·m", "", "the torque of the robot on the block, positive anticlockwise"),
     key("frames[].robots[].limit_used", Type::Number, "", "", "the largest share of a limit that the robot uses, from 0 to 1; 0 for a robot without limits, or with all limits 0; in a falling frame for the balance that includes the missing forces"),
-    key("frames[].failures", Type::Objects, "", "", "the missing forces: what contacts and robots would have to give beyond their limits for a balance; empty where the frame stands; none for `unsupported` blocks"),
-    key("frames[].failures[].kind", Type::Word(&["tension", "friction", "robot_force", "robot_torque"]), "", "", "`tension`: a contact opens; `friction`: a contact slides; `robot_force`, `robot_torque`: a robot cannot give the force or the torque"),
+    key("frames[].failures", Type::Objects, "", "", "the missing forces: what contacts and robots would have to exert beyond their limits for a balance; empty if the frame stands; none for `unsupported` blocks"),
+    key("frames[].failures[].kind", Type::Word(&["tension", "friction", "robot_force", "robot_torque"]), "", "", "`tension`: a contact opens; `friction`: a contact slides; `robot_force`, `robot_torque`: a robot cannot exert the force or the torque"),
     key("frames[].failures[].bodies", Type::Names, "", "at contacts", "the two bodies in contact"),
     key("frames[].failures[].robot", Type::Text, "", "at robots", "the robot"),
     key("frames[].failures[].holds", Type::Text, "", "at robots", "the block it holds"),
     key("frames[].failures[].at", Type::Pair, "m", "", "the point at which the force is missing"),
     key("frames[].failures[].force", Type::Pair, "N", "unless a torque is missing", "the missing force, on `bodies[0]` or on the block"),
-    key("frames[].failures[].torque", Type::Number, "N·m", "where a torque is missing", "the missing torque"),
+    key("frames[].failures[].torque", Type::Number, "N·m", "if a torque is missing", "the missing torque"),
     key("frames[].failures[].amount", Type::Number, "N or N·m", "", "the size of the missing force; \\|Fx\\| + \\|Fy\\| for a robot; in N·m for a torque"),
     key("frames[].unsupported", Type::NameList, "", "if there are unsupported blocks", "blocks that would fall even if all contacts and grips could stick"),
-    key("frames[].mechanism", Type::Motions, "", "", "the velocities of the blocks as the collapse begins; empty where stable"),
+    key("frames[].mechanism", Type::Motions, "", "", "the velocities of the blocks as the collapse begins; empty if the frame stands"),
     key("frames[].margins", Type::Object, "", IF_MARGINS_REQUESTED, "how far the frame is from collapse; a margin is null if the frame stands at no value, or if no value was confirmed; a notice then says so"),
     key("frames[].margins.friction", Type::Margin, "", IF_MARGIN_REQUESTED, "the least friction coefficient, the same at all interfaces, at which the frame stands"),
     key("frames[].margins.tilt", Type::Object, "", IF_MARGIN_REQUESTED, "the largest angle by which gravity can turn while the frame stands; null if it falls without a turn"),
@@ -130,8 +130,8 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.intervals.tilt", Type::Interval, "°", IF_MARGIN_REQUESTED, "the tilt of gravity, negative to the left; loads do not tilt"),
     key("frames[].margins.intervals.horizontal_load", Type::Interval, "", IF_MARGIN_REQUESTED, "the horizontal force on every block as a share of its weight, negative to the left"),
     key("frames[].margins.intervals.kernel", Type::Interval, "", IF_MARGIN_REQUESTED, "the kernel, from 0 to 1; no upper end if the frame stands at 1"),
-    key("frames[].margins.intervals.load_factor", Type::Interval, "", "where requested, if there are loads", "the factor on the loads, at least 0; 1 stands for the loads of the scene"),
-    key("frames[].margins.intervals.robots", Type::ByRobot, "", "where requested, if robots hold blocks", "the limits of each robot by its name; each limit is varied alone"),
+    key("frames[].margins.intervals.load_factor", Type::Interval, "", "if requested, if there are loads", "the factor on the loads, at least 0; 1 stands for the loads of the scene"),
+    key("frames[].margins.intervals.robots", Type::ByRobot, "", "if requested, if robots hold blocks", "the limits of each robot by its name; each limit is varied alone"),
     key("frames[].margins.intervals.robots.*.fx", Type::Interval, "N", "", "the limit of the robot's horizontal force"),
     key("frames[].margins.intervals.robots.*.fy", Type::Interval, "N", "", "the limit of the robot's vertical force"),
     key("frames[].margins.intervals.robots.*.torque", Type::Interval, "N·m", "", "the limit of the robot's torque"),
@@ -154,13 +154,13 @@ pub const KEYS: &[Key] = &[
     key("frames[].margins.mechanisms.horizontal_load", Type::Object, "", "", "the motions just beyond the largest horizontal loads"),
     key("frames[].margins.mechanisms.horizontal_load.left", Type::Motions, "", "", "to the left"),
     key("frames[].margins.mechanisms.horizontal_load.right", Type::Motions, "", "", "to the right"),
-    key("frames[].margins.mechanisms.kernel", Type::Motions, "", "", "the motion just beyond the largest kernel"),
+    key("frames[].margins.mechanisms.kernel", Type::Motions, "", "", "the motion just beyond the largest safety kernel"),
     key("frames[].margins.mechanisms.load_factor", Type::Motions, "", "", "the motion just beyond the largest factor on the loads"),
     key("frames[].margins.mechanisms.robots", Type::ByRobot, "", "", "the motions just below the least limits of each robot, by its name"),
     key("frames[].margins.mechanisms.robots.*.fx", Type::Motions, "", "", "the motion just below the least limit of the robot's horizontal force"),
     key("frames[].margins.mechanisms.robots.*.fy", Type::Motions, "", "", "the motion just below the least limit of the robot's vertical force"),
     key("frames[].margins.mechanisms.robots.*.torque", Type::Motions, "", "", "the motion just below the least limit of the robot's torque"),
-    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "the motion of the blocks just beyond each end of an interval; where an interval is `null`, see `excluded`"),
+    key("frames[].margins.mechanisms.intervals", Type::Object, "", "", "the motion of the blocks just beyond each end of an interval; if an interval is `null`, see `excluded`"),
     key("frames[].margins.mechanisms.intervals.tilt", Type::MotionPairs, "", "if this parameter has an interval", "the motions just beyond the lower and the upper end of the interval of the tilt"),
     key("frames[].margins.mechanisms.intervals.horizontal_load", Type::MotionPairs, "", "if this parameter has an interval", "the motions just beyond the lower and the upper end of the interval of the horizontal load"),
     key("frames[].margins.mechanisms.intervals.load_factor", Type::MotionPairs, "", "if this parameter has an interval", "the motions just beyond the lower and the upper end of the interval of the factor on the loads"),
@@ -168,14 +168,14 @@ pub const KEYS: &[Key] = &[
     key("frames[].sensitivity.parameter", Type::Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor"]), "", "", "the margin"),
     key("frames[].sensitivity.ends", Type::Objects, "", "", "the ends of the margin's interval that have a value and a mechanism"),
     key("frames[].sensitivity.ends[].end", Type::Word(&["low", "high"]), "", "", "the lower or the upper end of the interval"),
-    key("frames[].sensitivity.ends[].value", Type::Number, "", "", "the value of the parameter at this end, in the unit of the margin"),
+    key("frames[].sensitivity.ends[].value", Type::Number, "", "", "the value of the parameter at this end: in degrees for the tilt, otherwise without a unit"),
     key("frames[].sensitivity.ends[].vertices", Type::Objects, "", "", "the derivatives for each vertex of each placed block"),
     key("frames[].sensitivity.ends[].vertices[].block", Type::Text, "", "", "the block"),
     key("frames[].sensitivity.ends[].vertices[].vertex", Type::Count, "", "", "the number of the vertex in the outline, from 0 and anticlockwise; the vertices of holes follow"),
     key("frames[].sensitivity.ends[].vertices[].at", Type::Pair, "m", "", "its position"),
     key("frames[].sensitivity.ends[].vertices[].with", Type::NameList, "", "", "the other bodies whose vertices move together with this vertex, so that no joint opens"),
     key("frames[].sensitivity.ends[].vertices[].moves", Type::Word(&["freely", "along", "not"]), "", "", "whether the vertex can move freely, only along an edge of another body, or not at all without opening or bending a joint"),
-    key("frames[].sensitivity.ends[].vertices[].along", Type::Pair, "", "where `moves` is `along`", "the unit vector along the edge of the other body"),
+    key("frames[].sensitivity.ends[].vertices[].along", Type::Pair, "", "if `moves` is `along`", "the unit vector along the edge of the other body"),
     key("frames[].sensitivity.ends[].vertices[].unique", Type::Flag, "", "", "whether the backward and the forward derivative are equal"),
     key("frames[].sensitivity.ends[].vertices[].slope", Type::SlopePair, "1/m", "", "the change of the value per metre by which the vertex moves along x and along y; if the vertex can move only along an edge, the part along the edge"),
     key("frames[].sensitivity.ends[].weights", Type::Objects, "", "", "the derivatives for each placed block"),
@@ -255,10 +255,10 @@ pub const KEYS: &[Key] = &[
     key("frames[].effects[].why", Type::Text, "", "", "the reason"),
     key("frames[].effects[].unknowns", Type::Count, "", "", "the number of unknowns that the effect adds, or would have added if it is left out"),
     key("frames[].proof", Type::Object, "", "", "how exactly the verdict is proved, computed from outlines, forces and motions alone: by forces if the frame stands, by a motion if it falls, by either if it is undecided"),
-    key("frames[].proof.worst_imbalance", Type::Number, "", "in a proof by forces", "the smallest share such that the block balances if each force on it changes by at most this share of its amount and moves by at most this share of the block's radius; the largest value of all blocks"),
+    key("frames[].proof.worst_imbalance", Type::Number, "", "in a proof by forces", "the smallest fraction such that the block balances if each force on it changes by at most this fraction of its magnitude and moves by at most this fraction of the block's radius; the largest value of all blocks"),
     key("frames[].proof.worst_share", Type::Number, "", "in a proof by forces", "the unbalanced force on a block as a share of its own load; the largest value of all blocks"),
     key("frames[].proof.worst_pull", Type::Number, "", "in a proof by forces", "the largest tension at a contact, as a share of the forces at this contact"),
-    key("frames[].proof.worst_slip", Type::Number, "", "in a proof by forces", "the largest friction beyond μN, as a share of the forces at its contact, or the largest force of a robot beyond its limit, as a share of this force"),
+    key("frames[].proof.worst_slip", Type::Number, "", "in a proof by forces", "the largest excess of friction over μN, as a share of the forces at its contact, or the largest excess of a robot's force or torque over its limit, as a share of that force or torque; the larger of the two"),
     key("frames[].proof.power", Type::Number, "", "in a proof by a motion", "the power of the loads along the motion, less the power that robots can absorb, as a share of the loads on the moving blocks"),
     key("frames[].proof.worst_violation", Type::Number, "", "in a proof by a motion", "the largest velocity against which an admissible force could act; the speed of the fastest point is 1"),
     key("frames[].proof.no_balance_below", Type::Bound, "", "in a proof by a motion", "forces whose sum is below this value cannot balance the blocks; the value is a multiple of the loads on the moving blocks"),

@@ -14,7 +14,7 @@ use name::{NAMES, Name};
 /// The position of a scene in the input of a batch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
-    /// The file, as given.
+    /// The path of the file as given; `None` for standard input.
     pub file: Option<String>,
     /// The line in the file or in standard input, from 1. `None` if the whole file is one scene.
     pub line: Option<usize>,
@@ -163,8 +163,8 @@ pub enum PictureOutcome {
     Refused(String),
 }
 
-/// Writes the selected fields of an analysis as one line that ends with a line feed. The same analysis gives the same
-/// bytes, unless the field `frames.solve.seconds` is selected.
+/// Writes the selected fields of an analysis as one line that ends with a line feed. The same analysis always
+/// produces the same bytes, unless the field `frames.solve.seconds` is selected.
 ///
 /// # Example
 /// ```
@@ -234,6 +234,7 @@ pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fie
     line_end(out)
 }
 
+/// Writes the title and the verdict, if these fields are selected.
 fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
     for name in ["scene", "verdict"] {
         if fields.chosen.iter().any(|path| path == &[name]) {
@@ -246,6 +247,7 @@ fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
     }
 }
 
+/// Begins the JSON object of a line with the origin of the scene.
 fn line_start(origin: &Origin) -> String {
     let mut out = String::from("{");
     if let Some(file) = &origin.file {
@@ -262,6 +264,7 @@ fn line_end(mut out: String) -> String {
     text::json(&out)
 }
 
+/// Writes a key with its colon. A comma separates it from the field before.
 fn key(out: &mut String, name: &str) {
     if !out.ends_with('{') {
         out.push(',');
@@ -271,6 +274,7 @@ fn key(out: &mut String, name: &str) {
     out.push_str("\":");
 }
 
+/// Writes a key and its value.
 fn put(out: &mut String, name: &str, value: &Value) {
     key(out, name);
     out.push_str(&value.to_string());
@@ -283,8 +287,8 @@ fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value as JSON, in the order of `parts`. `chosen` has the selected paths, relative to
-/// the value.
+/// Writes the selected parts of a value as JSON, in the order of `parts`. `chosen` has the selected paths, relative
+/// to the value.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

@@ -1,14 +1,14 @@
 //! Writes margins as JSON. A margin is the limit value of a parameter, or `"unbounded"` if the frame stands at every
-//! value. It is `null` if there is no value to state: the frame falls at every value, the margin does not apply to the
-//! scene, or no verdict confirms it.
+//! value. It is `null` if there is no value to state: the frame falls at every value, the margin does not apply to
+//! the scene, or no verdict confirms it.
 //!
-//! A tilt of `null` means that the frame falls without tilt; it may stand with tilt. A margin that no verdict confirms
-//! is also `null`; a notice of the frame then states the two values between which the margin lies. Margins that were
-//! not requested are absent.
+//! A tilt of `null` means that the frame falls if gravity is not turned. It may stand if gravity is turned. A margin that
+//! no verdict confirms is also `null`; a notice of the frame then states the two values between which the margin lies. Margins
+//! that were not requested are absent.
 //!
-//! `intervals` has both ends of each parameter. An end is `null` if the interval has no end there, and `"withheld"`
-//! if no verdict confirms it. An interval is `null` if the frame stands at no value;
-//! `excluded` then has the motions that exclude all values.
+//! `intervals` has both ends of the interval of each parameter. An end is `null` if the interval has no end there,
+//! and `"withheld"` if no verdict confirms it. An interval is `null` if the frame stands at no value; `excluded` then
+//! has the motions that exclude all values.
 
 use serde::Serialize;
 
@@ -48,7 +48,8 @@ pub(super) struct Margins<'a> {
     mechanisms: Mechanisms<'a>,
 }
 
-/// The values of each parameter at which the frame stands. Parameters that have no meaning in the scene are left out.
+/// The values of each parameter at which the frame stands. Parameters that were not requested, or that do not apply
+/// to the scene, are left out.
 #[derive(Serialize)]
 struct Intervals<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]

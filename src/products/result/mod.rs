@@ -1,12 +1,12 @@
 //! [`to_json`]: writes an analysis as a JSON object for other programs.
 //!
-//! Invariant: the same analysis gives the same bytes, apart from times, which [`Timing::LeftOut`] omits. Numbers are
-//! written as the shortest decimal that reads back as the same f64, and never as −0. A number that could not be
-//! computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are absent if
-//! they are empty. `margins` and `only_by_wedging` are absent if they were not requested.
+//! Invariant: the same analysis always produces the same bytes, apart from times, which [`Timing::LeftOut`] omits.
+//! Numbers are written as the shortest decimal that reads back as the same f64, and never as −0. A number that could
+//! not be computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are
+//! absent if they are empty. `margins` and `only_by_wedging` are absent if they were not requested.
 //!
-//! serde is used here and in `scene::format`. That module reads files that people write, and this module writes results
-//! for programs. The two modules therefore change for different reasons.
+//! serde is used here and in `scene::format`. That module reads files that people write, and this module writes
+//! results for programs. The two modules therefore change for different reasons.
 
 #[cfg(feature = "report")]
 mod accuracy;
@@ -67,7 +67,7 @@ pub use crate::wording::verdict::word;
 pub enum Timing {
     /// `solve.seconds` and `solve.stages` are present. They differ from run to run.
     Included,
-    /// `solve.seconds` and `solve.stages` are absent. The same scene then gives the same bytes.
+    /// `solve.seconds` and `solve.stages` are absent. The same scene then always produces the same bytes.
     LeftOut,
 }
 
@@ -83,8 +83,8 @@ pub enum Layout {
 /// Writes the result of an analysis as one JSON object.
 ///
 /// Forces act on `bodies[0]`, `normal` points into `bodies[0]`, and `"ground"` names the ground. The `amount` of a
-/// failure is its contribution to `total_sticking`, in newtons. For the force of a robot it is `|F_x| + |F_y|`,
-/// because its limits are per component. The amount of a missing torque is in N·m.
+/// failure is the magnitude of the missing force in newtons. For a robot it is `|F_x| + |F_y|`, because the limits of
+/// a robot are per component. For a missing torque, it is the magnitude of the torque in N·m.
 ///
 /// # Units
 /// Metres, newtons and N·m. A spin is in 1/m, because velocities are relative to the fastest point.
@@ -230,10 +230,12 @@ impl Serialize for Number {
 
 type Pair = [Number; 2];
 
+/// Returns the coordinates of a point, m.
 fn place(p: Point) -> Pair {
     [Number(p.x), Number(p.y)]
 }
 
+/// Returns the components of a force, a direction or a velocity.
 fn arrow(v: Vector) -> Pair {
     [Number(v.x), Number(v.y)]
 }

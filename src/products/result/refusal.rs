@@ -31,7 +31,8 @@ struct Entry<'a> {
 /// Writes the problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message,
 /// hint }] }`.
 ///
-/// Lines and columns count from 1; columns count characters. Both are `null` if the problem has no position in a text.
+/// Lines and columns count from 1; columns count characters. Both are `null` if the problem has no position in a
+/// text.
 ///
 /// # Example
 /// ```
@@ -59,7 +60,8 @@ pub(crate) fn problem_list(problems: &[Problem]) -> String {
     listed(&entries(problems, 0))
 }
 
-/// Writes the problems of a drawing as one JSON list, `[{ element, message, hint }]`, on one line without a line feed.
+/// Writes the problems of a drawing as one JSON list, `[{ element, message, hint }]`, on one line without a line
+/// feed.
 #[cfg(feature = "wasm")]
 pub(crate) fn remark_list(remarks: &[Remark]) -> String {
     let entries = remarks.iter().map(|remark| DrawingEntry {
@@ -86,8 +88,8 @@ fn listed<T: Serialize>(entries: &[T]) -> String {
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.
 ///
-/// Line and column numbers refer to the input file, so that an editor finds the place. If the scene is one line of the
-/// input, all its problems are on this line.
+/// Line and column numbers refer to the input file, so that an editor can go to the position. If the scene is one
+/// line of the input, all its problems are on this line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
     written(

@@ -94,7 +94,7 @@ enum Value<T> {
     /// The backward and the forward derivative.
     Sides([T; 2]),
     AtKink(&'static str),
-    /// The corner cannot move.
+    /// The vertex cannot move.
     None,
 }
 

@@ -16,7 +16,7 @@ fn scene() -> Scene {
         Point::new(0.0, 2.0),
     ];
     let body = Body {
-        polygon: Polygon::new(corners, vec![]).expect("sound"),
+        polygon: Polygon::new(corners, vec![]).expect("a valid polygon"),
         cells: None,
         material: None,
         friction: 0.5,
@@ -217,7 +217,7 @@ const LINES: &str = r#"{
 "#;
 
 #[test]
-fn the_names_and_the_order_of_the_output_do_not_change() {
+fn the_names_and_the_order_of_the_keys_do_not_change() {
     let scene = scene();
     let analysis = Analysis {
         scene: scene.into(),
@@ -229,7 +229,7 @@ fn the_names_and_the_order_of_the_output_do_not_change() {
     let line = to_json(&analysis, Timing::Included, Layout::OneLine);
     assert_eq!(line.matches('\n').count(), 1);
     assert!(line.contains(r#""seconds":0.0004"#));
-    let value: serde_json::Value = serde_json::from_str(&expected).expect("sound JSON");
+    let value: serde_json::Value = serde_json::from_str(&expected).expect("valid JSON");
     assert_eq!(value["frames"][0]["failures"][2]["amount"], 7.0);
 }
 

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 pub enum Type {
     /// Any text.
     Text,
-    /// One of these words.
+    /// One of the listed words.
     Word(&'static [&'static str]),
     /// `true` or `false`.
     Flag,
@@ -15,7 +15,7 @@ pub enum Type {
     FlagOrOpen,
     /// A whole number, at least 0.
     Count,
-    /// A whole number from 1, or `null` if there is no text.
+    /// A line or column number from 1, or `null` if there is no position.
     Place,
     /// A whole number from 0, or `null` if there is no such index.
     Index,
@@ -25,11 +25,12 @@ pub enum Type {
     Bound,
     /// A number; `null` if the frame stands at no value; `"unbounded"` if it stands at every value.
     Margin,
-    /// Two ends, `[low, high]`: each a number, `null` for no limit, or `"withheld"`; `null` for an empty interval.
+    /// An interval `[low, high]`, `null` if it is empty, or `"withheld"`. Each end is a number, `null` if there is no
+    /// limit, or `"withheld"`.
     Interval,
     /// A derivative: a number; `[backward, forward]` at a kink; or `"at_kink"`.
     Slope,
-    /// Derivatives along x and y, `[x, y]`; `[backward, forward]`, each such a pair, at a kink; or `"at_kink"`; `null`
+    /// Derivatives along x and y: `[x, y]`; at a kink, two such pairs `[backward, forward]`, or `"at_kink"`; `null`
     /// for a vertex that cannot move.
     SlopePair,
     /// Two lists of motions, beyond the lower and beyond the upper end.
@@ -48,7 +49,8 @@ pub enum Type {
     NameList,
     /// A list of `{ "block", "velocity", "spin" }`: how blocks move.
     Motions,
-    /// A list of `{ "from", "to", "mechanism" }`: values at which a frame falls by one motion. A `null` end is no limit.
+    /// A list of `{ "from", "to", "mechanism" }`: values at which a frame falls by one motion. An end that is `null`
+    /// has no limit.
     Exclusions,
     /// An object.
     Object,

@@ -1,7 +1,7 @@
 //! The proof that a frame stands only by wedging, as written in JSON.
 //!
-//! Each motion includes the point about which a block spins. It can therefore be checked against the interfaces and
-//! forces in the same result, without the scene.
+//! Each motion includes the point about which the block spins. The motion can therefore be checked against the
+//! interfaces and forces in the same result, without the scene.
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 pub(super) struct Wedging<'a> {
     /// The interfaces at which a normal force must act.
     must_press: Vec<Face<'a>>,
-    /// The least sum of normal forces, N.
+    /// A lower bound of the sum of the normal forces at these interfaces, N.
     #[serde(skip_serializing_if = "Option::is_none")]
     normal_force_at_least: Option<Number>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -44,8 +44,8 @@ struct PointCase {
 struct FaceCase {
     /// The index of the interface in `interfaces`, from 0.
     interface: usize,
-    /// The direction of sliding: `forth` along (−n_y, n_x) of the normal n, `back` opposite to it, or `sticks` without
-    /// sliding.
+    /// The direction of sliding: `forth` along (−n_y, n_x) of the normal n, `back` opposite to it, or `sticks`
+    /// without sliding.
     slides: &'static str,
 }
 

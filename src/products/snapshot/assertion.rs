@@ -1,4 +1,5 @@
-//! The macros for tests: [`assert_scene!`](crate::assert_scene), [`assert_scenes!`](crate::assert_scenes) and [`assert_figure!`](crate::assert_figure).
+//! The macros for tests: [`assert_scene!`](crate::assert_scene), [`assert_scenes!`](crate::assert_scenes) and
+//! [`assert_figure!`](crate::assert_figure).
 //!
 //! Paths are relative to the folder of the crate that calls the macros. If a result differs, the test fails and
 //! describes the changes. Two environment variables decide which files are written:
@@ -60,7 +61,8 @@ macro_rules! assert_scenes {
     };
 }
 
-/// Fails if a drawing differs from its references: `tests/snapshots/NAME.svg` and `NAME.png` in the folder of your crate.
+/// Fails if a drawing differs from its references: `tests/snapshots/NAME.svg` and `NAME.png` in the folder of your
+/// crate.
 ///
 /// ```no_run
 /// use drystone::{Analysis, Scene, figure, snapshot::assert_figure};
@@ -85,14 +87,16 @@ macro_rules! assert_figure {
 
 /// Implements [`assert_scene!`](crate::assert_scene). `path` is the scene file, relative to `crate_folder`.
 ///
-/// # Panics If a reference does not match, or if the scene does not exist or is not valid.
+/// # Panics
+/// If a reference does not match, or if the scene does not exist or is not valid.
 #[track_caller]
 pub fn scene(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
     scenes_at(&[place], &place_words(path));
 }
 
-/// Implements [`assert_scenes!`](crate::assert_scenes). `path` is the folder of the scenes, relative to `crate_folder`.
+/// Implements [`assert_scenes!`](crate::assert_scenes). `path` is the folder of the scenes, relative to
+/// `crate_folder`.
 ///
 /// # Panics
 /// If a reference does not match or has no scene, if a scene is not valid, or if there is no scene.
@@ -166,8 +170,8 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time, which may not
-/// exist on the machine that runs the test. In this case, the function uses the environment variable
+/// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time, which may
+/// not exist on the machine that runs the test. In this case, the function uses the environment variable
 /// `CARGO_MANIFEST_DIR`, which Cargo and nextest set.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);

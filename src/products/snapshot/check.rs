@@ -4,7 +4,7 @@
 //! 2. SVG: the elements of the drawing.
 //! 3. Pixels: the rendered picture.
 //!
-//! A difference in one layer usually explains those in the layers after it. The result is a [`CheckOutcome`]. Only
+//! A difference in one layer usually explains the differences in later layers. The result is a [`CheckOutcome`]. Only
 //! [`CheckOutcome::store`] writes files.
 
 use std::path::PathBuf;
@@ -62,7 +62,8 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
 fn check_scene(job: &Job) -> Vec<Finding> {
     let analysis = Analysis::new(Arc::clone(&job.scene));
     let mut findings = Vec::new();
-    // Keep the SVG text of the last figure, because the SVG layer and all widths of the pixel layer use the same text.
+    // Keep the SVG text of the last figure, because the SVG layer and all widths of the pixel layer use the same
+    // text.
     let mut drawn: Option<(&Part, String)> = None;
     for part in &job.parts {
         if part.layer == Layer::Facts {
@@ -113,8 +114,8 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
     }
 }
 
-/// Returns the bytes of a reference file. If there is no file or it cannot be read, returns the state of the reference
-/// and the reason in words.
+/// Returns the bytes of a reference file. If there is no file or it cannot be read, returns the state of the
+/// reference and the reason in words.
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),

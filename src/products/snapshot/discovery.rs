@@ -49,13 +49,13 @@ pub enum DiscoveryError {
 pub struct Job {
     /// The path of the scene file.
     pub path: PathBuf,
-    /// Its name in messages: the path without its extension, with `/` between folders.
+    /// The name of the scene in messages: its path without the extension, with `/` between folders.
     pub name: String,
     /// The scene.
     pub scene: Arc<Scene>,
-    /// The settings for its folder.
+    /// The settings for the folder of the scene.
     pub settings: Arc<Settings>,
-    /// Its references, in the order of the layers.
+    /// The references of the scene, in the order of the layers.
     pub parts: Vec<Part>,
 }
 
@@ -64,7 +64,8 @@ pub struct Job {
 pub struct Discovered {
     /// The scenes, sorted by name.
     pub jobs: Vec<Job>,
-    /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and remedy.
+    /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and
+    /// remedy.
     pub orphans: Vec<(PathBuf, String)>,
     /// Scenes on which the program failed because of an error in the program.
     pub faults: Vec<(PathBuf, SceneError)>,
@@ -142,13 +143,15 @@ pub(super) fn shown(path: &Path) -> String {
     shown.strip_prefix("./").unwrap_or(&shown).to_owned()
 }
 
+/// The files and the errors that a search has found so far.
 #[derive(Default)]
 struct SnapshotSearch {
     /// Possible scenes: the path of each, and the base path of its references.
     candidates: Vec<(PathBuf, PathBuf)>,
     /// Possible references.
     others: Vec<PathBuf>,
-    /// Settings that have already been read, by file. The key `None` is for the default settings.
+    /// Settings that have already been read, by file. The key `None` is for the default settings. The value `None` is
+    /// for a file that is not valid.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
     errors: Vec<DiscoveryError>,
 }
@@ -274,8 +277,8 @@ impl SnapshotSearch {
         settings
     }
 
-    /// Registers a reference file of a scene in `expected`. Adds an error if another scene has the same reference file.
-    /// Paths are compared in lower case, because some file systems ignore case.
+    /// Registers a reference file of a scene in `expected`. Adds an error if another scene has the same reference
+    /// file. Paths are compared in lower case, because some file systems ignore case.
     fn register(&mut self, scene: &Path, file: &Path, expected: &mut BTreeMap<PathBuf, PathBuf>) {
         let folded = PathBuf::from(file.to_string_lossy().to_lowercase());
         if let Some(other) = expected.insert(folded, scene.to_owned())
@@ -324,8 +327,8 @@ impl SnapshotSearch {
         (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
     }
 
-    /// Returns the orphaned reference files, each with the reason and the remedy. `expected` has the references of all
-    /// scenes.
+    /// Returns the orphaned reference files, each with the reason and the remedy. `expected` has the references of
+    /// all scenes.
     fn orphans(&self, expected: &BTreeMap<PathBuf, PathBuf>) -> Vec<(PathBuf, String)> {
         let fold = |path: &Path| PathBuf::from(path.to_string_lossy().to_lowercase());
         let mut stems: BTreeSet<PathBuf> = BTreeSet::new();

@@ -29,7 +29,7 @@ pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<P
     folders
 }
 
-/// Why a reference does not match.
+/// The reason why a reference does not match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum State {
@@ -50,7 +50,7 @@ pub struct Finding {
     pub layer: Layer,
     /// The path of the reference.
     pub file: PathBuf,
-    /// Why it does not match.
+    /// The reason why the reference does not match.
     pub state: State,
     /// The changes in words: first those of the scene itself, then their effects, most important first.
     pub words: Vec<String>,
@@ -58,18 +58,18 @@ pub struct Finding {
     pub fresh: Vec<u8>,
     /// The present content of the reference; `None` if it is missing.
     pub expected: Option<Vec<u8>>,
-    /// A PNG that shows the differing pixels.
+    /// A PNG that shows the differing pixels; `None` unless two pictures were compared.
     pub difference: Option<Vec<u8>>,
 }
 
 /// A scene or figure with the references that do not match.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Its name in messages.
+    /// The name of the scene or figure in messages.
     pub name: String,
     /// The path of the scene; `None` for a figure from a test.
     pub scene: Option<PathBuf>,
-    /// All its references.
+    /// The paths of all references.
     pub references: Vec<PathBuf>,
     /// The references that do not match.
     pub findings: Vec<Finding>,
@@ -86,7 +86,7 @@ pub struct CheckOutcome {
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// The place where new content is written.
+/// Where the new contents of references are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acceptance {
     /// Next to the references as `.new.*`, for review.
@@ -216,12 +216,12 @@ impl CheckOutcome {
         lines
     }
 
-    /// Returns the numbers of matching and other snapshots in one line: `12 snapshots: 10 hold, 1 changed, 1 new`.
+    /// Returns the numbers of matching and other snapshots in one line: `12 snapshots: 10 match, 1 changed, 1 new`.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
         let plural = if all == 1 { "" } else { "s" };
-        let mut words = format!("{all} snapshot{plural}: {} hold", all - failing);
+        let mut words = format!("{all} snapshot{plural}: {} match", all - failing);
         if failing > 0 {
             let is = |state| move |s: &&Snapshot| s.findings.iter().any(|f| f.state == state);
             let new = self
@@ -236,6 +236,7 @@ impl CheckOutcome {
         }
         match self.orphans.len() {
             0 => {}
+            1 => words.push_str(", 1 reference without a scene"),
             n => words.push_str(&format!(", {n} references without a scene")),
         }
         match self.faults.len() {

@@ -9,9 +9,9 @@ use crate::figure::Kind;
 /// A reference file of a snapshot, and the options that produce it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// What the file contains.
+    /// The layer whose content the file stores.
     pub layer: Layer,
-    /// Its path.
+    /// The path of the file.
     pub file: PathBuf,
     /// The kind of figure.
     pub kind: Kind,
@@ -69,7 +69,7 @@ fn widths(settings: &Settings) -> Vec<Option<u32>> {
     }
 }
 
-/// Returns the path of a reference: the base `arch`, the mark `dark` and the layer `Pixels` give `arch.dark.png`.
+/// Returns the path of a reference: `arch.dark.png` for the base `arch`, the mark `dark` and the layer `Pixels`.
 fn file_name(base: &Path, marks: &[String], layer: Layer) -> PathBuf {
     let extension = match layer {
         Layer::Facts => "txt",

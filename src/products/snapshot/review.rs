@@ -1,8 +1,9 @@
 //! [`page`]: writes the findings as one HTML file for review.
 //!
 //! The page shows the expected picture, the difference and the new picture side by side. A slider or a blink button
-//! compares them in place. It also lists the changes in words and the commands that accept them. The pictures are part of
-//! the file, so the page loads nothing from the network. They are the stored PNG files, not drawn by the browser.
+//! compares them in place. It also lists the changes in words and the commands that accept them. The pictures are
+//! part of the file, so the page loads nothing from the network. They are the stored PNG files, not drawn by the
+//! browser.
 
 use std::path::Path;
 
@@ -22,8 +23,8 @@ const MAX_OPEN_CHANGES: usize = 12;
 /// Largest number of changes of one file that the page lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 60;
 
-/// Writes the review page of a check as HTML. `folders` are the folders on the command line, which the commands on the
-/// page repeat.
+/// Writes the review page of a check as HTML. `folders` are the folders on the command line, which the commands on
+/// the page repeat.
 ///
 /// # Example
 /// ```

@@ -29,15 +29,16 @@ pub struct Settings {
     /// The widths of pictures in pixels. The first width is stored as `name.png`, every other width as, for example,
     /// `name.w320.png`. If the list is empty, a picture has one pixel per unit of the drawing.
     pub widths: Vec<u32>,
-    /// The significant digits of forces, relative to the largest load.
+    /// The significant digits of a force that is as large as the largest load.
     pub digits: usize,
-    /// The differences that pixels may have.
+    /// The largest differences at which two pixels count as equal.
     pub tolerance: PixelTolerance,
-    /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel.
+    /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel; `None` for no limit.
     pub most_kilobytes: Option<u64>,
     /// Files to ignore: paths relative to the settings file, with `*` for any characters.
     pub ignore: Vec<String>,
-    /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the settings file.
+    /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the
+    /// settings file.
     pub scenes: Vec<PathBuf>,
 }
 
@@ -124,15 +125,18 @@ fn place_in(text: &str, at: usize) -> String {
     format!("{line}:{column}")
 }
 
+/// The state while a settings file is read.
 struct SettingsReader<'t> {
     text: &'t str,
     settings: Settings,
+    /// The problems found so far, each with its byte offset in the text.
     problems: Vec<(usize, String)>,
 }
 
 type SpannedValue<'v> = Spanned<DeValue<'v>>;
 
 impl SettingsReader<'_> {
+    /// Adds a problem at a byte offset of the text.
     fn wrong(&mut self, at: usize, words: String) {
         self.problems.push((at, words));
     }
@@ -227,7 +231,7 @@ impl SettingsReader<'_> {
         texts
     }
 
-    /// Reads a list of names, and returns their values. `known` gives the value of a name, or `None` for an unknown
+    /// Reads a list of names, and returns their values. `known` returns the value of a name, or `None` for an unknown
     /// name. Reports an empty list, unknown names and duplicates as problems.
     fn named<T: PartialEq + Clone>(
         &mut self,
@@ -280,6 +284,7 @@ impl SettingsReader<'_> {
         }
     }
 
+    /// Reads a whole number from `least` to `most`. Any other value is reported as a problem.
     fn whole(&mut self, key: &str, value: &SpannedValue<'_>, least: u64, most: u64) -> Option<u64> {
         let number = match value.get_ref() {
             DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
@@ -357,7 +362,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_problem_is_reported_with_its_place() {
+    fn every_problem_is_reported_with_its_position() {
         let text = "layers = []\nwidths = [640, 640, -3, 1.5]\nthemes = \"dark\"\ndigits = 99\n\nperceptual_threshold = 7\nignore = [1]\ncolour = 1\n";
         let described = Settings::read(text).expect_err("wrong");
         let places: Vec<&str> = described

@@ -72,14 +72,15 @@ pub enum Access {
     Write,
 }
 
-/// Locks folders for this run of the program. For read access, waits until no other run writes there. For write access,
-/// waits until no other run uses the folders.
+/// Locks folders for this run of the program. For read access, waits until no other run writes there. For write
+/// access, waits until no other run uses the folders.
 ///
-/// On a file system without locks, the run continues without a lock. Even then, each file is written completely or not
-/// at all.
+/// On a file system without locks, the run continues without a lock. Even then, each file is written completely or
+/// not at all.
 pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
-    // Lock the folders in sorted order. All runs do so, and therefore two runs never wait for each other (no deadlock).
+    // Lock the folders in sorted order. All runs do so, and therefore two runs never wait for each other (no
+    // deadlock).
     let sorted: BTreeSet<PathBuf> = real.collect();
     let mut held = Vec::new();
     for folder in sorted {

@@ -1,7 +1,7 @@
 //! [`Double`]: double-double arithmetic with about 32 digits. Each number is stored as the sum of two f64.
 //!
-//! References: Dekker (1971), A floating-point technique for extending the available precision; Knuth's two-sum. Products
-//! use the fused multiply-add, which is exact on every machine, in hardware or in software.
+//! References: Dekker (1971), A floating-point technique for extending the available precision; Knuth's two-sum.
+//! Products use the fused multiply-add, which is exact on every machine, in hardware or in software.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

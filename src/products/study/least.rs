@@ -1,14 +1,15 @@
-//! Computes, in extended precision, the optimal forces with the least sum of squares. They are unique, and give the
-//! reference value for the largest single force.
+//! Computes, in extended precision, the optimal forces with the least sum of squares. They are unique. The largest of
+//! them is the reference value for the largest single force.
 //!
 //! A program may have many optima, but only one of them has the least sum of squared forces. The unknowns are N1, N2
 //! and T of each contact, and three components of each grip.
 //!
-//! 1. A quadratic program on the optimal face, solved in f64, suggests the faces of the friction cones that contain the
-//!    forces.
-//! 2. On these, the least-squares solution is one linear system, which is refined in [`Double`] precision.
-//! 3. The result is accepted if the forces are admissible, if their sum is the certified optimum, and if no column of the
-//!    optimal face reduces the sum of squares (the Karush-Kuhn-Tucker conditions), each to [`OPTIMALITY_TOL`].
+//! 1. A quadratic program on the optimal face, solved in f64, suggests the faces of the friction cones that contain
+//!    the forces.
+//! 2. On these faces, the least-squares solution follows from one linear system. It is refined in [`Double`]
+//!    precision.
+//! 3. The result is accepted if the forces are admissible, if their sum is the certified optimum, and if no column of
+//!    the optimal face reduces the sum of squares (the Karush-Kuhn-Tucker conditions), each to [`OPTIMALITY_TOL`].
 
 use std::collections::BTreeMap;
 
@@ -18,14 +19,17 @@ use super::skyline::Skyline;
 use crate::program::{Column, Force, Program, least_squares};
 use crate::solve::{Conditioning, Status, solve};
 
-/// The contact or grip of a force: contacts first, then grips.
+/// The number of the contact or grip at which a force acts: contacts come first, then grips.
 type Place = usize;
 
-/// A direction of the force at one place, orthogonal to the other directions there.
+/// A direction of the force at one contact or grip. It is orthogonal to the other directions at the same contact or
+/// grip.
 struct Axis {
     place: Place,
     direction: [Double; 3],
+    /// The column of the program for the force `direction`: pairs of row and value.
     entries: Vec<(usize, Double)>,
+    /// The squared length of `direction`.
     square: Double,
 }
 
@@ -54,12 +58,14 @@ pub(super) fn largest_of_unique(
             multiplier.push(answer.z[row]);
             row += 1 + usize::from(column.limit.is_finite());
         }
-        for margin in [1.0, 1e2, 1e-2, 1e4, 1e-4] {
+        // A column counts as used if its amount times this factor exceeds its multiplier. Several factors are tried,
+        // because rounding errors can hide which columns are used.
+        for factor in [1.0, 1e2, 1e-2, 1e4, 1e-4] {
             let used = face
                 .iter()
                 .zip(&answer.x)
                 .zip(&multiplier)
-                .filter(|((_, x), z)| **x * margin > **z);
+                .filter(|((_, x), z)| **x * factor > **z);
             let axes = axes(program, used.map(|((c, _), _)| c));
             if let Some(largest) = certified(program, &face, &axes, optimum.value) {
                 return Some(largest);
@@ -69,6 +75,7 @@ pub(super) fn largest_of_unique(
     None
 }
 
+/// Returns the contact or grip of a column, and the components of its unit force: N1, N2 and T at a contact.
 fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
     let mut vector = [Double::ZERO; 3];
     match column.force {
@@ -118,8 +125,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
             }
         }
         let square = dot(&direction, &direction);
-        // Leave out directions that depend on the earlier ones. Directions are rounded to 1e-16, so the remainder of a
-        // dependent direction has about 1e-32 of its squared length. The threshold 1e-20 lies far above this.
+        // Leave out directions that depend on the earlier ones. Directions are rounded to 1e-16, so the remainder of
+        // a dependent direction has about 1e-32 of its squared length. The threshold 1e-20 lies far above this.
         if square.near() > 1e-20 * whole {
             axes.push(Axis {
                 place,
@@ -133,7 +140,8 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
 }
 
 /// Solves for the forces along the axes. Returns the largest resultant, or `None` if the forces do not balance the
-/// loads, are not admissible, are not optimal, or do not have the least sum of squares. `total` is the certified optimum of the sum of forces.
+/// loads, are not admissible, are not optimal, or do not have the least sum of squares. `total` is the certified
+/// optimum of the sum of forces.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
     let terms = axes

@@ -12,20 +12,21 @@ use crate::solve::{
     least_adhesion_in, solve,
 };
 
-/// If adhesion is below this share of the largest adhesion, it is a rounding error of the solver and not a failure.
+/// An adhesion up to this fraction of the largest adhesion is a rounding error of the solver and not a failure.
 const MIN_FAILURE_SHARE: f64 = 1e-6;
 
 /// A solution method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The program of the source: one newton of sticking costs 10^exponent newtons of force (the penalty β).
+    /// The program of the source publication. One newton of sticking costs 10^exponent newtons of force (the penalty
+    /// β).
     Source(u8),
     /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are
     /// unknowns.
     ForceForm,
     /// Only the kinematic dual program. Its unknowns are velocities.
     Kinematic,
-    /// The dual, then the unique forces on its optimal face.
+    /// The kinematic dual program, then the unique forces on its optimal face.
     Unique,
     /// The complete analysis of `check` at a level, with proofs and repeated solutions.
     Level(Accuracy),
@@ -81,8 +82,8 @@ impl Method {
     }
 }
 
-/// Returns the amount of adhesion above which a frame counts as falling, in the scaled units of the program. Relative
-/// to the heaviest load, it is the tolerance of the proofs, but at least ten times the tolerance of the solver.
+/// Returns the adhesion above which a frame counts as falling, in the scaled units of the program. Relative to the
+/// heaviest load, it is the tolerance of the proofs, but at least ten times the tolerance of the solver.
 fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
@@ -104,7 +105,7 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
 }
 
 /// Solves the program of the source publication, with the cost `beta` per unit of adhesion. The frame stands if the
-/// solution needs no adhesion.
+/// adhesion of the solution is at most [`min_counted_adhesion`].
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
@@ -213,6 +214,8 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     Outcome::falls(Some(least), points, effort(iterations))
 }
 
+/// Returns the outcome for a balance with the amounts `x` of the columns. Adhesion is set to 0, so the imbalance
+/// includes the forces that it would contribute.
 fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) -> Outcome {
     let mut amounts = Amounts::zero(program);
     let mut own = Vec::with_capacity(columns.len());

@@ -1,8 +1,8 @@
 //! [`Study`]: an accuracy study, which measures the time and the error of solution methods.
 //!
 //! Every [`Method`] solves every frame at every tolerance several times. The results are compared with a certified
-//! [`Reference`] in extended precision. Times are wall times on this machine, so only their ratios are meaningful. All other
-//! numbers are the same on every machine.
+//! [`Reference`] in extended precision. Times are wall times on this machine, so only their ratios are meaningful.
+//! All other numbers are the same on every machine.
 
 mod double;
 mod least;
@@ -46,11 +46,11 @@ pub struct Study {
 /// One frame with the results of all methods.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The titles of the scene and the frame, or the number of the frame.
+    /// The title of the scene. If the scene has several frames, the title or the number of the frame follows.
     pub name: String,
     /// The number of placed blocks.
     pub blocks: usize,
-    /// The reference.
+    /// The certified verdict and values with which the runs are compared.
     pub truth: FrameReference,
     /// One run per method and tolerance.
     pub runs: Vec<Run>,
@@ -79,7 +79,7 @@ pub enum Mark {
     Right,
     /// The verdict is wrong.
     Wrong,
-    /// The method gave no verdict.
+    /// The method did not reach a verdict.
     Undecided,
     /// There is no certified reference.
     Unknown,
@@ -138,7 +138,8 @@ fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
 }
 
 impl Task {
-    /// Builds the linear programs of a frame, one for each independent part with loads, in the same way as `Analysis`.
+    /// Builds the linear programs of a frame, one for each independent part with loads, in the same way as
+    /// `Analysis`.
     fn new(scene: &Scene, frame: &Frame) -> Task {
         let mut scene = scene.clone();
         scene.frames = vec![frame.clone()];

@@ -1,16 +1,17 @@
 //! [`optimum`]: computes the certified optimum of a linear program in extended precision.
 //!
-//! The program is min Σ cost·amount over amounts ≥ 0 (up to a limit) that balance the loads. The method is a crossover from
-//! an interior-point solution with a certificate by weak duality:
+//! The program is min Σ cost·amount over amounts ≥ 0 (up to a limit) that balance the loads. The method is a
+//! crossover from an interior-point solution with a certificate by weak duality:
 //!
-//! 1. An interior-point solution in f64 suggests the optimal face: the columns that may be used without loss. The guess may
-//!    be wrong; several tolerances and thresholds are tried.
-//! 2. On the face, amounts and velocities solve linear equations, which are refined in [`Double`] precision ([`Guess`]).
-//! 3. The result is accepted only if, in this precision, it is primal feasible, dual feasible, and both objective values
-//!    agree. By weak duality no solution can then be better.
+//! 1. An interior-point solution in f64 suggests the optimal face: the columns that an optimal solution may use. The
+//!    guess may be wrong; several tolerances and thresholds are tried.
+//! 2. On the face, amounts and velocities solve linear equations, which are refined in [`Double`] precision
+//!    ([`Guess`]).
+//! 3. The result is accepted only if, in this precision, it is primal feasible, dual feasible, and both objective
+//!    values agree. By weak duality no solution can then be better.
 //!
-//! Reference for steps 1 and 2: Megiddo (1991), On finding primal- and dual-optimal bases. Here the face need not be a
-//! basis: the least-squares refinement works on any optimal face.
+//! Reference for steps 1 and 2: Megiddo (1991), On finding primal- and dual-optimal bases. Here the face need not be
+//! a basis: the least-squares refinement works on any optimal face.
 
 use super::double::Double;
 use super::skyline::Skyline;
@@ -23,7 +24,7 @@ pub(super) struct Optimum {
     pub value: Double,
     /// The largest possible relative error of the value.
     pub gap: f64,
-    /// The columns with amounts above 0 on the optimal face that are not at their limit.
+    /// The columns of the optimal face, which may have amounts above 0. Columns at their limit are not included.
     pub face: Vec<usize>,
     /// Whether a robot is at its limit.
     pub limited: bool,
@@ -31,20 +32,21 @@ pub(super) struct Optimum {
 
 /// Relative tolerance of the feasibility checks.
 ///
-/// The arithmetic has 32 digits, but the columns are f64. If the exact geometry has several optima, the rounding errors
-/// of the columns (about 1e-16) make one of them the only optimum. The guessed face is the face of the exact geometry.
-/// Therefore the tolerance must be above these rounding errors. The gap is computed separately and counts such
-/// violations, so the tolerance hides no error.
+/// The arithmetic has 32 digits, but the columns are f64. If the exact geometry has several optima, the rounding
+/// errors of the columns (about 1e-16) make one of them the only optimum. The guessed face is the face of the exact
+/// geometry. Therefore the tolerance must be above these rounding errors. The gap is computed separately and counts
+/// such violations, so the tolerance hides no error.
 pub(super) const OPTIMALITY_TOL: f64 = 1e-13;
 
 /// Solver tolerances for the first guess at the face.
 const GUESS_TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
-/// A column belongs to the face if its amount times one of these factors exceeds its reduced cost.
+/// A column belongs to the guessed face if its amount times a factor exceeds its reduced cost. These factors are
+/// tried in this order.
 const FACE_FACTORS: [f64; 5] = [1.0, 1e3, 1e-3, 1e6, 1e-6];
 /// Number of steps of iterative refinement. The factorisation has 32 digits, so one step is enough for most faces.
 /// Further steps help ill-conditioned faces.
 const REFINEMENT_STEPS: usize = 4;
-/// An amount is at its limit if its relative distance from the limit is at most this.
+/// An amount is at its limit if its relative distance from the limit is at most this value.
 const LIMIT_TOL: f64 = 1e-6;
 /// The smallest weight of a column in the refinement, relative to the largest amount.
 const MIN_WEIGHT: f64 = 1e-12;
@@ -90,26 +92,31 @@ struct Guess<'a> {
     columns: &'a [Column],
     sparse: &'a [Vec<(usize, Double)>],
     costs: Vec<f64>,
+    /// For each column, whether it belongs to the guessed face.
     active: Vec<bool>,
     amounts: &'a [f64],
+    /// The velocities.
     y: &'a [f64],
 }
 
 /// The refined solution on a face.
 struct Refined {
-    /// The columns at their limit, and the other columns of the face.
+    /// The columns at their limit.
     limited: Vec<usize>,
+    /// The columns of the face that are not at their limit.
     face: Vec<usize>,
-    /// The amounts of the columns of the face, and the velocities.
+    /// The amounts of the columns in `face`.
     x: Vec<Double>,
+    /// The velocities.
     y: Vec<Double>,
-    /// The part of the loads that the forces do not balance.
+    /// The loads that the forces leave unbalanced.
     rest: Vec<Double>,
     /// The largest load or amount: the scale of forces.
     largest: f64,
 }
 
 impl Guess<'_> {
+    /// Refines the guess, and returns the optimum if it passes all checks.
     fn certified(&self) -> Option<Optimum> {
         self.checked(self.refined())
     }
@@ -200,8 +207,8 @@ impl Guess<'_> {
             rest,
             largest,
         } = refined;
-        // Compute the primal objective value, Σ cost·amount, and the dual objective value, the power of the loads plus
-        // Σ limit·multiplier.
+        // Compute the primal objective value, Σ cost·amount, and the dual objective value, the power of the loads
+        // plus Σ limit·multiplier.
         let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
             sum + Double::from(self.costs[*j]) * *x
         });
@@ -232,8 +239,8 @@ impl Guess<'_> {
             .abs()
             .max(bound.near().abs())
             .max(OPTIMALITY_TOL * largest * speed);
-        // Bound the error by weak duality: it is at most the difference of both objective values, plus the largest dual
-        // violation times the sum of all amounts, plus the unbalanced forces times the velocities.
+        // Bound the error by weak duality: it is at most the difference of both objective values, plus the largest
+        // dual violation times the sum of all amounts, plus the unbalanced forces times the velocities.
         let violation = free()
             .map(|j| -self.reduced_cost(j, &y).near())
             .fold(0.0, f64::max);

@@ -11,12 +11,12 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// The total force if the frame stands, the total adhesion if it falls, in N.
     pub total: Option<f64>,
-    /// The largest resultant of a contact or grip, in N.
+    /// The largest resultant at a contact or grip, in N.
     pub largest: Option<f64>,
     /// The number of failures.
     pub points: usize,
-    /// The largest imbalance if the frame stands. For levels it is relative to the forces on a block, otherwise to the
-    /// heaviest load.
+    /// The largest imbalance if the frame stands. For the accuracy levels it is relative to the forces on a block,
+    /// for the other methods to the heaviest load.
     pub imbalance: Option<f64>,
     /// The largest violation of the motion relative to its power, if the frame falls and a motion is proved.
     pub violation: Option<f64>,
@@ -52,6 +52,7 @@ impl Outcome {
         }
     }
 
+    /// Returns the outcome for a falling program with `total` adhesion at `points` failures.
     pub(super) fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Unstable,
@@ -61,6 +62,7 @@ impl Outcome {
         }
     }
 
+    /// Returns the outcome for a balance. `imbalance` is in the scaled units of the program.
     pub(super) fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Stable,
@@ -71,6 +73,7 @@ impl Outcome {
         }
     }
 
+    /// Converts the forces from the scaled units of a program to newtons.
     pub(super) fn in_newtons(self, scale: Scale) -> Outcome {
         Outcome {
             total: self.total.map(|v| v * scale.force),

@@ -1,7 +1,8 @@
-//! [`Reference`]: computes the true solution of a program to at least twelve digits, with a certificate.
+//! [`Reference`]: computes the true verdict, the total force and the largest force of a program, with a certificate. The
+//! total is given only if at least twelve digits are certain.
 //!
-//! 1. If a balance without adhesion has a certified optimum ([`optimum`]), the program is stable. Its value is the least
-//!    total force.
+//! 1. If a balance without adhesion has a certified optimum ([`optimum`]), the program is stable. Its value is the
+//!    least total force.
 //! 2. Otherwise adhesion is allowed, and its total is minimised. A certified optimum above 0 means unstable.
 //! 3. Otherwise a motion that even adhesion does not resist proves the program unstable.
 //! 4. Otherwise the reference is undecided.
@@ -63,9 +64,9 @@ impl Reference {
             let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
             let least = optimum.value.near();
             return match least > OPTIMALITY_TOL * largest {
-                // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of 2.
-                // A small total among large forces may be known to fewer than twelve digits. Then only the verdict is
-                // reported.
+                // The total is certainly positive if its relative error is below 1; the limit 0.5 leaves a factor of
+                // 2. A small total among large forces may be known to fewer than twelve digits. Then only the verdict
+                // is reported.
                 true if optimum.gap < 0.5 => Reference {
                     verdict: Verdict::Unstable,
                     total: (optimum.gap <= MAX_GAP).then_some(least),

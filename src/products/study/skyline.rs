@@ -1,14 +1,14 @@
 //! [`Skyline`]: solves symmetric, positive semidefinite systems in extended precision.
 //!
-//! The factorisation is M = L D Lᵀ in skyline (envelope) storage: each row is stored from its first entry on (Jennings
-//! 1966). Blocks that touch are usually close in the order of the scene, so the rows are short. A zero pivot means that the
-//! row depends on earlier rows; its unknown is set to 0.
+//! The factorisation is M = L D Lᵀ in skyline (envelope) storage: each row is stored from its first entry on
+//! (Jennings 1966). Blocks that touch are usually close in the order of the scene, so the rows are short. A zero
+//! pivot means that the row depends on earlier rows; its unknown is set to 0.
 
 use super::double::Double;
 
-/// A pivot below this share of the diagonal counts as zero. The pivot of a dependent row is the rounding error of its
-/// entries, about 1e-31 of the diagonal. The value 1e-22 is far above this error and far below the pivots of
-/// independent rows.
+/// A pivot up to this fraction of the diagonal entry counts as zero. The pivot of a dependent row is the rounding
+/// error of its entries, about 1e-31 of the diagonal. The value 1e-22 is far above this error and far below the
+/// pivots of independent rows.
 const PIVOT_TOL: f64 = 1e-22;
 
 /// A factorised matrix.
@@ -22,8 +22,8 @@ pub(super) struct Skyline {
 }
 
 impl Skyline {
-    /// Factorises the matrix Σ weight · v vᵀ. `terms` has the weights and the sparse vectors v; `size` is the number of
-    /// rows.
+    /// Factorises the matrix Σ weight · v vᵀ. `terms` has the weights and the sparse vectors v; `size` is the number
+    /// of rows.
     pub(super) fn new<'a>(
         size: usize,
         terms: impl Iterator<Item = (Double, &'a [(usize, Double)])> + Clone,
@@ -61,8 +61,8 @@ impl Skyline {
             let row = &mut rest[0];
             let start = self.first[i];
             let whole = row[i - start].abs().near();
-            // Compute row i of L·D from the finished rows above it. Then divide its entries by the pivots D to get row
-            // i of L.
+            // Compute row i of L·D from the finished rows above it. Then divide its entries by the pivots D to get
+            // row i of L.
             for j in start..i {
                 let from = start.max(self.first[j]);
                 let mut sum = row[j - start];
@@ -83,8 +83,8 @@ impl Skyline {
                     row[j - start] = scaled;
                 }
             }
-            let stands = pivot.near() > PIVOT_TOL * whole && whole > 0.0;
-            self.pivots.push(stands.then_some(pivot));
+            let is_independent = pivot.near() > PIVOT_TOL * whole && whole > 0.0;
+            self.pivots.push(is_independent.then_some(pivot));
         }
     }
 
@@ -129,7 +129,7 @@ mod tests {
             .collect();
         let one = Double::from(1.0);
         let skyline = Skyline::new(3, vectors.iter().map(|v| (one, v.as_slice())));
-        // The right side 3·first + 7·second lies in the span.
+        // The right-hand side, 3·first + 7·second, is in the range of the matrix.
         let right: Vec<Double> = [17.0, 34.0, 16.0].map(Double::from).to_vec();
         let w = skyline.solve(&right);
         let mut left = vec![Double::ZERO; 3];

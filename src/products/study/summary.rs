@@ -28,17 +28,18 @@ pub struct Summary {
     /// The median of the iterations.
     pub iterations: usize,
     /// Whether the line is on the Pareto front: it has no wrong verdict, and no other line without a wrong verdict is
-    /// faster and more accurate.
+    /// better in time or error and at least equal in the other.
     pub best: bool,
 }
 
+/// Returns the middle value of a list; of two middle values, the larger one. Returns `None` for an empty list.
 fn median(mut list: Vec<f64>) -> Option<f64> {
     list.sort_by(f64::total_cmp);
     list.get(list.len() / 2).copied()
 }
 
-/// Summarises a study over all its frames. Returns one entry for each combination of method and tolerance, in the order
-/// of the runs.
+/// Summarises a study over all its frames. Returns one entry for each combination of method and tolerance, in the
+/// order of the runs.
 ///
 /// The time of a frame is divided by the time of `standard` on the same frame, at the tolerance nearest to the
 /// default. Large frames therefore do not dominate small ones.
@@ -67,7 +68,7 @@ pub fn summary(study: &Study) -> Vec<Summary> {
             let count = |mark: Mark| runs().filter(|r| r.mark == mark).count();
             let worst = |of: fn(&Run) -> Option<f64>| runs().filter_map(of).reduce(f64::max);
             let times = runs().zip(&base).map(|(r, base)| r.seconds / base);
-            let turns = runs().map(|r| r.outcome.iterations as f64);
+            let iterations = runs().map(|r| r.outcome.iterations as f64);
             Summary {
                 method: first.runs[k].method,
                 tolerance: first.runs[k].tolerance,
@@ -78,12 +79,12 @@ pub fn summary(study: &Study) -> Vec<Summary> {
                 wrong: count(Mark::Wrong),
                 undecided: count(Mark::Undecided),
                 frames: study.cases.len() - count(Mark::Unknown),
-                iterations: median(turns.collect()).unwrap_or(0.0) as usize,
+                iterations: median(iterations.collect()).unwrap_or(0.0) as usize,
                 best: false,
             }
         })
         .collect();
-    let sound: Vec<(f64, f64)> = lines
+    let without_errors: Vec<(f64, f64)> = lines
         .iter()
         .filter(|l| l.wrong == 0)
         .filter_map(|l| l.total_error.map(|e| (l.time, e)))
@@ -91,7 +92,7 @@ pub fn summary(study: &Study) -> Vec<Summary> {
     for line in &mut lines {
         line.best = line.wrong == 0
             && line.total_error.is_some_and(|error| {
-                !sound.iter().any(|(t, e)| {
+                !without_errors.iter().any(|(t, e)| {
                     (*t < line.time && *e <= error) || (*t <= line.time && *e < error)
                 })
             });

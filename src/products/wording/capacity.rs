@@ -49,7 +49,7 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     }
 }
 
-/// The directions and their words.
+/// The four directions that a sentence names, as unit vectors.
 const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
     ([-1.0, 0.0], "to the left"),
     ([1.0, 0.0], "to the right"),
@@ -57,8 +57,8 @@ const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
     ([0.0, -1.0], "down"),
 ];
 
-/// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if the
-/// frame falls without a force.
+/// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if
+/// the frame falls without a force.
 pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
     let each = NAMED_DIRECTIONS.map(|(direction, word)| {
         let most = capacity.reach(direction)?;
@@ -74,8 +74,8 @@ pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
     each.map(|each| format!("at most {}", each.join(", ")))
 }
 
-/// Writes the ranges of the horizontal and the vertical component of the force: `Fx from −3 N to 2 N and Fy of at least
-/// 4 N`.
+/// Writes the ranges of the horizontal and the vertical component of the force: `Fx from −3 N to 2 N and Fy of at
+/// least 4 N`.
 pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
     let range = |name: &str, direction: [f64; 2]| {
         let most = capacity.most(direction).map(|v| rounded(v, capacity));
@@ -102,7 +102,8 @@ pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
     )
 }
 
-/// Returns `force`, or 0 if it is so small, relative to the largest force of the capacity, that it is a rounding error.
+/// Returns `force`, or 0 if it is so small, relative to the largest force of the capacity, that it is a rounding
+/// error.
 fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     let largest = sizes.chain(capacity.edges.iter().map(|e| e.limit.abs()));

@@ -1,4 +1,4 @@
-//! Describes in words which forces are missing where a frame fails, for tables, captions and sentences.
+//! Describes in words which forces are missing at the failures of a frame, for tables, captions and sentences.
 
 use std::collections::{BTreeMap, BTreeSet};
 

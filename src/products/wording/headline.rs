@@ -21,11 +21,7 @@ pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> St
 /// interval has no upper end. `write` formats the number.
 fn end(end: Option<&End>, write: &dyn Fn(f64) -> String) -> Option<String> {
     let end = end?;
-    let value = write(confirmed(end)?);
-    Some(match end {
-        End::Unconfirmed { .. } => format!("at least {value}"),
-        _ => value,
-    })
+    Some(format!("{}{}", at_least(end), write(confirmed(end)?)))
 }
 
 fn load_factor_phrase(margin: &StatedMargin<'_>, load: &str) -> String {
@@ -61,13 +57,12 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
     }
 }
 
-/// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and horizontal
-/// load, it describes the end of the interval that is nearest to 0.
+/// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and
+/// horizontal load, it describes the end of the interval that is nearest to 0.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     if matches!(margin.interval, Interval::Undecided) {
         return format!("It stands; {}: {}", margin.name, margin.stands());
     }
-    let is_open = |end: Option<&End>| matches!(end, Some(End::Unconfirmed { .. }));
     let nearest = || {
         let ends = [
             (margin.interval.low(), "left"),
@@ -75,14 +70,14 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         ];
         let known = ends
             .into_iter()
-            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side, at_least(is_open(end)))));
+            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side, at_least(end?))));
         known.min_by(|a, b| a.0.total_cmp(&b.0))
     };
     match margin.parameter {
         Parameter::Tilt => match nearest() {
             Some((angle, side, at_least)) => {
                 format!(
-                    "It stands{at_least} until gravity turns {}° to the {side}",
+                    "It stands {at_least}until gravity turns {}° to the {side}",
                     three_down(angle)
                 )
             }
@@ -90,16 +85,16 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::HorizontalLoad => match nearest() {
             Some((share, side, at_least)) => format!(
-                "It stands{at_least} until a horizontal force of {} times its weight pushes it to the {side}",
+                "It stands {at_least}until a horizontal force of {} times its weight pushes it to the {side}",
                 three_down(share)
             ),
             None => "It stands under a horizontal force of any multiple of its weight".to_owned(),
         },
-        Parameter::Friction => match margin.interval.low().and_then(confirmed) {
-            Some(least) if least > 0.0 => {
+        Parameter::Friction => match margin.interval.low().map(|end| (confirmed(end), end)) {
+            Some((Some(least), end)) if least > 0.0 => {
                 format!(
-                    "It stands{} down to a friction coefficient of {}",
-                    at_least(is_open(margin.interval.low())),
+                    "It stands {}down to a friction coefficient of {}",
+                    at_least(end),
                     three_up(least)
                 )
             }
@@ -113,9 +108,12 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
     }
 }
 
-/// Returns ` at least` for an end that is not confirmed: the structure may stand beyond it.
-fn at_least(is_open: bool) -> &'static str {
-    if is_open { " at least" } else { "" }
+/// Returns `at least ` for an end that is not confirmed: the structure may stand beyond it.
+fn at_least(end: &End) -> &'static str {
+    match end {
+        End::Unconfirmed { .. } => "at least ",
+        _ => "",
+    }
 }
 
 fn falls(margin: &StatedMargin<'_>) -> String {
@@ -137,9 +135,9 @@ mod tests {
     use super::*;
     use crate::wording::margin::Position;
 
-    /// An interval that no verdict shows is not an interval without end.
+    /// An undecided interval is unknown. It must not be described as an interval without end.
     #[test]
-    fn the_headline_of_an_undecided_margin_states_no_limit_and_no_lack_of_limits() {
+    fn the_headline_of_an_undecided_margin_states_neither_a_limit_nor_that_there_is_none() {
         let parameters = [
             Parameter::Tilt,
             Parameter::HorizontalLoad,

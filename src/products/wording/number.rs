@@ -36,6 +36,8 @@ fn in_chosen_unit(value: f64, unit: &str) -> String {
     format!("{sign}{mantissa}×10{exponent} {unit}")
 }
 
+/// Writes a value with three significant digits, an SI prefix and its unit. A value that is not finite is written as
+/// `unlimited`.
 fn with_prefix(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 {
@@ -75,6 +77,7 @@ fn with_prefix(value: f64, unit: &str) -> String {
     }
 }
 
+/// Writes a whole number in superscript digits: `⁻⁹`.
 fn superscript(value: i32) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',
@@ -106,8 +109,9 @@ pub fn degrees(angle: f64) -> String {
     format!("{angle:.decimals$}°")
 }
 
-/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] gives `100 %`, and only a
-/// ratio of at most 1 − `FULL_UTILISATION` gives `0 %`. Other ratios that round to these values give `over 99 %` or `under 1 %`.
+/// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] is written as `100 %`, and
+/// only a ratio of at most 1 − `FULL_UTILISATION` as `0 %`. Other ratios that round to these values are written as
+/// `over 99 %` or `under 1 %`.
 pub fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let space = NO_BREAK;
@@ -131,8 +135,8 @@ pub fn counted(count: usize, what: &str) -> String {
     }
 }
 
-/// Returns the largest number that is 1, 2 or 5 times a power of ten and not larger than `value`. Returns 0 if `value`
-/// is not positive and finite.
+/// Returns the largest number that is 1, 2 or 5 times a power of ten and not larger than `value`. Returns 0 if
+/// `value` is not positive and finite.
 pub fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 0.0;
@@ -209,20 +213,20 @@ pub fn three(x: f64) -> String {
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
-/// Writes a positive number with three significant digits like [`three`], but rounded down. The written number is
-/// larger than `x` by at most the relative error of margins, 1e-6.
+/// Writes a positive number with three significant digits like [`three`], but rounded down. The written number may
+/// exceed `x` by at most the relative error of margins, 1e-6.
 pub fn three_down(x: f64) -> String {
     three_beyond(x, -1.0)
 }
 
-/// Writes a positive number with three significant digits like [`three`], but rounded up. The written number is smaller
-/// than `x` by at most the relative error of margins, 1e-6.
+/// Writes a positive number with three significant digits like [`three`], but rounded up. The written number may be
+/// below `x` by at most the relative error of margins, 1e-6.
 pub fn three_up(x: f64) -> String {
     three_beyond(x, 1.0)
 }
 
-/// Writes a number with three significant digits, rounded up if `sign` is 1 and down if it is −1. The nearest rounding
-/// in the other direction is also accepted if its relative distance is at most the error of margins.
+/// Writes a number with three significant digits, rounded up if `sign` is 1 and down if it is −1. The nearest
+/// rounding in the other direction is also accepted if its relative distance is at most the error of margins.
 fn three_beyond(x: f64, sign: f64) -> String {
     // The relative error of margins.
     const MARGIN_TOL: f64 = 1e-6;
@@ -288,7 +292,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn amounts_are_short_and_keep_their_size() {
+    fn quantities_have_three_significant_digits_and_a_prefix() {
         let cases = [
             (0.0, "0 N"),
             (24.0, "24 N"),
@@ -342,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_complete_share_is_100_percent() {
+    fn only_full_utilisation_is_written_as_100_percent() {
         let plain = |share: f64| percent(share).replace(NO_BREAK, " ");
         assert_eq!(plain(1.0 - 1e-9), "100 %");
         assert_eq!(plain(0.9999), "over 99 %");
@@ -352,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_go_anticlockwise_from_the_right() {
+    fn directions_are_measured_anticlockwise_from_the_x_axis() {
         assert_eq!(
             force(Vector::new(0.0, -6.0), UnitsEntry::default()),
             "6 N at 270°"

@@ -8,13 +8,13 @@ use crate::analysis::{
 use crate::geometry::Vector;
 use crate::scene::{BlockId, Scene};
 
-/// A length that changes, as a fraction of the median interface.
+/// The largest distance by which a corner or a load is moved, as a fraction of the median length of the interfaces.
 const LENGTH_STEP_SHARE: f64 = 1.0 / 50.0;
-/// The share of a weight by which the weight changes.
+/// The change of a weight, as a fraction of this weight.
 const WEIGHT_STEP_SHARE: f64 = 0.1;
-/// The amount by which a friction coefficient changes.
+/// The change of a friction coefficient.
 pub const FRICTION_STEP: f64 = 0.05;
-/// Changes with a smaller effect, relative to the value, are not listed.
+/// Changes whose effect is at most this fraction of the value of the margin are not listed.
 const EFFECT_TOL: f64 = 1e-6;
 
 /// The quantity that is changed.
@@ -37,9 +37,9 @@ pub enum Target {
 pub struct EffectiveChange {
     /// The quantity that is changed.
     pub target: Target,
-    /// The change in words, with its amount: `moving corner 3 of block v4 by 10 mm up`.
+    /// The change in words, with its size: `moving corner 3 of block v4 by 10 mm up`.
     pub words: String,
-    /// The amount of the change: metres, newtons, or a coefficient.
+    /// The size of the change: in metres, in newtons, or as a difference of friction coefficients.
     pub amount: f64,
     /// The value of the margin after the change, to first order.
     pub after: f64,
@@ -64,8 +64,8 @@ pub fn most_effective(
     list
 }
 
-/// Returns the length in metres by which the described changes move corners and loads. In the unit of the scene, it is 1,
-/// 2 or 5 times a power of ten.
+/// Returns the length in metres by which the described changes move corners and loads. In the unit of the scene, it
+/// is 1, 2 or 5 times a power of ten.
 pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
     round_below_in(
         LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9),
@@ -73,8 +73,8 @@ pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
     )
 }
 
-/// Writes a length in the unit of the scene. If the scene gives no unit, writes a length below 1 m in millimetres, and
-/// any other length in metres.
+/// Writes a length in the unit of the scene. If the scene gives no unit, writes a length below 1 m in millimetres,
+/// and any other length in metres.
 pub fn length(scene: &Scene, metres: f64) -> String {
     let unit = scene.units.length();
     if unit.is_chosen {
@@ -86,8 +86,7 @@ pub fn length(scene: &Scene, metres: f64) -> String {
     }
 }
 
-/// Like [`most_effective`], but leaves out changes with so small an effect that the written value of the margin stays
-/// the same.
+/// Like [`most_effective`], but leaves out changes that do not alter the written value of the margin.
 pub fn visible(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,
@@ -100,9 +99,9 @@ pub fn visible(
     changes
 }
 
-/// Returns the best move of each corner. An entry is the index of the corner in [`EndSensitivity::corners`], and the
-/// unit vector along which the interval grows most with its growth per metre, or `None` if no move enlarges the
-/// interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and −1 for the
+/// Returns the best move of each corner. Each entry has the index of the corner in [`EndSensitivity::corners`], the
+/// unit vector along which the interval grows most, and the growth per metre. The move is `None` if no known derivative
+/// enlarges the interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and −1 for the
 /// lower end.
 pub fn corner_moves(
     frame_analysis: &FrameAnalysis,
@@ -129,8 +128,8 @@ pub fn corner_moves(
     list
 }
 
-/// Returns the best move of each corner as a change that is described in words. Of corners that move together, only the
-/// first is listed.
+/// Returns the best move of each corner as a change that is described in words. Of corners that move together, only
+/// the first is listed.
 fn corners(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,
@@ -190,7 +189,7 @@ fn others(
             add(Target::Weight(*block), words, amount, rate);
         }
     }
-    let rubbing = |slope: Slope, what: String, target: Target| {
+    let friction_change = |slope: Slope, what: String, target: Target| {
         let (side, rate) = best_side(slope, outward)?;
         let how = if side > 0.0 { "raising" } else { "lowering" };
         let words = format!("{how} the friction {what} by {FRICTION_STEP}");
@@ -199,11 +198,11 @@ fn others(
     let all = end.friction.iter().filter_map(|(interface, slope)| {
         let bodies = frame_analysis.contacts.get(*interface)?.interface.bodies;
         let what = format!("between {}", pair(scene, bodies));
-        rubbing(*slope, what, Target::Friction(*interface))
+        friction_change(*slope, what, Target::Friction(*interface))
     });
     let whole = end
         .friction_of_all
-        .and_then(|slope| rubbing(slope, "of every joint".into(), Target::AllFriction));
+        .and_then(|slope| friction_change(slope, "of every joint".into(), Target::AllFriction));
     for (target, words, amount, rate) in all.chain(whole) {
         add(target, words, amount, rate);
     }
@@ -223,8 +222,9 @@ fn others(
     list
 }
 
-/// Returns whether the interval grows more if the quantity increases (1) or decreases (−1), and its growth per unit of
-/// the quantity. Returns `None` if the interval grows in neither direction.
+/// Returns the direction in which a change of a quantity enlarges the interval more: 1 for an increase, −1 for a
+/// decrease. The second value is the growth of the interval per unit of the quantity. Returns `None` if the interval
+/// grows in neither direction.
 fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     let [backward, forward] = slope.both()?;
     let sides = [(1.0, outward * forward), (-1.0, -outward * backward)];
@@ -232,8 +232,8 @@ fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
     (best.1 > 0.0).then_some(best)
 }
 
-/// Returns the unit vector along which a move enlarges the interval most, and the growth per metre. If a derivative is
-/// not unique, only moves along the x and y axes are compared. Returns `None` if no move enlarges the interval.
+/// Returns the unit vector along which a move enlarges the interval most, and the growth per metre. If a derivative
+/// is not unique, only moves along the x and y axes are compared. Returns `None` if no move enlarges the interval.
 pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)> {
     if let [Slope::Unique(x), Slope::Unique(y)] = slopes {
         let gradient = Vector::new(x, y) * outward;

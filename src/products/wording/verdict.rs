@@ -42,7 +42,8 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
 /// verdict. The text is empty for all other frames.
 pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     if frame_analysis.verdict == Verdict::Undecided && !frame_analysis.doubts.is_empty() {
-        // The text has to fit in two lines, so it has only the reason. Remedies are in the report and on the terminal.
+        // The text has to fit in two lines, so it has only the reason. Remedies are in the report and on the
+        // terminal.
         let doubt = frame_analysis.doubt();
         return doubt.split("; ").next().unwrap_or_default().to_owned();
     }
@@ -64,8 +65,8 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     sentences.join("; ")
 }
 
-/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is empty
-/// for all other frames.
+/// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is
+/// empty for all other frames.
 pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     reasons_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
@@ -99,7 +100,8 @@ pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     sentence_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
 
-/// Like [`sentence`]; `write` formats an amount with its unit.
+/// Writes the same sentence as [`sentence`], but formats each quantity with `write`, which gets the value in the SI unit
+/// and the unit.
 pub fn sentence_with(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,

@@ -9,17 +9,17 @@ use super::{
 };
 use crate::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
 
-/// The colour of our own lines.
+/// The colour of highlighted lines.
 const HIGHLIGHT_COLOUR: RGBColor = RGBColor(20, 70, 130);
 /// The colour of all other lines.
 const OTHER_COLOUR: RGBColor = RGBColor(140, 140, 146);
 
-/// The left edge of the names.
+/// The horizontal position at which the names begin.
 const NAMES_LEFT: i32 = (LARGE_SIZE.0 - 232) * UNITS_PER_PIXEL;
-/// The least distance between two names.
+/// The least vertical distance between two names.
 const MIN_NAME_DISTANCE: i32 = 17 * UNITS_PER_PIXEL;
 
-/// The end of a line on the page, and the line.
+/// A line, and the position of its right end on the page.
 struct LineEnd<'c> {
     y: i32,
     x: i32,
@@ -66,7 +66,7 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
         let cross = Cross::new(
             (NAMES_LEFT + 5 * UNITS_PER_PIXEL, y),
             5 * UNITS_PER_PIXEL,
-            crossing_pen(),
+            cross_stroke(),
         );
         area.draw(&cross)?;
         let at = (NAMES_LEFT + 18 * UNITS_PER_PIXEL, y);
@@ -76,7 +76,7 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Returns the colour and the width in pixels of a line. Our own lines (`is_highlighted`) are dark and thick.
+/// Returns the colour and the width in pixels of a line. Highlighted lines are dark and thick.
 fn style(is_highlighted: bool) -> (RGBColor, i32) {
     if is_highlighted {
         (HIGHLIGHT_COLOUR, 3)
@@ -86,11 +86,11 @@ fn style(is_highlighted: bool) -> (RGBColor, i32) {
 }
 
 /// Returns the stroke of the crosses that mark wrong results.
-fn crossing_pen() -> ShapeStyle {
+fn cross_stroke() -> ShapeStyle {
     INK.stroke_width(2 * UNITS_PER_PIXEL as u32)
 }
 
-/// Draws our own lines above all other lines. Returns the right end of each line.
+/// Draws all lines, the highlighted lines above the others. Returns the right end of each line.
 fn draw_lines<'c>(
     axes: &mut LogAxes<'_, '_>,
     lines: &'c [GrowthLine],
@@ -110,7 +110,7 @@ fn draw_lines<'c>(
                 |p: &Point| Circle::new((p.x, p.y), (3 + width) * UNITS_PER_PIXEL, colour.filled());
             axes.draw_series(right.map(dot))?;
             let wrong = line.points.iter().filter(|p| p.wrong);
-            let cross = |p: &Point| Cross::new((p.x, p.y), 5 * UNITS_PER_PIXEL, crossing_pen());
+            let cross = |p: &Point| Cross::new((p.x, p.y), 5 * UNITS_PER_PIXEL, cross_stroke());
             axes.draw_series(wrong.map(cross))?;
             if let Some(end) = points().next_back() {
                 let (x, y) = axes.backend_coord(&end);

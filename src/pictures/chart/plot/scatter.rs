@@ -8,7 +8,7 @@ use super::{
 };
 use crate::chart::{LARGE_SIZE, Scatter, power_of_ten};
 
-/// The colour of the front.
+/// The colour of the Pareto front.
 const FRONT_COLOUR: RGBColor = RGBColor(240, 190, 60);
 
 /// Draws points on two logarithmic axes into `svg`, with a legend.
@@ -52,7 +52,7 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
 }
 
 /// Returns the stroke of the crosses that mark wrong results.
-fn red() -> ShapeStyle {
+fn cross_stroke() -> ShapeStyle {
     RGBColor(215, 20, 30).stroke_width(4 * UNITS_PER_PIXEL as u32)
 }
 
@@ -75,7 +75,7 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> DrawingResult {
     }
     let all = chart.series.iter().flat_map(|s| &s.points);
     let wrong = all.filter(|p| p.wrong);
-    axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 8 * UNITS_PER_PIXEL, red())))?;
+    axes.draw_series(wrong.map(|p| Cross::new((p.x, p.y), 8 * UNITS_PER_PIXEL, cross_stroke())))?;
     Ok(())
 }
 
@@ -127,7 +127,7 @@ fn draw_legend(area: &Page<'_>, chart: &Scatter) -> DrawingResult {
         area.draw(&Cross::new(
             (x + 12 * UNITS_PER_PIXEL, y),
             8 * UNITS_PER_PIXEL,
-            red(),
+            cross_stroke(),
         ))?;
         words(&chart.wrong, y)?;
     }

@@ -27,7 +27,7 @@ pub struct Ink {
 struct ConvexPiece {
     /// Whether the piece is a label or a leader of a label. Other leaders should not cross such a piece.
     is_label: bool,
-    /// The range of its corners and sides.
+    /// The range of its corners and sides in the lists of [`Ink`].
     first: usize,
     end: usize,
     min: PagePoint,
@@ -126,10 +126,13 @@ impl Ink {
 
     /// Adds a disc. The disc is stored as the regular octagon around it.
     pub fn disc(&mut self, centre: PagePoint, radius: f64) {
-        let reach = radius / libm::cos(TAU / 16.0);
+        let corner_radius = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
             let angle = TAU * (f64::from(i) + 0.5) / 8.0;
-            centre.moved(reach * libm::cos(angle), reach * libm::sin(angle))
+            centre.moved(
+                corner_radius * libm::cos(angle),
+                corner_radius * libm::sin(angle),
+            )
         };
         self.convex((0..8).map(corner));
     }
@@ -231,7 +234,7 @@ impl ConvexSide {
             touch: TOUCH_TOL * libm::hypot(along.0, along.1),
         };
         ConvexSide {
-            own: side.reach(piece),
+            own: side.offset_range(piece),
             ..side
         }
     }
@@ -241,7 +244,8 @@ impl ConvexSide {
         self.along.0 * (p.y - self.from.y) - self.along.1 * (p.x - self.from.x)
     }
 
-    fn reach(&self, points: &[PagePoint]) -> (f64, f64) {
+    /// Returns the least and the greatest [`ConvexSide::offset`] of the points.
+    fn offset_range(&self, points: &[PagePoint]) -> (f64, f64) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for p in points {
             let side = self.offset(*p);
@@ -252,7 +256,7 @@ impl ConvexSide {
 
     /// True if the line through this side separates its piece from these points.
     fn separates(&self, others: &[PagePoint]) -> bool {
-        self.is_disjoint(self.reach(others))
+        self.is_disjoint(self.offset_range(others))
     }
 
     /// True if the line through this side separates its piece from the box from `min` to `max`.
@@ -273,6 +277,8 @@ impl ConvexSide {
         self.is_disjoint((least, most))
     }
 
+    /// True if the range of offsets of the piece and the range `other` are disjoint, or overlap by at most
+    /// [`TOUCH_TOL`].
     fn is_disjoint(&self, other: (f64, f64)) -> bool {
         self.own.1 <= other.0 + self.touch || other.1 <= self.own.0 + self.touch
     }
@@ -292,7 +298,7 @@ const CELL_SIDE: f64 = 48.0;
 /// The numbers of the pieces in each cell of a uniform grid.
 #[derive(Clone, Debug)]
 struct Grid {
-    /// Number of the first column and row, in cells from the corner of the page.
+    /// The numbers of the first column and of the first row, counted in cells from the corner of the page.
     left: f64,
     top: f64,
     columns: usize,
@@ -382,7 +388,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_grid_does_not_change_the_answers() {
+    fn the_grid_does_not_change_the_results() {
         // Lines, discs and labels at random places on a page and outside it.
         let mut plain = Ink::default();
         let mut seed = 1_u64;

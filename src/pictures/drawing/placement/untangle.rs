@@ -12,7 +12,7 @@ use crate::drawing::{PagePoint, PageRect};
 /// fast.
 const MAX_ROUNDS: usize = 4;
 
-/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns whether any
+/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns true if any
 /// label moved.
 pub(super) fn untangle(
     ink_without_labels: &Ink,
@@ -58,7 +58,7 @@ pub(super) fn untangle(
 }
 
 /// Exchanges the positions of labels `i` and `j` if both labels have leader lines, both fit, and fewer leader lines
-/// cross afterwards. Returns whether the positions were exchanged.
+/// cross afterwards. Returns true if the positions were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn crossing_leaders_are_swapped_and_others_stay() {
+    fn labels_with_crossing_leaders_exchange_positions_and_others_stay() {
         let page = PageRect {
             at: PagePoint::new(0.0, 0.0),
             width: 200.0,

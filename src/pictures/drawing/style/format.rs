@@ -1,8 +1,8 @@
 //! Reads and writes style files. A style file is a JSON or TOML file that describes a theme, or how a theme differs
 //! from another theme.
 //!
-//! The keys are the names of the fields of [`Theme`], and `theme` for the theme that the file changes. All keys are
-//! optional. All problems are reported at once.
+//! The keys are the names of the fields of [`Theme`]. The key `theme` names the theme that the file changes. All keys
+//! are optional. All problems are reported at once.
 
 mod reading;
 mod value;
@@ -48,7 +48,7 @@ impl Theme {
     /// none.
     ///
     /// # Errors
-    /// All problems of the file.
+    /// Returns all problems of the file.
     ///
     /// # Example
     /// ```

@@ -14,7 +14,7 @@ struct LeastDistances {
     robots: f64,
     /// Between the colour of failures and any other arrow.
     failure: f64,
-    /// Between an arrow and anything below it. The casing counts instead of the arrow where its distance is larger.
+    /// Between an arrow and anything below it. If the distance of the casing is larger, it counts instead.
     ground: f64,
     /// Between letters and anything below them.
     letters: f64,
@@ -32,7 +32,8 @@ impl LeastDistances {
     }
 }
 
-/// The least distances of a theme as seen by these eyes: ΔE, or for grey the difference in lightness.
+/// Returns the least distances of a theme for this colour vision: ΔE, or the difference in lightness for a grey
+/// print.
 fn least(theme: &Theme, sight: Sight) -> LeastDistances {
     let apart = |a: Colour, b: Colour| match sight {
         Sight::Grey => (lightness(a) - lightness(b)).abs(),
@@ -64,7 +65,7 @@ fn least(theme: &Theme, sight: Sight) -> LeastDistances {
     }
 }
 
-/// Each least distance over several kinds of eyes.
+/// Returns the least value of each distance over several kinds of colour vision.
 fn least_of(theme: &Theme, sights: &[Sight]) -> [f64; 5] {
     let mut all = [f64::INFINITY; 5];
     for sight in sights {
@@ -83,7 +84,7 @@ const ALL: &[Sight] = &[
     Sight::Tritanopia,
 ];
 
-/// Checks the numbers in the table at [`Theme`]. A change of a colour changes them, for better or worse.
+/// Checks the numbers in the table at [`Theme`]. A change of a colour may change them.
 #[test]
 fn distances_between_colours_are_those_of_the_documentation() {
     let described = [
@@ -104,10 +105,10 @@ fn distances_between_colours_are_those_of_the_documentation() {
     }
 }
 
-/// The purpose of the themes as simple bounds. All colours differ in a grey print of `paper`, and for any eyes with
+/// Checks simple bounds: all colours differ in a grey print of `paper`, and for every kind of colour vision with
 /// `colourblind`.
 #[test]
-fn the_themes_fulfil_their_purpose() {
+fn colours_that_can_meet_differ_clearly_in_each_theme() {
     for theme in [Theme::paper(), Theme::colourblind(), Theme::dark()] {
         assert!(
             least_of(&theme, FULL).iter().all(|d| *d > 15.0),
@@ -123,7 +124,7 @@ fn the_themes_fulfil_their_purpose() {
             "{theme:?}"
         );
     }
-    // The measure detects a bad theme: the red of the reference has the same grey as one of its greens.
+    // The distances show a bad theme: pure red has the same lightness as one of the greens of the thesis.
     let printed = Theme {
         failure: Colour::hex(0xff0000),
         ..Theme::thesis()
@@ -147,7 +148,7 @@ fn larger_amplitudes_are_darker_on_a_light_page_and_lighter_on_a_dark_page() {
         let theme = Theme::named(name).expect(name);
         let towards = (lightness(theme.ink) - lightness(theme.page)).signum();
         for pair in theme.amplitudes.windows(2) {
-            // Half a step of a channel is rounding.
+            // The rounding of the channels may reverse the lightness by up to 0.4.
             let step = towards * (lightness(pair[1]) - lightness(pair[0]));
             assert!(step > -0.4, "{name}: {pair:?}");
         }
@@ -197,7 +198,7 @@ fn letters_are_legible_on_every_possible_background() {
             assert!(reads >= 4.5, "{name}: {reads} of {}", words.css());
         }
     }
-    // The measure detects letters that are not legible.
+    // Letters that are hard to read have a lower contrast.
     assert!(contrast(Colour::hex(0x999999), Colour::WHITE) < 4.5);
 }
 
@@ -276,18 +277,18 @@ fn a_style_file_changes_only_the_values_it_contains() {
         assert_eq!(Theme::read(text, notation, None), Ok(expected.clone()));
     }
     // A requested theme takes precedence over the theme that the file names.
-    let dark = Theme::read(json, Notation::Json, Some(&Theme::dark())).expect("sound");
+    let dark = Theme::read(json, Notation::Json, Some(&Theme::dark())).expect("valid");
     assert_eq!(
         (dark.page, dark.failure),
         (Theme::dark().page, expected.failure)
     );
-    let grey = Theme::read("amplitudes = 'viridis'", Notation::Toml, None).expect("sound");
+    let grey = Theme::read("amplitudes = 'viridis'", Notation::Toml, None).expect("valid");
     assert_eq!(Some(grey.amplitudes), ramp::named("viridis"));
     assert_eq!(Theme::read("{}", Notation::Json, None), Ok(Theme::thesis()));
 }
 
 #[test]
-fn all_problems_of_a_style_file_are_reported_at_once_with_their_places() {
+fn all_problems_of_a_style_file_are_reported_at_once_with_their_paths() {
     let text = r##"{ "theme": "drak", "failur": "#d00", "page": "white", "ink": 7, "arrows": [], "robots": ["#12", "#123456"],
         "amplitudes": "virdis", "widths": { "forec": 1, "force": 0, "robot": "thick" }, "sizes": 12, "page": "#fff" }"##;
     let problems = Theme::read(text, Notation::Json, None).expect_err("wrong");

@@ -1,4 +1,4 @@
-//! [`Palette`]: the colours of all pictures of an animation, at most 255. One more index stands for pixels that do not
+//! [`Palette`]: the colours of all pictures of an animation, at most 255. One more index marks pixels that do not
 //! change.
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use super::patch::Patch;
 
 /// The index of a pixel that does not change.
 pub(super) const UNCHANGED_INDEX: u8 = 0;
-/// Largest number of other indices.
+/// Largest number of colours, which have the other indices.
 const MAX_COLOURS: usize = 255;
 /// If there are more colours, this number of the most frequent colours is kept exactly. These are usually fills and
 /// lines.
@@ -19,6 +19,7 @@ const CHANNEL_BITS: u32 = 7;
 pub(super) struct Palette {
     /// The colours in the order of their indices, which begin at 1.
     colours: Vec<[u8; 3]>,
+    /// The index of the nearest palette colour for each colour of the pictures.
     numbers: BTreeMap<[u8; 3], u8>,
 }
 
@@ -53,6 +54,7 @@ impl Palette {
     /// Returns an index for each pixel of a patch, row by row: that of its colour in the palette, or [`UNCHANGED_INDEX`]
     /// if the pixel does not change.
     pub fn indices(&self, patch: &Patch) -> Vec<u8> {
+        // Neighbouring pixels often have the same colour, so keep the last colour and its index.
         let mut known = ([0; 3], None);
         let number = |(colour, changed): &([u8; 4], bool)| {
             if !changed {

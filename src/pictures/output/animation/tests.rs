@@ -9,7 +9,7 @@ fn step(x: u32, seconds: f64) -> Step {
     Step { svg, seconds }
 }
 
-/// The pictures of a GIF as a viewer shows them, and their hundredths of a second.
+/// Returns the pictures of a GIF as a viewer shows them, each with its duration in hundredths of a second.
 fn shown(gif: &[u8]) -> Vec<(Vec<[u8; 3]>, u16)> {
     let mut decoder = ::gif::DecodeOptions::new();
     decoder.set_color_output(::gif::ColorOutput::RGBA);
@@ -37,7 +37,11 @@ fn a_gif_shows_every_picture_for_its_time() {
     let bytes = gif(&steps, Size::Natural, &Fonts::default()).expect("drawn");
     let pictures = shown(&bytes);
     let delays: Vec<u16> = pictures.iter().map(|(_, delay)| *delay).collect();
-    assert_eq!(delays, [50, 50, 100], "like pictures are one");
+    assert_eq!(
+        delays,
+        [50, 50, 100],
+        "equal consecutive pictures are merged"
+    );
     for ((picture, _), x) in pictures.iter().zip([0, 5, 20]) {
         assert_eq!(picture[15 * 60 + x], [0x20, 0x40, 0x60]);
         assert_eq!(picture[15 * 60 + x + 10], [0xff; 3]);

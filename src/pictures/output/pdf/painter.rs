@@ -13,7 +13,7 @@ use crate::drawing::Face;
 /// Paints the nodes of an SVG on a page.
 pub(super) struct PdfPainter<'s, 'd> {
     pub surface: &'s mut Surface<'d>,
-    /// The fonts of the document that are known so far.
+    /// The fonts that were added to the document so far.
     pub fonts: Vec<(Face, Font)>,
 }
 

@@ -106,10 +106,10 @@ const MAX_COLOURS: usize = 256;
 /// Size of the hash table of colours: a power of two, and large enough that most slots stay free.
 const TABLE_SIZE: usize = 4 * MAX_COLOURS;
 
-/// Colours in the order in which they were found.
+/// The colours of a picture with their indices, in the order in which they were found.
 struct Table {
     found: Vec<PremultipliedColorU8>,
-    /// Indices of colours, each in the slot of its hash or in a slot after it.
+    /// A hash table of the indices of the colours. Each index is in the slot of its hash, or in the next free slot.
     places: [Option<u8>; TABLE_SIZE],
 }
 

@@ -217,8 +217,8 @@ fn an_svg_for_pixels_alone_has_the_pixels_of_the_full_svg() {
             ..Drawing::default()
         };
         for size in [Size::Natural, Size::Width(97), Size::Width(400)] {
-            let full = rgba(&svg::write(&drawing), size).expect("an SVG of ours");
-            let bare = rgba(&svg::for_pixels(&drawing), size).expect("an SVG of ours");
+            let full = rgba(&svg::write(&drawing), size).expect("a valid SVG");
+            let bare = rgba(&svg::for_pixels(&drawing), size).expect("a valid SVG");
             assert!(full == bare, "{background:?} at {size:?}");
         }
     }

@@ -19,7 +19,7 @@ use crate::output::tree::Run;
 /// with `mark`.
 ///
 /// # Errors
-/// A message with the face and the reason why its subset could not be made.
+/// Returns a message with the face and the reason why its subset could not be made.
 pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
     let mut sheet = String::new();
     for face in Face::ALL {
@@ -91,7 +91,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
         let mut head = post
             .as_bytes()
             .get(..32)
-            .ok_or("a post table cut short")?
+            .ok_or("the post table is truncated")?
             .to_vec();
         head[..4].copy_from_slice(&[0, 3, 0, 0]);
         font.add_raw(Tag::new(b"post"), head);

@@ -6,7 +6,7 @@ use crate::output::fonts::Fonts;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Words {
-    /// As text, in fonts by their names. The file is small, but its look depends on the fonts of the reader.
+    /// As text, with the names of the fonts. The file is small, but its look depends on the fonts of the reader.
     #[default]
     Names,
     /// As text, with the used glyphs embedded in the file; for browsers.

@@ -5,7 +5,7 @@ use crate::drawing::{Outline, PagePoint, Segment};
 /// Formats a number with at most two decimals (1/100 pixel), without trailing zeros and without −0.
 ///
 /// # Panics
-/// If the number is not finite.
+/// Panics if the number is not finite.
 pub(super) fn number(value: f64) -> String {
     assert!(
         value.is_finite(),
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn roundings_do_not_add_up() {
+    fn rounding_errors_do_not_add_up() {
         let outline = Outline::line((0..=3000).map(|i| PagePoint::new(f64::from(i) / 3.0, 0.5)));
         let data = written(&outline);
         let sum: f64 = data

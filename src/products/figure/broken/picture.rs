@@ -131,7 +131,7 @@ fn name(
     Some(words.anchored(Anchor::Middle).with_halo(theme.block, 2.0))
 }
 
-/// Returns the segments at which a hatch line of one body coincides with a hatch line of the other body.
+/// Returns the segments along which a hatch line of one body coincides with a hatch line of the other body.
 fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     let level = |line: &[PagePoint; 2]| line[0].y - line[0].x;
     let mut common = Vec::new();

@@ -1,16 +1,17 @@
-//! [`Plan`]: where the polygon of forces and the small pictures of mechanisms are drawn, in metres.
+//! [`Plan`]: computes the positions of the polygon of forces and of the small pictures of mechanisms, in metres.
 
 use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
 use crate::figure::view;
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
 
-/// Largest distance of the polygon from its point, as a share of the size of the structure.
+/// Drawn length of the largest force of a polygon at the loaded point, as a fraction of the size of the structure.
 const MAX_POLYGON_SHARE: f64 = 0.42;
-/// A polygon that is smaller than this share of its largest force is drawn apart from its point, at a separate scale.
+/// A polygon that is smaller than this fraction of its largest force is drawn apart from its point, at a separate
+/// scale.
 const SMALL_POLYGON_SHARE: f64 = 0.25;
-/// Size of a polygon that is drawn apart, as a share of the size of the structure.
+/// Size of a polygon that is drawn apart, as a fraction of the size of the structure.
 const SEPARATE_POLYGON_SHARE: f64 = 0.4;
-/// Gap between the structure and the items next to it, as a share of the size of the structure.
+/// Gap between the structure and the items next to it, as a fraction of the size of the structure.
 const GAP_SHARE: f64 = 0.1;
 /// Unbounded sets of forces are cut off at this multiple of the largest force of a vertex.
 const CUT_OFF_RATIO: f64 = 1.7;
@@ -28,15 +29,15 @@ const CIRCLE_CORNERS: usize = 48;
 /// The positions of the polygon of a frame, its edges and its small pictures.
 pub(super) struct Plan<'a> {
     pub capacity: &'a LoadCapacity,
-    /// The point at which the force acts.
+    /// The loaded point, or the middle of two loaded points.
     pub point: Point,
-    /// The position at which the force 0 is drawn: the point, unless the polygon is drawn apart.
+    /// The position at which the force 0 is drawn: the loaded point, unless the polygon is drawn apart.
     pub zero: Point,
     /// Whether the polygon is drawn apart.
     pub is_apart: bool,
-    /// Metres per newton.
+    /// The scale of the polygon, metres per newton.
     pub scale: f64,
-    /// The corners of the drawn set.
+    /// The corners of the drawn polygon, metres.
     pub ring: Vec<Point>,
     pub sides: Vec<DrawnEdge>,
     pub pictures: Vec<SmallPicture>,
@@ -52,9 +53,9 @@ pub(super) struct DrawnEdge {
     pub number: Option<usize>,
 }
 
-/// Gap between two small pictures in a row, as a share of the size of the structure.
+/// Gap between two small pictures in a row, as a fraction of the size of the structure.
 const COLUMN_GAP: f64 = 0.1;
-/// Space for the number of a small picture, as a share of the diagonal of the picture.
+/// Space for the number of a small picture, as a fraction of the diagonal of the picture.
 const NUMBER_SHARE: f64 = 0.12;
 
 /// A small picture of a mechanism.
@@ -156,7 +157,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Returns one small picture for each edge in `numbers`. The pictures are to the right of the structure and the
-    /// polygon, or below them if these are wide.
+    /// polygon. If structure, ground and polygon together are wide, the pictures are below them.
     fn small_pictures(
         &self,
         analysis: &Analysis,
@@ -343,13 +344,14 @@ fn edges_with_pictures(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usiz
         return Vec::new();
     }
     let mut chosen: Vec<usize> = capacity.longest_edges();
-    // Unbounded edges come first, then the longest edges.
     chosen.truncate(MAX_SMALL_PICTURES);
-    // Numbers run anticlockwise.
+    // Sort by index, so that the numbers in the figure run anticlockwise.
     chosen.sort_unstable();
     chosen
 }
 
+/// Returns the edges of the polygon as they are drawn. An unbounded edge ends at the circle at which forces are cut
+/// off.
 fn sides(
     capacity: &LoadCapacity,
     cut: f64,

@@ -4,8 +4,8 @@ use super::rigid::Displacement;
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// Largest allowed overlap of two bodies, as a share of the area of the smaller body. An overlap of 1 % would be
-/// visible.
+/// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. The eye
+/// already sees an overlap of 1 %.
 const MAX_OVERLAP: f64 = 0.004;
 
 /// The blocks of an overlapping pair; `None` for the ground.

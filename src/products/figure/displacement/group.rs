@@ -6,8 +6,8 @@ use super::super::joint::Joint;
 use crate::analysis::{Analysis, Motion};
 use crate::scene::{BlockId, BodyId};
 
-/// A block is at rest if its fastest point is slower than this share of the fastest point of all blocks. Slower motions
-/// are numerical noise of the solver or not visible.
+/// A block is at rest if the speed of its fastest point is at most this fraction of the largest speed of all blocks.
+/// Slower motions are numerical noise of the solver or not visible.
 const REST_TOL: f64 = 1e-3;
 
 /// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to the same rigid body if
@@ -62,8 +62,8 @@ pub(crate) fn connected_groups(
     groups
 }
 
-/// Returns the motions of the blocks that move visibly: their fastest points have at least 0.001 of the largest speed
-/// in the frame.
+/// Returns the motions of the blocks that move visibly: the speed of their fastest point exceeds [`REST_TOL`] times
+/// the largest speed in the frame.
 fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);

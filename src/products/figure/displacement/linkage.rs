@@ -17,11 +17,12 @@ use crate::scene::{BlockId, BodyId, Scene};
 
 /// Joints are not closed if there are more bodies, because this would take longer than the drawing.
 const MAX_BODIES: usize = 40;
+/// Largest number of steps of Newton's method.
 const MAX_STEPS: usize = 12;
-/// Tolerance of closed joints, as a share of the length of the frame.
+/// Tolerance of closed joints, as a fraction of the length of the frame.
 const CLOSURE_TOL: f64 = 1e-7;
-/// If a correction is larger than this share of the path, the joints cannot all be closed. In this case no joint is
-/// closed.
+/// Largest correction of a body's position, as a fraction of the largest displacement. If a correction is larger, the
+/// joints cannot all be closed, and the bodies keep the positions without correction.
 const MAX_CORRECTION: f64 = 1.0;
 /// Regularization for redundant equations, relative to the largest diagonal entry.
 const REGULARIZATION: f64 = 1e-10;
@@ -49,7 +50,7 @@ struct Link {
 #[derive(Clone, Debug)]
 struct Member {
     blocks: Vec<BlockId>,
-    /// Its motion about `centre`.
+    /// The velocity of `centre` and the spin of the body.
     motion: Motion,
     centre: Point,
 }
@@ -288,9 +289,9 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
     }
 }
 
-/// Returns the conditions that keep a joint closed. The flag of a condition is true if it applies with the two bodies
-/// exchanged, because the line of [`Condition::OnLine`] belongs to the first body. A joint that opens while it slides
-/// has no conditions.
+/// Returns the conditions that keep a joint closed. The flag of a condition is true if its two bodies have to be
+/// exchanged: the line of [`Condition::OnLine`] then belongs to the first body of the contact. A joint that opens
+/// while it slides has no conditions.
 fn conditions(
     scene: &Scene,
     bodies: [BodyId; 2],

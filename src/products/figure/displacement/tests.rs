@@ -126,7 +126,7 @@ fn a_small_block_far_from_a_large_block_does_not_rotate_too_far() {
             x + size
         )
     };
-    // Only the left third of each block stands on ground, so the block tips.
+    // Only the left third of each block rests on ground, so the block tips.
     let ground = |x: f64, size: f64| {
         format!(
             r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#,
@@ -144,7 +144,7 @@ fn a_small_block_far_from_a_large_block_does_not_rotate_too_far() {
     let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
     let displaced = Course::new(&Analysis::new(&scene), 0, unit(&scene, None)).at(1.0);
     for (block, displacement) in scene.blocks.iter().zip(displaced) {
-        let displacement = displacement.expect("it tips");
+        let displacement = displacement.expect("a displaced block");
         let turned = displacement.turned(Vector::new(1.0, 0.0));
         assert!(libm::atan2(turned.y, turned.x).abs() < 0.36, "{}", block.id);
         let way = (displacement.moved(block.centroid) - block.centroid).norm();

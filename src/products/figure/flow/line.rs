@@ -1,20 +1,20 @@
 //! [`path`]: finds the path of the force through a block from one joint to another, along true lines of action.
 //!
-//! The path starts along the force at the first joint. At the line of action of a load or of the weight it turns into
-//! the line of their resultant. It ends at the second joint, along the line of the force there.
+//! The path starts along the force at the first joint. Where it meets the line of action of a load or of the weight,
+//! it continues along the resultant of both forces. It ends at the second joint, along the line of the force there.
 
 use crate::geometry::{Point, Polygon, Vector, cross};
 
-/// Tolerance of the distance between a line and a point, as a share of the block's size.
+/// A line meets a point if their distance is at most this fraction of the block's size.
 const LENGTH_TOL: f64 = 1e-6;
-/// Largest distance of corners of the path outside the block, as a share of the square root of the block's area.
+/// Largest distance of a corner of the path from the block, as a fraction of the square root of the block's area.
 const MAX_OUTSIDE_SHARE: f64 = 0.15;
-/// The sine of the angle below which two lines of action are parallel.
+/// Two lines of action count as parallel if the sine of the angle between them is at most this value.
 const PARALLEL_TOL: f64 = 1e-6;
-/// Largest number of loads, including the weight, for which a path is searched.
+/// Largest number of loads, including the weight, for which the function searches a path.
 const MAX_ORDERED: usize = 4;
 
-/// A force with a point of its line of action.
+/// A force with a point on its line of action.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineOfAction {
     pub at: Point,
@@ -27,9 +27,9 @@ pub(super) struct LineOfAction {
 pub(super) struct TruePath {
     /// The first joint, the corners in order, and the second joint.
     pub corners: Vec<Point>,
-    /// The force along each segment between them, N.
+    /// The magnitude of the force along each segment between two corners, N.
     pub amounts: Vec<f64>,
-    /// For each load its index and the corner at which it joins the path.
+    /// For each load, its index and the corner at which it joins the path.
     pub joins: Vec<(usize, Point)>,
 }
 
@@ -63,7 +63,7 @@ pub(super) fn path(
 
 struct Search<'a> {
     polygon: &'a Polygon,
-    /// Largest distance of a corner outside the block, metres.
+    /// Largest distance of a corner of the path from the block, metres.
     near: f64,
     /// Largest distance at which a line still meets a point, metres.
     miss: f64,

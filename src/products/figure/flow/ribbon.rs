@@ -20,6 +20,7 @@ pub(super) fn ribbon(axis: &[Point], widths: &[f64], camera: &Camera) -> Outline
     Outline::ring(side(1.0).chain(side(-1.0).rev()))
 }
 
+/// True if two points coincide, except for rounding.
 fn same(a: Point, b: Point) -> bool {
     (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
 }

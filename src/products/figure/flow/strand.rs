@@ -3,8 +3,8 @@
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
 //! action meet in or near the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
-//! divided among the forces that leave, in proportion to their magnitudes. All strands of a force together are as wide
-//! as the force.
+//! divided among the forces that leave, in proportion to their magnitudes. The widths of all strands of a force add
+//! up to its magnitude.
 
 use super::line::{self, LineOfAction};
 use crate::analysis::{Failure, FrameAnalysis};
@@ -12,18 +12,18 @@ use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
 
-/// If the component of a force along gravity is below this share of the force, the component across gravity decides
-/// whether the force enters or leaves the block.
+/// If the component of a force along gravity is below this fraction of the force, the component across gravity
+/// decides whether the force enters or leaves the block.
 const ALONG_GRAVITY_TOL: f64 = 1e-6;
 /// Number of segments of a schematic curve.
 const CURVE_SEGMENTS: usize = 12;
-/// Distance of the control points of a curve from its ends, as a share of the chord's component along the force.
+/// Distance of the control points of a curve from its ends, as a fraction of the chord's component along the force.
 const HANDLE_SHARE: f64 = 0.2;
 
 /// The origin of a force on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Origin {
-    /// Another body. The index is that of the contact.
+    /// Another body, through the contact with this index.
     Contact(usize),
     /// A robot.
     Robot(RobotId),
@@ -31,7 +31,7 @@ pub(crate) enum Origin {
     Load,
     /// The weight of the block.
     Weight,
-    /// A missing force. The index is that of the failure.
+    /// The missing force of the failure with this index.
     Missing(usize),
 }
 
@@ -85,14 +85,14 @@ pub(crate) fn strands(
     let mut all = Vec::new();
     for id in &frame.placed {
         let forces = &acting[id.0];
-        let sharing = ForceDistribution {
+        let distribution = ForceDistribution {
             on: *id,
             down: scene.down(),
             metres_per_newton,
         };
         match true_lines(scene, *id, forces) {
             Some(exact) => all.extend(exact),
-            None => all.extend(sharing.strands(forces)),
+            None => all.extend(distribution.strands(forces)),
         }
     }
     all

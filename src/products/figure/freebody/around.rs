@@ -121,7 +121,7 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// Returns the body at the other side of the contact, which touches the block.
+/// Returns the other body of a contact of the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
     if first == BodyId::Block(block) {

@@ -12,21 +12,21 @@ pub(super) const SHAFT_WIDTH: f64 = 2.4;
 /// An arrow on the page.
 #[derive(Clone, Debug)]
 pub(super) struct Arrow {
-    /// Its name; `None` if another arrow of the same unknown has it.
+    /// The name next to the arrow; `None` if another arrow of the same unknown has the name.
     pub symbol: Option<Symbol>,
-    /// Its description.
+    /// The tooltip.
     pub title: String,
-    /// The point where it begins, metres.
+    /// The tail of the arrow, or the centre of a torque arrow, metres.
     pub at: Point,
-    /// The vector to its tip, pixels. For a torque arrow its length is the radius.
+    /// The vector from the tail to the tip, pixels. For a torque arrow, the length of this vector is the radius.
     pub along: (f64, f64),
     /// The angle of a torque arrow, radians; `None` for a straight arrow.
     pub turn: Option<f64>,
-    /// Width of its shaft, pixels.
+    /// The width of the shaft, pixels.
     pub width: f64,
-    /// Its colour.
+    /// The colour of the arrow.
     pub colour: Colour,
-    /// Whether it is drawn hollow, as loads are.
+    /// Whether the arrow is hollow, like the arrows of loads.
     pub hollow: bool,
 }
 

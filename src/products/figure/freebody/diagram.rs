@@ -20,7 +20,8 @@ const FRICTION_LENGTH: f64 = 42.0;
 /// Length and width of the arrow of a unit normal ŝ, pixels.
 const UNIT_NORMAL_LENGTH: f64 = 30.0;
 const UNIT_NORMAL_WIDTH: f64 = 1.2;
-/// Largest length of friction arrows of one interface towards each other, as a share of the length of the interface.
+/// Largest length of a friction arrow that only names a force, as a fraction of the length of the interface. The
+/// arrows of the two ends point towards each other.
 const FRICTION_REACH: f64 = 0.30;
 /// Radius of a torque arrow, pixels.
 const TURN_RADIUS: f64 = 24.0;
@@ -106,7 +107,7 @@ impl Diagram<'_> {
         let largest = largest(forces, edge, self.options);
         let mut arrows = Vec::new();
         for force in forces {
-            // If arrows only name forces, `corner_arrows` makes the arrows of interfaces, so they are skipped here.
+            // If arrows only name forces, skip the forces of interfaces: `corner_arrows` makes their arrows.
             let of_interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
                 && force.colour == self.options.theme.ink;
             if self.naming && of_interface {

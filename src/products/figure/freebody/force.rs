@@ -1,5 +1,4 @@
-//! [`Force`]: a force on a block with the name that a free-body diagram gives it. [`forces`] collects all forces on the
-//! block.
+//! [`Force`]: a force on a block with its name in a free-body diagram. [`forces`] collects all forces on the block.
 
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
@@ -14,25 +13,25 @@ use crate::scene::{BlockId, BodyId};
 /// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
 /// select another level of detail.
 const MAX_INTERFACES_BY_CORNER: usize = 3;
-/// Forces below this share of the largest are rounding errors of the solver.
+/// Forces below this fraction of the largest are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 
 /// A force on the block.
 #[derive(Clone, Debug)]
 pub(super) struct Force {
-    /// Its name.
+    /// The name of the force.
     pub symbol: Symbol,
-    /// Its kind, in words.
+    /// The kind of force, such as `Weight`.
     pub what: &'static str,
-    /// Its origin, in words.
+    /// The origin of the force, such as the name of a block.
     pub from: String,
-    /// The point where it acts, metres.
+    /// The point where the force acts, metres.
     pub at: Point,
     /// The force, N.
     pub force: Vector,
     /// The torque, N·m.
     pub torque: f64,
-    /// Its colour.
+    /// The colour of the arrow.
     pub colour: Colour,
 }
 
@@ -339,8 +338,8 @@ impl ForceSource<'_> {
     }
 }
 
-/// Returns the force that the longest arrow shows, N. A torque counts as the force torque / `edge`, where `edge` is the
-/// unit edge in metres. Returns 0 if the lengths of arrows do not show magnitudes.
+/// Returns the force that the longest arrow shows, N. A torque is divided by `edge`, the unit edge in metres, and
+/// counts as a force. Returns 0 if the lengths of arrows do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
     match options.corners {

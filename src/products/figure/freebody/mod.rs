@@ -2,11 +2,12 @@
 //! forces with their sum.
 //!
 //! Weight, loads, forces of other bodies and robots, and missing forces each have an arrow and a row in the list. The
-//! length of the arrow shows the magnitude. A block with one interface has separate normal and friction forces at each
-//! end, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). With two or three interfaces
-//! each end has one force, numbered as in its figure 2. With more, each interface has one force. With
-//! [`Corners::All`](super::option::Corners) the arrows name every unknown of the program instead, even if it is zero.
-//! All arrows of the same kind then have the same length.
+//! length of the arrow shows the magnitude. A block with one interface has separate normal and friction forces at
+//! each end of the interface, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). A block
+//! with two or three interfaces has one force at each end of an interface, numbered as in figure 2 of the thesis. A
+//! block with more interfaces has one force for each interface. With [`Corners::All`](super::option::Corners) the
+//! arrows name every unknown force instead, even if it is zero. All arrows of the same kind then have the same
+//! length.
 //!
 //! Bodies that touch the block are outlined, and ground is hatched.
 
@@ -38,7 +39,7 @@ use crate::scene::{BlockId, BodyId};
 
 /// Font size of names in the drawing, pixels.
 const NAME_SIZE: f64 = 19.0;
-/// Font size of the list below it, pixels.
+/// Font size of the list of forces, pixels.
 const LIST_SIZE: f64 = 15.0;
 /// Font size of the heading, pixels.
 const HEADING_SIZE: f64 = 20.0;
@@ -52,7 +53,7 @@ const SPACE_LEFT: f64 = 74.0;
 const SPACE_BELOW: f64 = 58.0;
 /// Margin of the page, pixels.
 const MARGIN: f64 = 24.0;
-/// Width of the page if the options give none, pixels.
+/// Width of the page if the options set none, pixels.
 const DEFAULT_WIDTH: f64 = 2.0 * MARGIN + SPACE_LEFT + MAX_PICTURE_SIZE;
 
 /// Draws the free-body diagram of a block of a frame. Frames are counted from 0. Returns `None` if the frame does not
@@ -86,6 +87,7 @@ pub fn freebody(
     Some(sheet.drawing())
 }
 
+/// The page of a free-body diagram.
 struct Sheet<'a> {
     analysis: &'a Analysis,
     options: &'a Options,

@@ -42,7 +42,7 @@ impl Sheet<'_> {
                     Stroke::new(theme.faint, 0.8),
                 ));
             }
-            self.bar(ink, polygon, page);
+            self.add_edges(ink, polygon, page);
             drawn = drawn.with(Path::stroked(outline, Stroke::new(theme.ink, 1.3)));
             group.items.push(drawn.into());
         }
@@ -52,7 +52,7 @@ impl Sheet<'_> {
     /// Draws the outline of the block. The colour of the page fills it.
     pub(super) fn body(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
-        self.bar(ink, self.polygon(), self.camera.rect(self.view));
+        self.add_edges(ink, self.polygon(), self.camera.rect(self.view));
         let outline = self.camera.polygon(self.polygon());
         Group::with_class("block")
             .titled(format!("Block {}", self.name()))
@@ -60,7 +60,7 @@ impl Sheet<'_> {
     }
 
     /// Adds the visible edges of a polygon to the ink, so that no name covers these edges.
-    fn bar(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
+    fn add_edges(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
         for edge in polygon.edges() {
             let line = [edge.from, edge.to].map(|p| self.camera.place(p));
             if let Some([from, to]) = seen.part_of(line) {

@@ -16,13 +16,13 @@ use crate::scene::format::UnitsEntry;
 const COLUMN_GAP: f64 = 14.0;
 /// Height of a row, as a multiple of the font size.
 const ROW_HEIGHT: f64 = 1.6;
-/// Largest number of lines of a name that is too long for its column …
+/// Largest number of lines of the origin of a force in the last column.
 const MAX_NAME_LINES: usize = 4;
-/// … and the distance of its lines, as a multiple of the font size.
+/// Distance of these lines, as a multiple of the font size.
 const LINE_PITCH: f64 = 1.15;
 /// Significant digits of the largest amount of a column.
 const DIGITS: i32 = 4;
-/// Moments below this share of the largest force times the block's size count as zero.
+/// Moments up to this fraction of the largest force times the block's size count as zero.
 const MOMENT_TOL: f64 = 1e-9;
 
 /// The forces on a block, row by row.
@@ -34,16 +34,18 @@ pub(super) struct Table {
 
 struct Row {
     symbol: Option<Symbol>,
-    /// Magnitude, components, moment about the centroid; the magnitude is empty for a sum.
+    /// The magnitude, the two components, and the moment about the centroid. The magnitude of the sum is empty.
     numbers: [String; 4],
     from: String,
 }
 
-/// The unit of a column: its name, the factor for numbers in the SI unit, and the number of decimals.
+/// The unit of a column, and the number of decimals.
 #[derive(Clone)]
 struct Column {
+    /// The size of the unit in the SI unit, such as 1000 for kN.
     size: f64,
     decimals: usize,
+    /// The symbol of the unit, such as `kN`.
     name: String,
 }
 
@@ -232,7 +234,7 @@ impl Columns {
     }
 }
 
-/// Writes the rows of a table. Heights (`y`) are those of base lines, pixels.
+/// Writes the rows of a table. The argument `y` of a method is a y coordinate on the page, pixels.
 struct TableWriter<'a> {
     table: &'a Table,
     columns: Columns,

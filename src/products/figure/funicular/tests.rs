@@ -1,4 +1,4 @@
-//! Tests of lines of thrust in structures whose lines are known by hand.
+//! Tests of lines of thrust in structures whose lines can be computed by hand.
 
 use super::*;
 use crate::analysis::Analysis;
@@ -7,7 +7,7 @@ fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-fn of(scene: &Scene) -> Vec<ThrustSegment> {
+fn thrust_segments(scene: &Scene) -> Vec<ThrustSegment> {
     let analysis = Analysis::new(scene);
     segments(scene, &scene.frames[0], &analysis.frames[0])
 }
@@ -15,7 +15,7 @@ fn of(scene: &Scene) -> Vec<ThrustSegment> {
 #[test]
 fn in_an_arch_the_line_bends_above_or_below_the_centroid_of_each_voussoir() {
     let scene = scene(include_str!("../../../../assets/study/arch-27.json"));
-    let segments = of(&scene);
+    let segments = thrust_segments(&scene);
     let mut bends = 0;
     for pair in segments.chunk_by(|a, b| a.on == b.on) {
         let [a, b] = pair else {
@@ -27,7 +27,10 @@ fn in_an_arch_the_line_bends_above_or_below_the_centroid_of_each_voussoir() {
         assert!(a.through && b.through);
         assert_eq!(a.to, b.from);
         let centroid = scene.blocks[a.on.0].centroid;
-        assert!((a.to.x - centroid.x).abs() < 1e-6, "the weight meets them");
+        assert!(
+            (a.to.x - centroid.x).abs() < 1e-6,
+            "the line does not bend on the line of action of the weight"
+        );
         bends += 1;
     }
     assert!(bends >= 9, "{bends}");
@@ -42,7 +45,11 @@ fn a_torque_moves_the_line_of_a_robot_sideways() {
              "steps": [ { "place": ["a"], "hold": { "r": { "block": "a", "at": [3, 1] } } } ] }"#,
     );
     // 8 N at the grip and −8 N·m about it act along the line through the centroid, so the line does not bend.
-    assert!(of(&scene).iter().all(|s| (s.from.x - 2.0).abs() < 1e-6));
+    assert!(
+        thrust_segments(&scene)
+            .iter()
+            .all(|s| (s.from.x - 2.0).abs() < 1e-6)
+    );
 }
 
 /// A beam of 30 N on two posts, with loads.
@@ -57,14 +64,14 @@ fn beam(loads: &str) -> Scene {
 
 #[test]
 fn in_a_loaded_beam_the_reactions_and_the_load_meet_in_one_point() {
-    let segments = of(&beam(
+    let segments = thrust_segments(&beam(
         r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
     ));
     assert_eq!(segments.len(), 3, "{segments:?}");
     let meeting = segments[0].to;
     assert!(segments.iter().all(|s| !s.through && s.to == meeting));
     let load = segments.iter().find(|s| s.origin == ForceOrigin::Load(0));
-    let load = load.expect("the load belongs to the line");
+    let load = load.expect("a segment for the load");
     assert_eq!(
         (load.from, load.force),
         (Point::new(4.0, 1.0), Vector::new(0.0, -12.0))
@@ -109,7 +116,7 @@ fn a_load_bends_the_line_of_thrust_on_its_line_of_action() {
              "blocks": [ { "id": "a", "polygon": [[0,0],[4,0],[4,4],[0,4]], "weight": 40 } ],
              "loads": [ { "block": "a", "force": [10, 0], "at": [0, 3] } ] }"#,
     );
-    let segments = of(&scene);
+    let segments = thrust_segments(&scene);
     // 40 N down through x = 2 and 10 N at height 3 meet at (2, 3). From there the line reaches the ground at (2.75,
     // 0).
     let [main, load] = &segments[..] else {
@@ -132,7 +139,7 @@ fn a_stack_is_one_straight_line() {
              "blocks": [ { "id": "a", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 7 },
                          { "id": "b", "polygon": [[0,1],[2,1],[2,3],[0,3]], "weight": 5 } ] }"#,
     );
-    let segments = of(&scene);
+    let segments = thrust_segments(&scene);
     assert!(segments.iter().all(|s| s.through), "{segments:?}");
     assert!(
         segments

@@ -16,7 +16,7 @@ use crate::scene::format::UnitsEntry;
 
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
-/// The arrow of a torque has a least length, so that its direction is visible.
+/// The text for torques of loads. Their arrows have a least length, so that their directions are visible.
 const TURN_SCALE_TEXT: &str = "turning loads by their amounts, small ones drawn larger";
 /// Largest number of blocks that the legend names. With more blocks, it shows only the colours.
 const MAX_NAMED_BLOCKS: usize = 6;
@@ -191,7 +191,7 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::LEGEND_TEXT.to_owned()))
 }
 
-/// True for the entry of joints at their limit.
+/// True if the entry explains the mark of joints at their limit.
 pub(crate) fn is_limit(entry: &Entry) -> bool {
     matches!(entry, Entry::Sign(_, _, words) if words == limit::LEGEND_TEXT)
 }
@@ -230,7 +230,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     Some(Entry::Sign(load_sign, SAMPLE_LENGTH, words))
 }
 
-/// True if a frame has so many loads that only the largest have their amounts.
+/// True if a frame has so many loads that magnitudes are written only for the largest.
 fn has_too_many_loads(context: &FigureContext<'_>) -> bool {
     let loads = |marks: &Marks| {
         let arrows = marks.arrows.iter();

@@ -21,8 +21,8 @@ pub(crate) enum Entry {
     Planned(Colour),
     /// Missing forces.
     Missing,
-    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, the colour of a share, and the
-    /// length of the bar in pixels.
+    /// A bar of amplitude colours: the labels of its ends, the name of the quantity, the function that converts a
+    /// position on the colour scale (0 to 1) to a colour, and the length of the bar in pixels.
     Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour, f64),
     /// The scale of arrows: the length of an arrow from tail to tip and the width of its shaft in pixels, and its
     /// force.
@@ -43,7 +43,8 @@ pub(crate) enum Entry {
 
 impl Entry {
     /// Returns the entry in a form that fits into `room` pixels. If the names of blocks do not fit, the result shows
-    /// only the colours of their arrows. A bar of colours is shortened so that its text needs one line.
+    /// only the colours of their arrows. A bar of colours is shortened so that its text needs one line, unless the
+    /// bar would be shorter than [`SHORTEST_BAR`].
     pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
         let over = self.width(theme) - room;
         match self {

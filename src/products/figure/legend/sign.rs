@@ -76,8 +76,8 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
 
-/// Draws a bar with the colours of all shares from 0 to 1. `low` and `high` are the texts at its left and right end.
-/// `ramp` converts a share to a colour.
+/// Draws a bar with the colours of the whole colour scale. `low` and `high` are the texts at its left and right end.
+/// `ramp` converts a position on the scale (0 to 1) to a colour.
 pub(super) fn amplitudes(
     [low, high]: &[String; 2],
     (ramp, bar): (fn(&Theme, f64) -> Colour, f64),

@@ -47,6 +47,7 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
     }
 }
 
+/// Converts the parameter of a figure to the parameter of the sentences in [`wording`](crate::wording::margin).
 fn stated(toward: Toward) -> Parameter {
     match toward {
         Toward::Tilt => Parameter::Tilt,
@@ -55,6 +56,7 @@ fn stated(toward: Toward) -> Parameter {
     }
 }
 
+/// Returns the name of a parameter for a sentence.
 fn parameter(toward: Toward) -> &'static str {
     match toward {
         Toward::Tilt => "tilt of gravity",
@@ -113,8 +115,8 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     }
 }
 
-/// Describes the two ends of an interval around 0, such as `14° to the right, or by 9° to the left`. `edge` is the
-/// nearer end. The other end is left out if its value is not known. `amount` formats a value.
+/// Describes both ends of an interval around 0, such as `14° to the right, or by 9° to the left`. `edge` is the end
+/// nearer to 0. The other end is left out if its value is not known. `amount` formats a value.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     let ends = [interval.low(), interval.high()].into_iter().flatten();
@@ -146,7 +148,7 @@ fn least_factor(interval: &Interval) -> Option<f64> {
     low.filter(|low| *low > 0.0)
 }
 
-/// Formats the magnitude of a share of gravity in percent; it may exceed 100 %.
+/// Formats the magnitude of a fraction of gravity in percent. The result may exceed 100 %.
 pub(super) fn percent_of(share: f64) -> String {
     if share.abs() < 1.0 {
         percent(share.abs())

@@ -8,12 +8,12 @@ use crate::drawing::Colour;
 use crate::geometry::{Point, Vector};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// Forces below this share of the largest force are not drawn, because they may be errors of the solver. Forces are
-/// accurate to about 1e-9.
+/// Forces below this fraction of the largest force are not drawn, because they may be errors of the solver. Forces
+/// have a relative accuracy of about 1e-9.
 pub(super) const FORCE_TOL: f64 = 1e-6;
 /// In [`Normalisation::Drawn`], arrows shorter than this, unit edges, have a thinner shaft and a smaller head.
 const FULL_WIDTH_LENGTH: f64 = 0.35;
-/// Least width of a shaft, as a share of the full width. With the full width, arrows of small forces would only be
+/// Least width of a shaft, as a fraction of the full width. With the full width, arrows of small forces would only be
 /// heads.
 const MIN_WIDTH_SHARE: f64 = 0.65;
 
@@ -23,7 +23,7 @@ pub(super) struct ArrowMaker<'a> {
     pub options: &'a Options,
     /// The unit edge, metres.
     pub edge: f64,
-    /// Length of an arrow for each newton, metres.
+    /// The length of the arrow of a force of 1 N, metres.
     pub metres_per_newton: f64,
 }
 
@@ -39,7 +39,7 @@ impl ArrowMaker<'_> {
         force: Vector,
         look: (Colour, f64),
     ) {
-        // Loads are input of the user. Even a very small load is not an error of the solver.
+        // Loads are part of the scene. Even a very small load is not an error of the solver.
         let least = match kind {
             ArrowKind::Load => 0.0,
             _ => FORCE_TOL * marks.newtons_per_unit,

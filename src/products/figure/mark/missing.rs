@@ -13,7 +13,8 @@ use crate::scene::{BlockId, BodyId, Scene};
 /// other forces, missing forces have a separate scale. The second number is the least length of the arrow of any
 /// missing force.
 const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
-/// The thesis draws the missing forces on a block at this share of the scale of that block.
+/// Length, in unit edges, of the arrow of a missing force that is as large as the largest force on its block. The
+/// thesis uses this scale.
 const SOURCE_FAILURE_SCALE: f64 = 0.4;
 
 /// What determines the length of the arrow of a missing force.

@@ -110,14 +110,14 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
     }
     let scene = &analysis.scene;
     let edge = unit(scene, options.zoom);
-    let pen = ArrowMaker {
+    let maker = ArrowMaker {
         scene,
         options,
         edge,
         metres_per_newton: edge / newtons_per_unit,
     };
-    pen.blocks(placed, frame_analysis, &mut marks);
-    pen.robots(frame_analysis, &mut marks);
-    pen.failures(frame_analysis, &mut marks);
+    maker.blocks(placed, frame_analysis, &mut marks);
+    maker.robots(frame_analysis, &mut marks);
+    maker.failures(frame_analysis, &mut marks);
     marks
 }

@@ -9,7 +9,7 @@ use crate::scene::BodyId;
 
 /// A force of an interface on its first body.
 pub(super) struct InterfaceForce {
-    /// Returns the kind of the arrow for the other body.
+    /// A function that returns the kind of the arrow. Its argument is the other body.
     pub kind: fn(BodyId) -> ArrowKind,
     /// The force, N.
     pub force: Vector,

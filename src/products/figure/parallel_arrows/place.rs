@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::geometry::{Bounds, Point};
 
-/// A box in more cells than this is kept in a list that every search scans.
+/// A box that covers more cells than this is kept in a separate list, which every search scans.
 const MAX_CELLS: f64 = 64.0;
 
 /// Boxes, numbered from 0 in the order in which they were added.
@@ -12,7 +12,9 @@ pub(super) struct BoxGrid {
     /// Width and height of a cell, metres.
     cell: f64,
     boxes: Vec<Bounds>,
+    /// The indices of the boxes that cover each cell.
     cells: HashMap<(i64, i64), Vec<usize>>,
+    /// The indices of the boxes that cover more than [`MAX_CELLS`] cells.
     large: Vec<usize>,
 }
 
@@ -29,10 +31,10 @@ impl BoxGrid {
     }
 
     /// Adds a box to the grid. Its index is the number of boxes added before it.
-    pub fn put(&mut self, its: Bounds) {
+    pub fn put(&mut self, added: Bounds) {
         let number = self.boxes.len();
-        self.boxes.push(its);
-        match self.covered(its) {
+        self.boxes.push(added);
+        match self.covered(added) {
             None => self.large.push(number),
             Some((low, high)) => {
                 for cell in grid(low, high) {
@@ -72,9 +74,9 @@ impl BoxGrid {
 
     /// Returns the lower left and the upper right cell that a box covers. Returns `None` if the box covers more than
     /// [`MAX_CELLS`] cells.
-    fn covered(&self, its: Bounds) -> Option<((i64, i64), (i64, i64))> {
+    fn covered(&self, bounds: Bounds) -> Option<((i64, i64), (i64, i64))> {
         let cell = |p: Point| ((p.x / self.cell).floor(), (p.y / self.cell).floor());
-        let (low, high) = (cell(its.min), cell(its.max));
+        let (low, high) = (cell(bounds.min), cell(bounds.max));
         let few = (high.0 - low.0 + 1.0) * (high.1 - low.1 + 1.0) <= MAX_CELLS;
         let whole = |(x, y): (f64, f64)| (x as i64, y as i64);
         few.then(|| (whole(low), whole(high)))

@@ -7,7 +7,7 @@ use crate::geometry::{Point, Vector};
 
 /// Length of a normal in unit edges. The friction cone has the same length.
 const NORMAL_LENGTH: f64 = 0.75;
-/// Length of the head of a normal, as a share of the normal.
+/// Length of the head of a normal, as a fraction of the normal.
 const HEAD_SHARE: f64 = 0.18;
 /// Radius of the dot of a contact or a centre, pixels.
 const DOT_RADIUS: f64 = 2.2;

@@ -165,8 +165,8 @@ impl Pen<'_> {
     }
 
     /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
-    /// is farthest from straight arrows and from the points `taken`. If several directions are equally good, the result
-    /// is upwards.
+    /// is farthest from straight arrows and from the points `taken`. If several directions are about equally good,
+    /// the result is the one nearest to upwards.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[Point]) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let from_others = |p: Point| {
@@ -190,7 +190,7 @@ impl Pen<'_> {
     }
 
     /// Draws arrows and dots of forces and torques: the missing ones if `missing` is true, otherwise all others. The
-    /// tooltip of each arrow gives its magnitude.
+    /// tooltip of each arrow states its magnitude.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });

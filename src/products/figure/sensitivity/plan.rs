@@ -11,23 +11,24 @@ use crate::wording::sensitivity::{
     visible,
 };
 
-/// The longest arrow, as a share of the size of the structure and of the unit edge; the larger one counts.
+/// The length of the longest arrow is the larger of two lengths: this fraction of the structure's size, and this
+/// number of unit edges.
 const MAX_ARROW_SHARES: (f64, f64) = (0.09, 0.8);
-/// The largest number of numbered changes: in a figure of one frame, in such a figure that is as wide as a column of
-/// print, and in each panel of a strip.
+/// The largest number of numbered changes: in a figure of one frame, in a figure of one frame that is narrower than
+/// [`PRINT_COLUMN`], and in each panel of several frames.
 const MAX_NUMBERED: (usize, usize, usize) = (10, 5, 3);
 /// Changes with a smaller effect, relative to the most effective one, have no number.
 const LEAST_EFFECT: f64 = 0.1;
-/// A corner has no arrow if a step along it changes the margin by less than this share of its value. The derivative
-/// may then be a rounding error.
+/// A corner has no arrow if moving it by one step changes the margin by at most this fraction of its value. The
+/// derivative may then be a rounding error.
 const NO_EFFECT: f64 = 1e-6;
 
 /// The arrows and numbers of a frame.
 pub(super) struct Plan {
     pub kind: MarginKind,
-    /// Whether the shown end is the upper one.
+    /// Whether the shown end of the interval is the upper one.
     pub is_high: bool,
-    /// The value of the shown end.
+    /// The value of the shown end, in the unit of the margin.
     pub value: f64,
     pub arrows: Vec<CornerArrow>,
     pub changes: Vec<Numbered>,
@@ -40,22 +41,23 @@ pub(super) struct Plan {
 /// The arrow of a corner, or of several corners that move together.
 pub(super) struct CornerArrow {
     pub at: Point,
-    /// Its direction, with the growth of the interval per metre as its length.
+    /// The effect of moving the corner. The direction is that of the arrow; the length is the growth of the interval
+    /// per metre.
     pub effect: Vector,
-    /// Its number from 1, if it belongs to the most effective changes.
+    /// The number of the change, from 1; `None` if it is not one of the most effective changes.
     pub number: Option<usize>,
 }
 
 /// One of the most effective changes.
 pub(super) struct Numbered {
     pub number: usize,
-    /// Where the number stands if no arrow has it; `None` for a change everywhere.
+    /// The point to which the change belongs; `None` for a change of all joints.
     pub at: Option<Point>,
     /// Whether a load is moved.
     pub is_load: bool,
-    /// Whether it is the friction of one joint.
+    /// Whether the friction of one joint is changed.
     pub is_joint: bool,
-    /// What is done, and the value afterwards.
+    /// A description of the change, and the value of the margin after it.
     pub words: String,
 }
 
@@ -181,7 +183,7 @@ fn is_kink(moves: CornerMoves) -> bool {
     }
 }
 
-/// The end of a margin whose changes are described.
+/// The shown end of the interval, with the data that the descriptions of its changes need.
 struct Sketch<'a> {
     scene: &'a Scene,
     frame_analysis: &'a FrameAnalysis,

@@ -16,7 +16,8 @@ use super::option::Options;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
-/// Space around a panel for names that need it, pixels: on both sides, and above and below.
+/// Space that is added around the structure if some labels have no good position, pixels. The first value is for the
+/// left and the right, the second for above and below.
 const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
 
 /// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels.
@@ -66,8 +67,8 @@ pub(crate) fn pages(
     steps_of(analysis, content, options, steps)
 }
 
-/// Like [`pages`], for each pair of a frame and a share from 0 to 1. The blocks are displaced by this share of their
-/// paths.
+/// Like [`pages`], with a page for each pair of a frame and a fraction from 0 to 1. The blocks are displaced by this
+/// fraction of their paths.
 pub(crate) fn steps_of(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -76,8 +77,8 @@ pub(crate) fn steps_of(
 ) -> Vec<Drawing> {
     let mut context = FigureContext::new(analysis, options, content);
     let mut pages: Vec<Drawing> = Vec::new();
-    for (frame, way) in steps {
-        context.move_blocks(way);
+    for (frame, path_share) in steps {
+        context.move_blocks(path_share);
         let strip = Strip {
             content,
             context: &context,

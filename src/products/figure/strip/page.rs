@@ -49,7 +49,7 @@ impl Gaps {
 }
 
 /// Draws a page of panels with one legend below them. `order` lists the panels: the index of the strip and the index of
-/// the frame. All strips have the same layout. All panels of a row show the same heights of their scenes.
+/// the frame. All strips have the same layout. All panels of a row show the same vertical range of their scenes.
 pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &str) -> Drawing {
     let Some(first) = strips.first() else {
         return Drawing::default();
@@ -145,8 +145,8 @@ impl PageWriter<'_> {
         self.y += self.gaps.below_title;
     }
 
-    /// Draws a row of panels and moves `y` below it. All panels of the row show the same heights of the scene. Their
-    /// verdicts are on the same line, below the longest caption.
+    /// Draws a row of panels, each given by its strip and its frame, and moves `y` below the row. All panels of the row show the same vertical range of the scene.
+    /// Their verdicts are on the same line, below the longest caption.
     fn row(&mut self, row: &[(usize, usize)]) {
         let views = row.iter();
         let views = views.map(|(strip, frame)| self.strips[*strip].shows(*frame));

@@ -24,9 +24,9 @@ const SCALE_GAP: f64 = 22.0;
 
 /// The position of a panel, and the content for which it has space.
 pub(super) struct PanelPosition {
-    /// Its upper left corner.
+    /// The upper left corner of the panel.
     pub at: PagePoint,
-    /// The part of the scene that its picture shows, metres.
+    /// The part of the scene that the picture shows, metres.
     pub view: Bounds,
     /// The number of caption lines for which there is space below the picture.
     pub captions: usize,

@@ -10,8 +10,8 @@ use super::super::bearing::bearings;
 const MIN_BLOCKS: usize = 3;
 /// Largest number of chains that are drawn. If there are more, those with the greatest thrust are drawn.
 const MAX_CHAINS: usize = 3;
-/// A chain whose thrust is below this share of its largest force is not drawn. Its rays would nearly lie on the load
-/// line.
+/// A chain whose thrust is below this fraction of its largest force is not drawn. Its rays would nearly lie on the
+/// load line.
 const MIN_THRUST_SHARE: f64 = 0.15;
 
 /// A sequence of blocks from left to right. Forces press on each block in exactly two joints.

@@ -1,6 +1,6 @@
 //! Draws the force polygon next to the line of thrust in the classical form: a load line, a pole, and a ray from the
 //! pole for each joint. A ray shows the force in the joint with the same number. The weight and the loads of a block
-//! connect the tips of the rays of its two joints.
+//! connect the tips of the rays of its two joints. The force polygon of one chain of blocks is called a fan.
 
 use super::chain::{Chain, chains};
 use crate::analysis::FrameAnalysis;
@@ -15,35 +15,35 @@ use super::super::view;
 use super::super::words::{force, quantity, round_below_in};
 use crate::scene::Unit;
 
-/// Width of the fans, as a share of the structure's width.
+/// Width of the fans, as a fraction of the structure's width.
 const FAN_WIDTH_SHARE: f64 = 0.42;
-/// Height of the fans, as a share of the structure's height; and the gap between two fans.
+/// Height of all fans together, and the gap between two fans, as fractions of the structure's height.
 const HEIGHT_AND_GAP_SHARES: (f64, f64) = (0.8, 0.2);
-/// For the size of a fan, the width and the height of the structure count as at least this share of the larger of both.
-/// Otherwise the fan of a high or wide structure would be too narrow.
+/// For the size of a fan, the width and the height of the structure count as at least this fraction of the larger of
+/// both. Otherwise the fan of a high or wide structure would be too small.
 const MIN_SIDE_SHARE: f64 = 0.7;
-/// Space to the left of the pole and to the right of the load line, as a share of the structure's larger side.
+/// Space to the left of the pole and to the right of the load line, as a fraction of the structure's larger side.
 const SIDE_SPACE_SHARES: (f64, f64) = (0.1, 0.12);
-/// Least width of the fans with their labels, as a share of the structure's larger side.
+/// Least width of the fans with their labels, as a fraction of the structure's larger side.
 const MIN_WIDTH_SHARE: f64 = 0.34;
 /// Size of the numbers and of the amounts, pixels.
 const NUMBER_SIZE: f64 = 9.5;
 const AMOUNT_SIZE: f64 = 11.5;
-/// If the weight and the loads of a block do not balance the forces of its joints, the rest is a robot's force. This
-/// holds if the rest exceeds this share.
+/// If the weight and the loads of a block do not balance the two joint forces, the remainder is drawn as a robot's
+/// force. A remainder is ignored up to this fraction of the resultant of the two joint forces.
 const ROBOT_TOL: f64 = 1e-6;
 /// Width of the load line, pixels.
 const LOAD_LINE_WIDTH: f64 = 1.8;
 /// Least distance of numbers on the load line, pixels.
 const MIN_NUMBER_GAP: f64 = 9.0;
 
-/// A fan of a chain in the scene.
+/// The force polygon of a chain. Its points are positions in the scene, metres.
 struct Fan {
     chain: Chain,
     pole: Point,
     /// The ends of the rays.
     vertices: Vec<Point>,
-    /// Metres per newton.
+    /// The scale, metres per newton.
     metres: f64,
 }
 

@@ -11,9 +11,9 @@ use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::scene::{BodyId, Scene};
 
-/// Width of the line of the largest force, unit edges; its least and its largest width, pixels.
+/// The width of the line of the largest force in unit edges, with its least and largest allowed width in pixels.
 const LARGEST_FORCE_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
-/// Width of the line of a force of zero, as a share of the largest width.
+/// Width of the line of a force of zero, as a fraction of the largest width.
 const MIN_WIDTH_SHARE: f64 = 0.22;
 /// Number of widths if lines of many blocks are joined into few paths.
 const WIDTH_STEPS: f64 = 8.0;

@@ -37,8 +37,8 @@ fn thrust_states_of_frames<'c>(
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
-/// Returns the part of the legend text that gives the horizontal thrust of the most central line. Returns `None` if no
-/// frame shows this line.
+/// Returns the part of the legend text that states the horizontal thrust of the most central line. Returns `None` if
+/// no frame shows this line.
 pub(super) fn central_thrust_text(context: &FigureContext<'_>) -> Option<String> {
     let state = thrust_states_of_frames(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))

@@ -1,5 +1,5 @@
-//! [`picture`]: draws an accuracy study as one picture. Each row is a method, with its time, its error and its number
-//! of wrong verdicts for every tolerance.
+//! [`picture`]: draws an accuracy study as one picture. Each row shows one method: its time, its error and its
+//! numbers of wrong and undecided verdicts at every tolerance.
 
 use crate::analysis::Accuracy;
 use crate::drawing::{
@@ -10,17 +10,17 @@ use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 use crate::wording::number::counted;
 
 const WIDTH: f64 = 920.0;
-/// Height of a row.
+/// Height of a row, pixels.
 const ROW_HEIGHT: f64 = 32.0;
-/// Top of the first row.
+/// y coordinate of the top of the first row, pixels.
 const FIRST_ROW_TOP: f64 = 138.0;
-/// Left and right end of the axis of times.
+/// x coordinates of the left and the right end of the time axis, pixels.
 const TIME_AXIS: (f64, f64) = (220.0, 350.0);
-/// Left and right end of the axis of errors.
+/// x coordinates of the left and the right end of the error axis, pixels.
 const ERROR_AXIS: (f64, f64) = (395.0, 550.0);
-/// Positions of the first and the last column of wrong verdicts.
+/// x coordinates of the first and the last column of wrong verdicts, pixels.
 const WRONG_COLUMNS: (f64, f64) = (600.0, 730.0);
-/// Positions of the first and the last column of undecided verdicts.
+/// x coordinates of the first and the last column of undecided verdicts, pixels.
 const UNDECIDED_COLUMNS: (f64, f64) = (764.0, 894.0);
 /// Font size of names and numbers, and of explanations, pixels.
 const FONT_SIZES: (f64, f64) = (15.0, 13.0);
@@ -77,7 +77,7 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
 
 /// Describes the picture for readers who cannot see it: times and wrong verdicts at the default tolerance.
 fn described(lines: &[Summary], frames: usize) -> String {
-    let at = |line: &&Summary| default(line.tolerance);
+    let at = |line: &&Summary| is_default(line.tolerance);
     let described = lines.iter().filter(at).map(|line| {
         format!(
             "{}: {:.2} times the time of standard, {} of {frames} verdicts wrong and {} undecided",
@@ -91,14 +91,19 @@ fn described(lines: &[Summary], frames: usize) -> String {
     format!("At the default tolerance, {}.", described.join("; "))
 }
 
-fn default(tolerance: f64) -> bool {
+/// True if a tolerance is the default of the solver, up to rounding.
+fn is_default(tolerance: f64) -> bool {
     libm::log10(tolerance / DEFAULT_TOLERANCE).abs() < 0.01
 }
 
+/// The layout of the picture.
 struct Page<'p> {
     theme: &'p Theme,
+    /// The least and the largest time on the time axis, relative to standard.
     times: (f64, f64),
+    /// The tolerances of the study, the loosest first.
     tolerances: &'p [f64],
+    /// y coordinate of the bottom of the last row, pixels.
     bottom: f64,
 }
 
@@ -107,7 +112,7 @@ impl Page<'_> {
         Text::new(at, words, face, FONT_SIZES.1, self.theme.faint).into()
     }
 
-    /// Draws the title and the heads of the columns, with the ticks below them.
+    /// Draws the title and the column heads, with the ticks below them.
     fn head(&self, frames: usize) -> Vec<Item> {
         let theme = self.theme;
         let title = "What accuracy costs";
@@ -215,6 +220,7 @@ impl Page<'_> {
         found.unwrap_or(0)
     }
 
+    /// Draws the row of a method. `row` is its index from 0, and `lines` has one summary for each tolerance.
     fn row(&self, row: usize, method: Method, lines: &[&Summary]) -> Vec<Item> {
         let theme = self.theme;
         let y = FIRST_ROW_TOP + ROW_HEIGHT * (row as f64 + 0.5);
@@ -247,7 +253,7 @@ impl Page<'_> {
         );
         for (x, line) in dots {
             let at = PagePoint::new(x, y);
-            let ring = chosen && default(line.tolerance);
+            let ring = chosen && is_default(line.tolerance);
             if ring {
                 let circle = Outline::circle(at, 8.5);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
@@ -260,7 +266,7 @@ impl Page<'_> {
         }
         for line in lines {
             items.extend(self.counts(line, y));
-            if chosen && default(line.tolerance) {
+            if chosen && is_default(line.tolerance) {
                 let at = PagePoint::new(self.column(self.place(line), WRONG_COLUMNS), y);
                 let circle = Outline::circle(at, 11.0);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
@@ -269,7 +275,8 @@ impl Page<'_> {
         items
     }
 
-    /// Draws the numbers of wrong and of undecided verdicts of a summary line. `y` is the middle of its row, in pixels.
+    /// Draws the numbers of wrong and of undecided verdicts of a summary line. `y` is the middle of its row, in
+    /// pixels.
     fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
         let counts = [
             (line.wrong, WRONG_COLUMNS, self.theme.falls),
@@ -286,8 +293,8 @@ impl Page<'_> {
         })
     }
 
-    /// Returns the colour of a dot, which is darker for a tighter tolerance. `place` is the index of the tolerance,
-    /// from 0 for the loosest.
+    /// Returns the colour of a dot. It is darker for a tighter tolerance, and red if some verdict is wrong. `place`
+    /// is the index of the tolerance, from 0 for the loosest.
     fn shade(&self, place: usize, wrong: bool) -> Colour {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
         let full = if wrong {
@@ -368,7 +375,7 @@ mod tests {
         text.lines().filter_map(line).collect()
     }
 
-    /// `UPDATE_SNAPSHOTS=1` draws it again.
+    /// With `UPDATE_SNAPSHOTS=1`, the test writes the picture anew.
     #[test]
     fn the_picture_in_the_documentation_shows_its_table() {
         let lines = printed();
@@ -378,7 +385,7 @@ mod tests {
         if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
             std::fs::write(path, &drawn).expect("writable");
         }
-        let kept = std::fs::read_to_string(path).expect("it is there");
+        let kept = std::fs::read_to_string(path).expect("assets/accuracy.svg exists");
         assert!(
             drawn == kept,
             "assets/accuracy.svg is not the picture of the table"

@@ -1,5 +1,5 @@
-//! [`whole`] and [`of_block`]: tables of forces for a check of equilibrium by hand. One table lists the external forces
-//! on the whole structure, the other lists the forces on one block.
+//! [`whole`] and [`of_block`]: tables of forces for a check of equilibrium by hand. One table lists the external
+//! forces on the whole structure, the other lists the forces on one block.
 
 use super::unit::Units;
 use super::{Grid, TableCell};
@@ -14,18 +14,20 @@ const MAX_REACTIONS: usize = 8;
 /// Largest number of loads in separate rows. If there are more, one row has their sum.
 const MAX_LOADS: usize = 6;
 
-/// Torques below this length (metres) times the force are rounding errors of the solver.
+/// A torque (N·m) counts as a rounding error of the solver up to this value times (1 + force in N).
 const TORQUE_TOL: f64 = 1e-9;
 
 /// A force in a table of forces.
 struct Force {
+    /// The name of the force in the table.
     what: String,
-    /// The point where it acts; `None` for a sum of forces.
+    /// The point at which the force acts, m; `None` for a sum of forces.
     at: Option<Point>,
+    /// The force in N: x to the right, y up.
     force: Vector,
     /// The torque that acts in addition to the force, N·m.
     torque: f64,
-    /// The moment of force and torque about the point of reference, N·m, anticlockwise positive.
+    /// The moment of force and torque about the reference point, N·m, anticlockwise positive.
     moment: f64,
 }
 
@@ -137,8 +139,8 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
     }
 }
 
-/// Returns the forces of the ground on the blocks, one for each joint. If there are more than [`MAX_REACTIONS`] joints,
-/// returns one force for each part of the ground.
+/// Returns the forces of the ground on the blocks, one for each joint. If there are more than [`MAX_REACTIONS`]
+/// joints, returns one force for each part of the ground.
 fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {
@@ -188,7 +190,7 @@ fn robots(
     holding.map(force).collect()
 }
 
-/// Returns the missing forces on these blocks. Missing forces between two of these blocks cancel and are left out. If
+/// Returns the missing forces on `blocks`. Missing forces between two of these blocks cancel and are left out. If
 /// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
 fn missing(
     scene: &Scene,
@@ -219,6 +221,7 @@ fn missing(
     forces
 }
 
+/// Returns one force for each load. If there are more than [`MAX_LOADS`] loads, returns only their sum.
 fn listed_loads<'l>(
     scene: &Scene,
     loads: impl Iterator<Item = &'l Load>,

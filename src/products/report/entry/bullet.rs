@@ -7,7 +7,7 @@ use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, state
 /// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BarEnd {
-    /// The values of the parameter itself begin or end here.
+    /// The parameter has no values beyond this end: for example, a kernel cannot be larger than 1.
     Domain,
     /// The structure falls beyond this end.
     Edge,
@@ -24,7 +24,7 @@ pub struct MarginBar {
     pub name: String,
     /// The values at which the structure stands, and the present value, in words.
     pub words: String,
-    /// The ends of the scale.
+    /// The lowest and the highest value on the scale.
     pub scale: (f64, f64),
     /// The lowest and the highest value at which the structure stands; `None` if it does not stand at any value.
     pub safe: Option<(f64, f64)>,
@@ -48,7 +48,7 @@ pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginB
         .collect()
 }
 
-/// The meaning of the shapes of bars.
+/// A legend for readers: the meaning of the ends of a bar and of the mark at the present value.
 pub(super) const SHAPES_LEGEND: &str = "A bar covers the values at which the structure stands. The structure falls \
                                  beyond a stroke (dashed: not confirmed), and still stands beyond an arrow. The \
                                  present value is a disc inside the bar, a cross outside it, or a ring if its \
@@ -90,7 +90,8 @@ impl MarginBar {
         }
     }
 
-    /// Returns the position of a value on the scale, from 0 to 1. Values outside the scale are moved to the nearer end.
+    /// Returns the position of a value on the scale, from 0 to 1. Values outside the scale are moved to the nearer
+    /// end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         let (low, high) = self.scale;
         let share = if high > low {
@@ -120,8 +121,9 @@ impl MarginBar {
     }
 }
 
-/// Returns the lower and the upper end of the scale. The upper end is [`SCALE_END_RATIO`] times the largest value that
-/// is drawn, or 1 for a kernel. The lower end is 0, or minus the upper end if the parameter can be negative.
+/// Returns the lower and the upper end of the scale. The upper end is [`SCALE_END_RATIO`] times the largest value
+/// that is drawn, or 1 for a kernel. If all drawn values are 0, it is 90 for a tilt and 1 otherwise. The lower end is
+/// 0, or minus the upper end if the parameter can be negative.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);

@@ -1,8 +1,10 @@
 //! [`compared`]: makes the report entry that compares two scenes.
 //!
-//! 1. Steps are paired by their order, blocks by their ids, and interfaces by their bodies and their order between these.
-//! 2. A force counts as changed if it differs by more than 5 % of the larger one.
-//! 3. Changed blocks (outline, place, weight, friction, loads, robots) and changed forces are marked in both figures.
+//! 1. Steps are paired by their order, blocks by their ids, and interfaces by their two bodies. Several interfaces
+//!    between the same bodies are paired by their order.
+//! 2. A force counts as changed if it differs by more than 5 % of the larger force.
+//! 3. Changed blocks (outline, position, weight, friction, loads, robots) and changed forces are marked in both
+//!    figures.
 
 mod force;
 mod mark;
@@ -31,7 +33,7 @@ use shape::Shapes;
 pub struct Side<'s> {
     /// The scene file.
     pub file: File<'s>,
-    /// Its analysis.
+    /// The analysis of the scene.
     pub analysis: &'s Analysis,
 }
 
@@ -104,8 +106,8 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
                 unpaired_step(side, number, drawing, only_in(counts, number))
             }
         };
-        // Set the letter here: `sheet::empty` knows only one scene, but letters are needed if either scene has several
-        // steps.
+        // Set the letter here: `sheet::empty` considers only one scene, but letters are needed if either scene has
+        // several steps.
         section.letter = if several {
             letter(number)
         } else {
@@ -117,6 +119,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
     (stated, sections)
 }
 
+/// Makes the figure of one scene. Its caption has the file name and the verdict.
 fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Figure {
     let scale = "this figure has its own scales for arrows and colours";
     let name = line(side.file.name);
@@ -137,7 +140,7 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`, which says
+/// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`: it states
 /// which scene has the step.
 fn unpaired_step(
     side: Side<'_>,

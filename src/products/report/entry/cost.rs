@@ -1,4 +1,5 @@
-//! [`cost`]: the table of the effects of a step, with their unknowns and times.
+//! [`cost`]: the table of the effects that were considered in a frame, with the unknowns of each effect and, on request,
+//! the time of each stage.
 //!
 //! All effects share one linear program, which is solved once. Unknowns are therefore counted by effect, but times by
 //! stage. Only margins and wedging are computed separately and have separate times.
@@ -9,7 +10,7 @@ use crate::result::Timing;
 use crate::text::line;
 use crate::wording::number::{counted, duration};
 
-/// Makes the table of the effects of a step. The table has times only if `timing` includes them.
+/// Makes the table of the effects of a frame. The table has times only if `timing` includes them.
 pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
     let timed = timing == Timing::Included;
     let (caption, heads): (&str, &[&str]) = match timed {

@@ -12,7 +12,7 @@ use crate::text::line;
 use crate::wording::number::{place, prefixed};
 use crate::wording::{failure, proof};
 
-/// Frames with fewer joints have no charts, because a table shows more than a chart.
+/// Frames with fewer joints have no charts, because a short table is easier to read than a chart.
 const MIN_CHART_JOINTS: usize = 8;
 
 /// Makes the appendix of a frame: all joints, all failures, effects with their cost, the proof in numbers, and

@@ -1,4 +1,4 @@
-//! [`governing`] finds the governing step of a scene. [`headline_words`] states the most important margin of any frame.
+//! [`governing`] finds the governing step of a scene. [`headline_words`] states the most important margin of a frame.
 
 use super::bullet;
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -17,7 +17,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
             let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
             bars.first().map_or(1.0, |bar| bar.reserve)
         };
-        // If margins are equal, the last of these steps governs, because it has the most blocks.
+        // If margins are equal, the last of these steps governs, because it usually has the most blocks.
         let steps = (0..analysis.frames.len()).rev();
         steps
             .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))

@@ -27,11 +27,11 @@ pub struct Line {
 /// A cell of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TableCell {
-    /// Its text.
+    /// The text.
     pub words: String,
     /// A margin that is drawn as a bar. The text of the cell then describes the bar.
     pub bar: Option<MarginBar>,
-    /// A small picture.
+    /// A small picture, which is drawn instead of the text.
     pub picture: Option<Thumbnail>,
     /// The number of the scene to which the text links, from 1.
     pub scene: Option<usize>,

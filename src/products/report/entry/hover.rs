@@ -16,7 +16,7 @@ pub struct HoverTarget {
     pub mark: String,
     /// A description with its numbers.
     pub words: String,
-    /// The two ends of an interface, or the same point twice, in metres.
+    /// The two end points of an interface, in metres. A target at a point has this point twice.
     pub ends: [Point; 2],
 }
 
@@ -66,6 +66,7 @@ fn add_to_scene(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     })
 }
 
+/// Draws a hover target as an invisible shape with a tooltip.
 fn mark(touch: &HoverTarget, camera: &Camera) -> Group {
     let [a, b] = touch.ends.map(|p| camera.place(p));
     let colour = Colour::hex(0x4479b4);

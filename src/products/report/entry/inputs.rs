@@ -75,8 +75,8 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-/// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the scene gives no
-/// outline for the block, or if gravity or thickness is zero.
+/// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the scene has no
+/// outline of the block, or if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
     if own.body.is_schematic {

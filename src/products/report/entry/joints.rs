@@ -1,5 +1,5 @@
-//! [`Ranking`]: the joints of a frame that carry force, those nearest to opening or sliding first. [`robots`] makes the
-//! table of the robots, with their forces and the largest share of a limit that each of them uses.
+//! [`Ranking`]: the joints of a frame that carry force, those nearest to opening or sliding first. [`robots`] makes
+//! the table of the robots, with their forces and the largest fraction of a limit that each of them uses.
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
@@ -13,7 +13,7 @@ use crate::wording::number::percent;
 
 /// Largest number of joints that a sheet lists.
 const MAX_JOINTS: usize = 12;
-/// Forces below this share of the largest force are rounding errors of the solver.
+/// Forces up to this fraction of the largest force are rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 /// Cells with at least this utilisation are emphasised.
 const HIGH_UTILISATION: f64 = 0.8;
@@ -24,8 +24,8 @@ const MAX_JOINTS_WITH_TARGETS: usize = 3000;
 struct UsedJoint {
     /// The index of the contact in the frame.
     contact: usize,
-    /// The distance of the resultant from the middle, m, and this distance divided by the largest allowed distance.
-    /// `None` for a corner.
+    /// The distance of the resultant from the middle of the joint, m, and its ratio to the largest allowed distance.
+    /// `None` for a corner or a joint of length 0.
     off_middle: Option<(f64, f64)>,
     /// The larger of the utilisations for opening and for sliding, 0 … 1.
     share: f64,
@@ -75,8 +75,8 @@ impl<'a> Ranking<'a> {
     }
 
     /// Returns the governing block, for which the report lists all forces. It belongs to the largest failure or,
-    /// without failures, to the joint with the highest utilisation. If two blocks meet there, it is the heavier block.
-    /// Returns `None` if there is no failure and no joint carries force.
+    /// without failures, to the joint with the highest utilisation. If two blocks meet there, it is the heavier
+    /// block. Returns `None` if there is no failure and no joint carries force.
     pub fn block(&self) -> Option<BlockId> {
         let bodies = match failure::by_amount(self.frame_analysis).first() {
             Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
@@ -99,8 +99,8 @@ impl<'a> Ranking<'a> {
         })
     }
 
-    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. Returns `None` if no joint carries
-    /// force.
+    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. Returns `None` if no joint
+    /// carries force.
     pub fn governing(&self) -> Option<String> {
         let first = self.used.first()?;
         let contact = &self.frame_analysis.contacts[first.contact];
@@ -128,7 +128,7 @@ impl<'a> Ranking<'a> {
         let newtons = self
             .units
             .newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
-        let metres = self
+        let positions = self
             .units
             .lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
@@ -144,11 +144,11 @@ impl<'a> Ranking<'a> {
             },
             &[
                 "joint".to_owned(),
-                "#x, m".to_owned(),
-                "#y, m".to_owned(),
+                positions.head("x"),
+                positions.head("y"),
                 newtons.head("normal N"),
                 newtons.head("friction T"),
-                "#e, m".to_owned(),
+                offs.head("e"),
                 "#opening".to_owned(),
                 "#sliding".to_owned(),
             ],
@@ -164,8 +164,8 @@ impl<'a> Ranking<'a> {
                 |share: f64| TableCell::strong_if(share >= HIGH_UTILISATION, percent(share));
             let cells = [
                 name(self.scene, contact).into(),
-                metres.write(at.x).into(),
-                metres.write(at.y).into(),
+                positions.write(at.x).into(),
+                positions.write(at.y).into(),
                 newtons.write(normal(contact)).into(),
                 newtons.write(contact.friction_force).into(),
                 off.into(),
@@ -246,16 +246,18 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// Describes a failure in a sentence. Its amounts have the units of the report sheet.
+/// Describes a failure in a sentence. Forces and torques have the units of the report sheet.
 pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
     let write = |value: f64, unit: Unit| units.words(value, unit);
     failure::missing_sentence(scene, failed, &write)
 }
 
+/// Returns the magnitude of the force at a contact, N.
 fn size(contact: &Contact) -> f64 {
     contact.resultant.force.norm()
 }
 
+/// Returns the normal force at a contact, N.
 fn normal(contact: &Contact) -> f64 {
     contact.normal_forces[0] + contact.normal_forces[1]
 }
@@ -266,8 +268,8 @@ pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
     line(&format!("{a} / {b}"))
 }
 
-/// Returns the distance of a resultant from the middle of its joint, m, and the same distance divided by the largest
-/// allowed distance (at most 1). Returns `None` for a corner or a joint of length 0.
+/// Returns the distance of a resultant from the middle of its joint, m, and the ratio of this distance to the largest
+/// allowed distance, at most 1. Returns `None` for a corner or a joint of length 0.
 fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let interface = &contact.interface;
     let half = 0.5 * interface.length() * (1.0 - kernel);
@@ -286,7 +288,8 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// Makes a table of the robots of a frame, with their forces and the largest share of a limit that each robot uses.
+/// Makes a table of the robots of a frame, with their forces and the largest fraction of a limit that each robot
+/// uses.
 pub(super) fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     let forces = frame_analysis
         .robots

@@ -75,21 +75,22 @@ pub struct File<'f> {
 /// The content of a report on one scene.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its row in the table of all scenes.
+    /// The row of the scene in the table of all scenes.
     pub row: Row,
     /// Project, author and date, if the scene states them.
     pub details: Vec<String>,
-    /// Its content.
+    /// The sections of the report.
     pub sections: Vec<Section>,
-    /// The program and the scene from which the result comes, in one line.
+    /// The version of drystone and a hash of the scene file, in one line.
     pub origin: String,
-    /// Commands that draw the figures again. Each has a purpose and a command.
+    /// Commands that make the figures, the full report and the numbers again. Each pair has the purpose of a command
+    /// and the command.
     pub commands: Vec<(String, String)>,
     /// The scene file for copying: the same values, with escaped characters.
     pub source: String,
-    /// The objects of `check --json`, one line each.
+    /// The JSON objects that `check --json` writes, one line for each scene.
     pub results: Vec<String>,
-    /// The changes of a comparison, one sentence for each step.
+    /// The changes of a comparison, one sentence for each step; empty for a single scene.
     pub changes: Vec<String>,
 }
 
@@ -174,7 +175,7 @@ fn hash(file: &str) -> String {
     format!("{:016x}", text::hash(file.as_bytes()))
 }
 
-/// Returns the result of the scene as one line of JSON, like `check --json`.
+/// Returns the result of the scene as `check --json` writes it, but on one line.
 fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
     let object = to_json_of(name, analysis, timing, Layout::OneLine);
     object.trim_end().to_owned()

@@ -1,5 +1,5 @@
-//! [`SheetPart`]: a part of a report page, without markup. The writers for HTML, Markdown and PDF all read these parts,
-//! so their contents agree.
+//! [`SheetPart`]: a part of a report page, without markup. The writers for HTML, Markdown and PDF all read these
+//! parts, so their contents agree.
 
 use std::borrow::Cow;
 
@@ -53,7 +53,7 @@ pub struct Section {
     pub verdict: Verdict,
     /// Whether the section begins on a new page in print.
     pub begins_page: bool,
-    /// Its content.
+    /// The parts of the section.
     pub parts: Vec<SheetPart>,
 }
 

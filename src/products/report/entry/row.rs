@@ -15,8 +15,8 @@ use crate::wording::verdict::plain;
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);
-/// Largest number of blocks in a thumbnail. If there are more, some are chosen evenly, because a reader could not
-/// distinguish all of them.
+/// Largest number of blocks in a thumbnail. If there are more, only every n-th block is drawn, because a reader could
+/// not distinguish all of them.
 const MAX_THUMBNAIL_BLOCKS: usize = 400;
 
 /// A summary of a scene.
@@ -28,7 +28,7 @@ pub struct Row {
     pub name: String,
     /// The title of the scene, or the name of its file.
     pub title: String,
-    /// The worst verdict of its steps.
+    /// The worst verdict of the steps.
     pub verdict: Verdict,
     /// The verdict of the first scene in a comparison.
     pub before: Option<Verdict>,
@@ -38,17 +38,18 @@ pub struct Row {
     pub blocks: usize,
     /// The most important margin of the governing step as a sentence; empty if no margin was computed.
     pub headline: String,
-    /// The relative distance to the end of this margin, 0 … 1. It is −1 for a falling scene without a margin of
-    /// loads, and 2 if no margin was computed.
+    /// The relative distance to the end of this margin, 0 … 1. It is −1 for a falling scene whose most important
+    /// margin is not the load factor, and 2 if no margin was computed.
     pub reserve: f64,
-    /// The largest used share of the available friction of an interface, among the steps that stand. `None` if no step
+    /// The largest utilisation of friction at an interface (0 … 1), among the steps that stand. `None` if no step
     /// stands, because the forces of a falling step include the missing forces.
     pub friction: Option<f64>,
-    /// The largest force of an interface or robot in N, among the steps that stand; `None` if no step stands.
+    /// The largest force at an interface or of a robot in N, among the steps that stand; `None` if no step stands.
     pub largest: Option<f64>,
     /// The units in which the forces are written.
     pub units: UnitsEntry,
-    /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps stand.
+    /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps
+    /// stand.
     pub fails: String,
     /// A small picture.
     pub thumbnail: Thumbnail,
@@ -143,7 +144,7 @@ impl Row {
         }
     }
 
-    /// Returns the largest used share of the available friction as text; `none stands` if no frame stands.
+    /// Returns the largest utilisation of friction as text; `none stands` if no frame stands.
     pub(crate) fn friction_words(&self) -> String {
         self.friction.map_or_else(|| "none stands".into(), percent)
     }

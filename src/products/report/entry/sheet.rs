@@ -104,8 +104,8 @@ pub(super) fn sheet(
     section
 }
 
-/// Describes the steps `numbers`, which do not stand, in two columns. For each step, it shows the first figure and the
-/// reason for the verdict.
+/// Describes the steps `numbers`, which do not stand, in two columns. For each step, it shows the first figure and
+/// the reason for the verdict.
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
@@ -141,7 +141,7 @@ pub(super) fn others(
         .collect()
 }
 
-/// Returns a sentence with the verdict and its reasons. Amounts have the units of the report sheet.
+/// Returns a sentence with the verdict and its reasons. Forces and torques have the units of the report sheet.
 fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let units = Units::new(scene, frame_analysis);
     let write = |value: f64, unit: Unit| units.words(value, unit);
@@ -159,8 +159,8 @@ fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge 
     }
 }
 
-/// Draws the figures of a frame. If the frame falls, they show the collapse and the forces. If it stands, they show the
-/// force flow, and how the frame would fall beyond its margin. If it is undecided, they show the forces.
+/// Draws the figures of a frame. If the frame falls, they show the collapse and the forces. If it stands, they show
+/// the force flow, and how the frame would fall beyond its margin. If it is undecided, they show the forces.
 fn figures(
     analysis: &Analysis,
     number: usize,
@@ -340,8 +340,8 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns remarks that a reader of the results must know: the result of the test for wedging, and the notices of the
-/// analysis.
+/// Returns the remarks at the end of the sheet: the result of the test for wedging, unless the structure stands
+/// without wedging, and the notices of the analysis.
 fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
     let wedging = frame_analysis
         .effects

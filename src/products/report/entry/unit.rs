@@ -28,8 +28,8 @@ pub(super) struct Units {
 }
 
 impl Units {
-    /// Chooses the prefix for the largest force, weight or load: M, k, m, µ or no prefix. Above 1000 N the prefix is k,
-    /// above 10⁸ N it is M.
+    /// Chooses the prefix for the largest force, weight or load: M, k, m, µ or no prefix. Above 1000 N the prefix is
+    /// k, above 10⁸ N it is M. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
     pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
         let contacts = frame_analysis
             .contacts
@@ -107,7 +107,7 @@ impl Units {
         }
     }
 
-    /// Writes an amount for a sentence, with three significant digits and its unit. `value` is in the SI unit.
+    /// Writes a quantity for a sentence, with three significant digits and its unit. `value` is in the SI unit.
     pub fn words(self, value: f64, unit: Unit) -> String {
         let number = three(value * self.factor(unit));
         format!("{number} {}", self.symbol(unit))
@@ -142,7 +142,7 @@ impl Column {
     pub fn write(&self, value: f64) -> String {
         let text = format!("{:.*}", self.decimals, value * self.factor);
         match text.strip_prefix('-') {
-            // No negative zero.
+            // Write zero without a minus sign.
             Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
             Some(rest) => format!("−{rest}"),
             None => text,
@@ -160,11 +160,13 @@ impl Column {
     }
 }
 
+/// Returns the largest finite absolute value; 0 if there is none.
 fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     let finite = numbers.into_iter().map(f64::abs).filter(|x| x.is_finite());
     finite.fold(0.0, f64::max)
 }
 
+/// Returns the number of decimals, at most 9, that shows `largest` with [`SIGNIFICANT_DIGITS`] digits.
 fn decimals(largest: f64) -> usize {
     if largest <= 0.0 {
         return 0;

@@ -1,4 +1,5 @@
-//! [`fails_first`] and [`changes_of_verdict`]: sentences on where a frame fails first, and what would change its verdict.
+//! [`fails_first`] and [`changes_of_verdict`]: sentences about the first failure of a frame, and about changes that
+//! would change its verdict.
 
 use super::joints::name;
 use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
@@ -11,7 +12,7 @@ use crate::wording::number::{counted, listed, place, three, three_down, three_up
 
 /// Largest number of joints or blocks that a sentence names.
 const MAX_NAMED: usize = 4;
-/// Speeds below this share of the largest speed are rounding errors of the solver.
+/// Speeds up to this fraction of the largest speed are rounding errors of the solver.
 const MOTION_TOL: f64 = 2e-3;
 
 /// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,
@@ -83,7 +84,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     let mut moved = with_only_frame(analysis, number);
     moved.frames[0].mechanism = mechanism.to_vec();
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
-    let frame_analysis = joints(&moved, 0);
+    let moving_joints = joints(&moved, 0);
     let at = |joint: &&Joint| {
         let contact = &contacts[joint.contact];
         match joint.hinge {
@@ -94,12 +95,12 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
             None => name(scene, contact),
         }
     };
-    let hinges: Vec<String> = frame_analysis
+    let hinges: Vec<String> = moving_joints
         .iter()
         .filter(|j| j.hinge.is_some())
         .map(|j| at(&j))
         .collect();
-    let slides = frame_analysis
+    let slides = moving_joints
         .iter()
         .filter(|j| j.hinge.is_none() && j.slip != 0.0);
     let slides: Vec<String> = slides.map(|j| at(&j)).collect();
@@ -139,8 +140,8 @@ fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
     moving.count()
 }
 
-/// Describes changes of loads, friction or gravity that would change the verdict. Returns at most one sentence for each
-/// computed margin.
+/// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns at
+/// most one sentence for each computed margin.
 pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     stated(scene, frame_analysis)
         .iter()
@@ -148,14 +149,15 @@ pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) 
         .collect()
 }
 
-/// Describes the change of one parameter that would change the verdict. `None` if there is none to describe.
+/// Describes which change of one parameter would change the verdict, or states that none would. Returns `None` if the
+/// margin is undecided or there is no sentence for it.
 fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     if matches!(margin.interval, Interval::Undecided) {
         return None;
     }
     let ends = [margin.interval.low(), margin.interval.high()];
-    let is_open = |end: &&End| matches!(end, End::Unconfirmed { .. });
-    if ends.iter().flatten().any(is_open) {
+    let is_unconfirmed = |end: &&End| matches!(end, End::Unconfirmed { .. });
+    if ends.iter().flatten().any(is_unconfirmed) {
         // The value where the structure begins to fall is not known.
         let (name, sentence) = (&margin.name, margin.sentence());
         return Some(format!("For the {name}, the structure {sentence}."));
@@ -214,8 +216,8 @@ fn limit_of_loads(low: Option<f64>, high: Option<f64>) -> String {
     }
 }
 
-/// Describes the nearest factor on the loads at which a falling structure would stand. `low` and `high` are the ends of
-/// the interval of factors at which it stands.
+/// Describes the nearest factor on the loads at which a falling structure would stand. `low` and `high` are the ends
+/// of the interval of factors at which it stands.
 fn loads_that_stand(low: Option<f64>, high: Option<f64>) -> String {
     let factor = match (low, high) {
         (Some(low), _) if low > 1.0 => three_up(low),
@@ -225,7 +227,8 @@ fn loads_that_stand(low: Option<f64>, high: Option<f64>) -> String {
     format!("The structure would stand at {factor} times its loads.")
 }
 
-/// Describes the tilts of gravity, in degrees, at which a standing structure would fall. `None` if it falls at no tilt.
+/// Describes how far gravity must turn to each side until a standing structure falls. `low` and `high` are the ends of
+/// the interval of tilts at which it stands, in degrees. Returns `None` if both ends are `None`.
 fn limit_of_tilt(low: Option<f64>, high: Option<f64>) -> Option<String> {
     let sides = [
         low.map(|v| format!("{}° to the left", three_up(v.abs()))),
@@ -245,15 +248,16 @@ mod tests {
     use super::*;
     use crate::analysis::Options;
 
-    /// At an end that is not confirmed, the structure is only known to stand: no sentence may say that it falls there.
+    /// At an end that is not confirmed, the structure is only known to stand: no sentence may say that it falls
+    /// there.
     #[test]
-    fn an_end_that_is_not_confirmed_is_no_place_where_it_falls() {
+    fn no_sentence_says_that_the_structure_falls_at_an_unconfirmed_end() {
         let scene = Scene::from_json(
             r#"{ "drystone": 1, "ground": [{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }],
                  "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "density": 100 }],
                  "loads": [{ "block": "a", "at": [2, 1], "force": [10, 0] }] }"#,
         )
-        .expect("a sound scene");
+        .expect("a valid scene");
         let mut analysis = Analysis::with(&scene, &Options::default().margins(true));
         let frame = &mut analysis.frames[0];
         let margins = frame.margins.as_mut().expect("margins were requested");

@@ -5,14 +5,16 @@ use maud::{Markup, html};
 use crate::report::entry::{BarEnd, MarginBar};
 use crate::wording::margin::Position;
 
-/// Width and height of a bar.
+/// Width and height of a bar, pixels.
 const BAR_SIZE: (f64, f64) = (220.0, 20.0);
-/// Distance of the ends of the scale from the ends of the bar. Marks and arrows at these ends stay inside the bar.
+/// Distance between an end of the scale and the end of the picture, pixels. It is space for marks and arrows at the
+/// ends of the scale.
 const INSET: f64 = 7.0;
 
-/// Draws a margin as a bar that covers the values at which the structure stands. An end is a stroke, which is dashed if
-/// the end is not confirmed, or an arrow if the values have no end there. The present value is a disc inside the bar, a
-/// cross outside it, or a ring if its position is unknown. The shapes differ, so that they are clear without colours.
+/// Draws a margin as a bar that covers the values at which the structure stands. An end is a stroke, which is dashed
+/// if the end is not confirmed, or an arrow if the values have no end there. An end of the domain of the parameter
+/// has no mark. The present value is a disc inside the bar, a cross outside it, or a ring if its position is unknown.
+/// The shapes differ, so that they are clear without colours.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR_SIZE;
     let at = |value: f64| {

@@ -1,10 +1,10 @@
 //! Writes a report as HTML. The page needs no other file, no network and no scripts.
 //!
 //! `maud` escapes all text. Text from files was reduced to one safe line before. Only figures, charts, the style
-//! sheet, the script and finished parts of the page are inserted without escaping. Scripts add sorting, filtering,
-//! steps and the marks that follow the mouse. The body of a scene is in a `noscript`. With scripts it is plain text
-//! until the reader opens the scene, so that a page with a thousand scenes opens at once. Without scripts the browser
-//! shows it as it is.
+//! sheet, the script and finished parts of the page are inserted without escaping. Scripts add sorting and filtering,
+//! marks that follow the mouse, and buttons that enlarge a figure or copy the scene file. The body of a scene is in a
+//! `noscript` element. With scripts, the body stays plain text until the reader opens the scene, so that a page with
+//! a thousand scenes opens at once. Without scripts, the browser shows the body.
 
 mod bar;
 mod part;
@@ -25,7 +25,8 @@ const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 /// The content security policy of a page, which forbids all requests.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-/// The policy of a page with interactive figures, whose script starts workers from its own text.
+/// The content security policy of a page with interactive figures. Their script starts web workers from its own
+/// source text.
 const INTERACTIVE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' blob: 'wasm-unsafe-eval'; \
      worker-src blob:; img-src data:";
 

@@ -43,6 +43,8 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
     .into_string()
 }
 
+/// Writes a section of a scene. `number` is the number of the scene, and `place` the number of the section in the
+/// scene. Both count from 1.
 fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
     let id = format!("scene-{number}-step-{place}");
     let label = format!("{} {}", section.letter, section.title);
@@ -74,12 +76,15 @@ fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
 
 /// Writes the parts of a section and numbers its figures.
 struct Writer {
+    /// The prefix of all ids in the figures, which must be unique on the page.
     mark: String,
-    /// The numbers of the scene and of the section.
+    /// The numbers of the scene and of the section: `3.1`.
     place: String,
     /// The level of the headings of parts.
     level: u8,
+    /// The number of drawings so far.
     figures: usize,
+    /// The number of tables so far.
     tables: usize,
 }
 
@@ -220,6 +225,7 @@ fn cell(cell: &TableCell) -> Markup {
     }
 }
 
+/// Writes the commands that make the results of a scene again, and the text of its file.
 fn again(entry: &Entry, number: usize) -> Markup {
     html! {
         details.again {

@@ -10,13 +10,13 @@ use crate::report::entry::Badge;
 use crate::report::head::sign;
 use crate::wording::verdict::plain;
 
-/// Space for the word of the verdict at the left of the panel.
+/// Width of the space for the verdict at the left of the panel, pixels.
 const WORD_WIDTH: f64 = 150.0;
-/// Space above and below the content of the panel.
+/// Space above and below the content of the panel, pixels.
 const PADDING: f64 = 10.0;
-/// Height of the headline margin's bar with the space below it.
+/// Height of the bar of the headline margin, with the space below it, pixels.
 const BAR_HEIGHT: f64 = 22.0;
-/// Font size of the headline.
+/// Font size of the headline, pixels.
 const HEADLINE_SIZE: f64 = 14.0;
 
 /// The texts of a badge. Code points replace characters that the fonts do not have.

@@ -6,9 +6,9 @@ use crate::output::pdf::Role;
 use crate::report::entry::{BarEnd, MarginBar};
 use crate::wording::margin::Position;
 
-/// Height of a bar.
+/// Height of a bar, pixels.
 pub(super) const HEIGHT: f64 = 16.0;
-/// Distance of the ends of the scale from the ends of the bar.
+/// Distance between an end of the scale and the end of the picture, pixels.
 const INSET: f64 = 6.0;
 const SAFE_COLOUR: u32 = 0x002e_8b62;
 const FALLS_COLOUR: u32 = 0x009c_1515;
@@ -50,8 +50,9 @@ impl BarPlace<'_> {
         Outline::line([PagePoint::new(from, y), PagePoint::new(to, y)])
     }
 
-    /// Draws the part of the bar at which the structure stands. An end is a stroke if it is confirmed, a dashed stroke
-    /// if not, and an arrow if the values have no end. An end at the limit of the parameter's domain has no mark.
+    /// Draws the part of the bar for the values at which the structure stands. An end is a stroke if it is confirmed,
+    /// a dashed stroke if not, and an arrow if the values have no end. An end at the limit of the parameter's domain
+    /// has no mark.
     fn safe_part(&self, flow: &mut Flow) {
         let Some((from, to)) = self.bar.safe else {
             return;
@@ -81,7 +82,7 @@ impl BarPlace<'_> {
         }
     }
 
-    /// Draws the present value: a disc in the safe part, a cross outside it, or a circle if its position is unknown. If
+    /// Draws the present value: a disc in the safe part, a cross outside it, or a ring if its position is unknown. If
     /// only two bounds of the value are known, both bounds are drawn.
     fn present_value(&self, flow: &mut Flow) {
         let Some((least, most)) = self.bar.now else {

@@ -12,9 +12,9 @@ use crate::text::line;
 
 /// Width and height of A4 in pixels, 96 per inch.
 pub(super) const PAGE_SIZE: (f64, f64) = (793.7, 1122.5);
-/// The margin of a page, 15 mm.
+/// The margin of a page in pixels: 15 mm.
 pub(super) const MARGIN: f64 = 56.7;
-/// The lower end of the text.
+/// The y coordinate of the lower end of the text, pixels.
 pub(super) const TEXT_BOTTOM: f64 = PAGE_SIZE.1 - MARGIN - 8.0;
 /// The font size in pixels: 9 pt.
 pub(super) const TEXT_SIZE: f64 = 12.0;
@@ -22,28 +22,31 @@ pub(super) const TEXT_SIZE: f64 = 12.0;
 pub(super) const SMALL_TEXT_SIZE: f64 = 10.5;
 /// The line height relative to the font size.
 pub(super) const LINE_HEIGHT: f64 = 1.38;
-/// The largest height of a figure.
+/// The largest height of a figure, pixels.
 const MAX_FIGURE_HEIGHT: f64 = 300.0;
-/// The height of a heading with the space around it.
+/// The height of a heading with the space around it, pixels.
 pub(super) const HEADING_HEIGHT: f64 = 32.0;
 /// A paragraph of at most this many lines stays on one page.
 const MAX_UNBROKEN_LINES: usize = 6;
-/// Space between two columns.
+/// Space between two columns, pixels.
 pub(super) const COLUMN_GAP: f64 = 14.0;
 
 /// Places text, tables and figures on pages from top to bottom.
 pub(super) struct Flow {
     pub pages: Vec<Page>,
-    /// The number of the current page.
+    /// The index of the current page.
     current: usize,
+    /// The y coordinate at which the next item begins, pixels.
     pub y: f64,
-    /// The left edge and the width of the column.
+    /// The x coordinate of the left edge of the column, pixels.
     pub left: f64,
+    /// The width of the column, pixels.
     pub room: f64,
-    /// The number of tables until now.
+    /// The number of tables so far.
     pub tables: usize,
     pub theme: Theme,
     fonts: Fonts,
+    /// The line at the foot of every page.
     foot: String,
     /// The items since the last closed group.
     open: Vec<Item>,
@@ -79,6 +82,7 @@ impl Flow {
         &mut self.pages[self.current]
     }
 
+    /// Starts a new page, unless the current page is empty.
     pub fn new_page(&mut self) {
         if self.y > MARGIN {
             self.current += 1;
@@ -94,6 +98,7 @@ impl Flow {
         }
     }
 
+    /// Adds one line of text. Its top is at the current y coordinate, and `x` is the coordinate of its anchor.
     pub fn put(
         &mut self,
         words: &str,
@@ -108,6 +113,7 @@ impl Flow {
         self.open.push(text.into());
     }
 
+    /// Adds an item to the group that the next [`Flow::close`] makes.
     pub fn add(&mut self, item: impl Into<Item>) {
         self.open.push(item.into());
     }
@@ -126,6 +132,7 @@ impl Flow {
         page.roles.push(role);
     }
 
+    /// Draws a horizontal line between two x coordinates.
     pub fn rule(&mut self, from: f64, to: f64, y: f64, colour: Colour, width: f64) {
         let line = Outline::line([PagePoint::new(from, y), PagePoint::new(to, y)]);
         self.add(Path::stroked(line, Stroke::new(colour, width)));
@@ -137,6 +144,7 @@ impl Flow {
         self.fonts.spelled(&line(words)).into_owned()
     }
 
+    /// Adds text, broken into lines that fit the column. A short text stays on one page.
     pub fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour, role: &Role) {
         let words = self.legible(words);
         let rows = wrap(&words, face, size, self.room);
@@ -211,6 +219,7 @@ impl Flow {
         self.y += 0.4 * TEXT_SIZE;
     }
 
+    /// Adds a paragraph in bold letters, without space below it.
     pub fn strong(&mut self, words: &str) {
         self.words(
             words,
@@ -221,6 +230,7 @@ impl Flow {
         );
     }
 
+    /// Adds a paragraph in small, faint letters.
     pub fn note(&mut self, words: &str) {
         self.words(
             words,

@@ -1,8 +1,8 @@
 //! Writes a report as PDF: A4 pages with figures, links, bookmarks and tagged text.
 //!
-//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading or
-//! table cell, and figures are placed on it. Tables break between rows and repeat their heads. Figures are scaled down
-//! if they do not fit, and are never cut.
+//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading
+//! or table cell, and figures are placed on it. Tables break between rows and repeat their column heads. Figures are
+//! scaled down if they do not fit, and are never cut.
 
 mod badge;
 mod bar;
@@ -21,9 +21,11 @@ use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Page {
     groups: Vec<Group>,
+    /// The role of each group.
     roles: Vec<Role>,
+    /// Figures. Each has its drawing, its upper left corner and its scale.
     figures: Vec<(Drawing, PagePoint, f64)>,
-    /// Charts and small pictures as SVG, with their descriptions.
+    /// Charts and small pictures. Each has its SVG, its description, its upper left corner and its scale.
     charts: Vec<(String, String, PagePoint, f64)>,
     /// Links. Each has its area, the number of the scene to which it leads, from 1, and its text.
     links: Vec<(PageRect, usize, String)>,
@@ -85,7 +87,8 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     flow.pages
 }
 
-/// Returns the line at the foot of every page: the program, the scene and the names of its files, without folders.
+/// Returns the line at the foot of every page: the version of drystone, a hash of the scene, and the names of its
+/// files without folders.
 fn foot(entry: &Entry) -> String {
     let names = entry.row.name.split(" → ");
     let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));

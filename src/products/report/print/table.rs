@@ -1,4 +1,4 @@
-//! Adds tables to pages. A table can break between rows; the next page then repeats the heads.
+//! Adds tables to pages. A table can break between rows; the next page then repeats the column heads.
 
 use super::bar;
 use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, MARGIN, SMALL_TEXT_SIZE, TEXT_BOTTOM, TEXT_SIZE};
@@ -7,28 +7,32 @@ use crate::drawing::{Anchor, Face, PagePoint, PageRect};
 use crate::output::pdf::Role;
 use crate::report::entry::{Grid, TableCell, Thumbnail};
 
-/// A table that is at most this share of a page high stays on one page.
+/// A table stays on one page if its rows are lower than this fraction of the page height.
 const MAX_UNBROKEN_SHARE: f64 = 0.3;
-/// Width of a bar in a table.
+/// Width of a bar in a table, pixels.
 const BAR_WIDTH: f64 = 160.0;
-/// Width and height of a small picture in a table.
+/// Width and height of a small picture in a table, pixels.
 const PICTURE_SIZE: (f64, f64) = (64.0, 40.0);
-/// Largest additional width of a column if a table is narrower than its page.
+/// Largest width that is added to each column if a table is narrower than its page, pixels.
 const MAX_SPREAD: f64 = 45.0;
-/// The width for which a small picture is drawn, pixels.
+/// Width of the SVG document of a small picture, before it is scaled to [`PICTURE_SIZE`], pixels.
 const DRAWN_PICTURE_WIDTH: f64 = 96.0;
 
 /// The layout of a table.
 struct Layout {
+    /// The number of the table in the document.
     number: usize,
     head: Vec<TableCell>,
     rows: Vec<Vec<TableCell>>,
-    /// Whether a column contains numbers.
+    /// For each column, whether it contains numbers.
     is_number: Vec<bool>,
+    /// The widths of the columns, pixels.
     widths: Vec<f64>,
 }
 
 impl Flow {
+    /// Adds a table. It starts on a new page if the current page has too little space. A table without rows is left
+    /// out.
     pub fn grid(&mut self, grid: &Grid) {
         if grid.lines.is_empty() {
             return;
@@ -130,7 +134,7 @@ impl Flow {
         let top = self.y;
         let face = face(cell);
         let colour = self.theme.ink;
-        // A cell that is longer than a page is cut. The other forms of the report have the whole text.
+        // A cell that is taller than a page is cut. The other forms of the report have the whole text.
         let most = ((TEXT_BOTTOM - MARGIN) / (LINE_HEIGHT * SMALL_TEXT_SIZE)) as usize - 4;
         for part in wrap(&cell.words, face, SMALL_TEXT_SIZE, wide)
             .into_iter()
@@ -151,8 +155,8 @@ impl Flow {
 }
 
 impl Layout {
-    /// Returns the height, in pixels, that must be free on a page for the table to begin there. For a short table, this
-    /// is its whole height. For a long table, it is the height of the caption, the head and two rows.
+    /// Returns the height, in pixels, that must be free on a page for the table to begin there. For a short table,
+    /// this is its whole height. For a long table, it is the height of the caption, the head and two rows.
     fn least(&self, grid: &Grid) -> f64 {
         let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
         let rows = match whole < MAX_UNBROKEN_SHARE * (TEXT_BOTTOM - MARGIN) {
@@ -163,6 +167,7 @@ impl Layout {
         caption * TEXT_SIZE + self.height(&self.head) + rows
     }
 
+    /// Returns the height of a row, pixels.
     fn height(&self, row: &[TableCell]) -> f64 {
         let cells = row.iter().zip(&self.widths);
         let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
@@ -195,9 +200,9 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// Returns the widths of the columns in pixels. If there is enough space, each column has the width of its text plus a
-/// share of the free space. If not, heads break at their spaces. If that is not enough, the widest columns become
-/// narrower.
+/// Returns the widths of the columns in pixels. If there is enough space, each column has the width of its text plus
+/// an equal part of the free space. If not, column heads break at their spaces. If that is not enough, the widest
+/// columns become narrower.
 fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();

@@ -1,12 +1,12 @@
-//! The names of the fields of a batch line, in the order of the result: the keys of a result, and `verdict`, the worst
-//! verdict of all frames.
+//! The names of the fields of a batch line, in the order of the result: the keys of a result, and `verdict`, the
+//! worst verdict of all frames.
 
 use std::sync::LazyLock;
 
 use crate::result::key::{KEYS, Type};
 use crate::text;
 
-/// A name, and the names of its parts. The parts of a list are those of its entries.
+/// The name of a field, and the fields below it. The fields below a list are the fields of its entries.
 #[derive(Debug)]
 pub(super) struct Name {
     pub word: &'static str,
@@ -16,8 +16,8 @@ pub(super) struct Name {
 /// All fields that can be selected, except `all` and `picture`. The file is part of every line.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // A path with `*` is a key below the name of a robot. Such keys are not separate fields: they are selected
-    // together.
+    // A path with `*` belongs to a key below the name of a robot. These keys can only be selected together, so they
+    // are no fields of their own.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))

@@ -5,8 +5,8 @@
 //! 3. `shape` and the functions below describe what changed in each pair: position, rotation, outline, colour, text.
 //!
 //! The comparison works for SVG of any program. However, if another program writes a shape with other elements, the
-//! shape is reported as changed. Attributes that depend on the whole content (`id`) are ignored. Positions are compared
-//! with a tolerance of 0.025 pixels, because drystone rounds them to 0.01.
+//! shape is reported as changed. Attributes that depend on the whole drawing (`id`, `aria-labelledby`) are ignored.
+//! Positions are compared with a tolerance of 0.025 pixels, because drystone rounds them to 0.01.
 
 mod pairing;
 mod shape;
@@ -16,10 +16,10 @@ use shape::Movement;
 use tree::Element;
 pub use tree::SvgParseError;
 
-/// Tolerance for positions, in pixels. Two values of the same number, rounded to 0.01, differ by at most 0.01. Sums of
-/// two such values differ by at most 0.02.
+/// Tolerance for positions, in pixels. A tiny change of a coordinate changes its rounded value by at most 0.01. It
+/// changes the sum of two rounded values by at most 0.02.
 const POSITION_TOL: f64 = 0.025;
-/// If at least this many elements share a change, it is reported once.
+/// A change that at least this many elements share is reported once.
 const MIN_GROUPED: usize = 4;
 
 /// A change of one element.
@@ -31,7 +31,7 @@ struct Event {
     change: String,
 }
 
-/// Describes the differences between two drawings, given as SVG text. Empty if there are no differences.
+/// Describes the differences between two drawings, given as SVG text. The list is empty if there are no differences.
 ///
 /// # Errors
 /// [`SvgParseError`] if one of the texts is not SVG; `expected` is read first.
@@ -157,8 +157,8 @@ fn same_value(a: &str, b: &str) -> bool {
             })
 }
 
-/// True if two texts are equal, apart from one unit in the last digit of rounded numbers. A number counts as rounded if
-/// it has a decimal point, or if ° or % follows it. The facts layer compares the same numbers more precisely.
+/// True if two texts are equal, apart from one unit in the last digit of rounded numbers. A number counts as rounded
+/// if it has a decimal point, or if ° or % follows it. The facts layer compares the same numbers more precisely.
 fn same_words(a: &str, b: &str) -> bool {
     if a == b {
         return true;
@@ -182,6 +182,7 @@ fn unit(number: &str) -> f64 {
     format!("1e-{decimals}").parse().unwrap_or(1.0)
 }
 
+/// Reads a colour of the form `#ff0000` as red, green and blue; `None` for any other text.
 fn colour(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#').filter(|d| d.len() == 6)?;
     let value = u32::from_str_radix(digits, 16).ok()?;

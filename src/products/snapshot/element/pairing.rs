@@ -3,7 +3,7 @@
 //! The algorithm is a longest common subsequence in three stages, as in a text diff:
 //!
 //! 1. Pair elements that are equal.
-//! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path points.
+//! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path commands.
 //! 3. Between those, pair elements with the same tag, class and label.
 //!
 //! The other elements are paired by tag and class, if both lists have equally many elements of this kind.
@@ -12,7 +12,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use super::tree::Element;
 
-/// The largest table for the longest common subsequence: 4 million entries of 4 bytes. Longer lists use a greedy search.
+/// The largest table for the longest common subsequence: 4 million entries of 4 bytes. Longer lists use a greedy
+/// search.
 const MAX_TABLE_ENTRIES: usize = 4_000_000;
 
 type Pair<'e> = (Option<&'e Element>, Option<&'e Element>);
@@ -31,7 +32,7 @@ fn key(element: &Element, stage: usize) -> u64 {
     match stage {
         0 => element.hash(&mut hasher),
         1 => {
-            let places = element
+            let commands = element
                 .place_of("d")
                 .map_or(0, |d| d.matches(char::is_alphabetic).count());
             (
@@ -39,7 +40,7 @@ fn key(element: &Element, stage: usize) -> u64 {
                 &element.class,
                 element.label(),
                 &element.words,
-                places,
+                commands,
             )
                 .hash(&mut hasher);
         }
@@ -109,8 +110,8 @@ fn longest_common_subsequence(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Finds the longest common subsequence by dynamic programming, and returns it as pairs of indices. The table contains
-/// the length of the subsequence for all pairs of suffixes.
+/// Finds the longest common subsequence by dynamic programming, and returns it as pairs of indices. The table
+/// contains the length of the subsequence for all pairs of suffixes.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];

@@ -1,4 +1,5 @@
-//! [`movement`]: describes how the position or outline of an element changed. No other file of this folder uses svgtypes.
+//! [`movement`]: describes how the position or outline of an element changed. No other file of this folder uses
+//! svgtypes.
 
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 
@@ -112,9 +113,9 @@ fn rounded(by: f64) -> f64 {
     }
 }
 
-/// Returns the angle, in radians, of the rotation that fits the points `a` best to the points `b`. `from` and `to` are
-/// the centroids of `a` and `b`. With p and q relative to them, the least-squares (Procrustes) solution in the plane is
-/// atan2(Σ p × q, Σ p · q).
+/// Returns the angle, in radians, of the rotation that fits the points `a` best to the points `b`. `from` and `to`
+/// are the centroids of `a` and `b`. With points p of `a` and q of `b`, each relative to its centroid, the
+/// least-squares (Procrustes) solution in the plane is atan2(Σ p × q, Σ p · q).
 fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -128,6 +129,7 @@ fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -
     libm::atan2(across, along)
 }
 
+/// Returns the mean of the points.
 fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     let count = points.len().max(1) as f64;
     let sum = points

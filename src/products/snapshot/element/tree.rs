@@ -94,8 +94,8 @@ impl Element {
         }
     }
 
-    /// Returns the name that messages use for the place of this element's children. `within` describes the place of the
-    /// element itself.
+    /// Returns the words with which messages locate the children of this element. These are its own name if it is the
+    /// page or has a title. Otherwise they are `within`, the words that locate the element itself.
     pub(super) fn place(&self, within: &str) -> String {
         if self.tag == "svg" || !self.title.is_empty() {
             self.called(within)
@@ -105,6 +105,7 @@ impl Element {
     }
 }
 
+/// Reads SVG text into a tree of elements.
 pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
     if text.trim().is_empty() {
         return Err(SvgParseError::Empty);
@@ -143,8 +144,8 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
             "aria-label" => found.title = value,
             _ if IGNORED_ATTRIBUTES.contains(&name) => {}
             _ if SHAPE_ATTRIBUTES.contains(&name) => found.shape.push((name.to_owned(), value)),
-            // Ignore the id after `#`, because it depends on the content of the whole drawing. The element with this id
-            // is compared separately.
+            // Ignore the id after `#`, because it depends on the content of the whole drawing. The element with this
+            // id is compared separately.
             _ if value.starts_with("url(#") => {
                 found.attributes.push((name.to_owned(), "url".into()))
             }

@@ -11,19 +11,19 @@ pub struct Change {
     /// A description on one line.
     pub words: String,
     /// The weight for sorting. Changes of the scene itself have the largest weight, because they cause the other
-    /// changes. Then come verdicts, falling blocks, objects that appear or vanish, failures, and numbers. The weight of
-    /// a number is its change in units of its last digit.
+    /// changes. Then come verdicts, falling blocks, objects that appear or vanish, failures, and numbers. The weight
+    /// of a number is its change in units of its last digit.
     weight: f64,
 }
 
-/// The kind of a fact that says that a block falls.
+/// The kind of the fact that a block falls.
 const FALLING_FACT: &str = "falling";
-/// If more blocks than this begin to fall, or no longer fall, they share one line.
+/// If more than this number of blocks begin to fall, or no longer fall, one line reports all of them.
 const MAX_SINGLE_BLOCKS: usize = 4;
 
 /// Added to the weight of a change of the scene: a block, gravity, the kernel, the title.
 const CAUSE_WEIGHT: f64 = 5e9;
-/// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these classes.
+/// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these constants.
 const VERDICT_WEIGHT: f64 = 4e9;
 /// Weight of a block that begins to fall, or no longer falls.
 const FALL_WEIGHT: f64 = 3e9;
@@ -34,6 +34,7 @@ const FAILURE_WEIGHT: f64 = 1e9;
 
 pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
     let mut changes = Vec::new();
+    // The first section is about the scene, so more than two sections mean several frames.
     let several = expected.sections.len().max(found.sections.len()) > 2;
     for (old, new) in pairs(&expected.sections, &found.sections) {
         match (old, new) {
@@ -171,8 +172,8 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
     names
 }
 
-/// If many blocks begin to fall, reports all of them in one line, and removes their keys from `names`. Does the same
-/// for blocks that no longer fall.
+/// If more than [`MAX_SINGLE_BLOCKS`] blocks begin to fall, reports all of them in one line, and removes their keys
+/// from `names`. Does the same for blocks that no longer fall.
 fn group_falling(
     was: &ByName<'_>,
     is: &ByName<'_>,
@@ -334,7 +335,7 @@ fn change(old: &Value, new: &Value) -> String {
 }
 
 /// Returns the largest difference between two values, in units of their last digit. Returns `None` if rounding can
-/// explain the difference. Returns 1e6 if the values differ in their unit, in the number of their numbers, or in a
+/// explain the difference. Returns 1e6 if the values differ in their unit, in how many numbers they have, or in a
 /// word.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
@@ -359,7 +360,7 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
             _ => most = 1e6,
         }
     }
-    // A rounding error of the solver may change the last digit by 1 unit. A change by 2 units is reported, so the limit
-    // is 1.5.
+    // A rounding error of the solver may change the last digit by 1 unit. A change by 2 units is reported, so the
+    // limit is 1.5.
     (most > 1.5).then_some(most)
 }

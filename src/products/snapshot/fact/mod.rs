@@ -1,7 +1,7 @@
 //! [`Facts`]: the results of a scene as text that people can read, store and compare.
 //!
-//! Each fact is one line, under a heading for its frame. The object and its names are before the colon, the results are
-//! after it.
+//! Each fact is one line, under a heading for its frame. The object and its names are before the colon, the results
+//! are after it.
 //!
 //! ```text
 //! drystone facts 1
@@ -13,9 +13,9 @@
 //!   interface "a" "ground": N 6.00000 N, T 0.00000 N, N at its ends 3.00000 3.00000 N, μ 0.7
 //! ```
 //!
-//! Numbers are rounded to [`DIGITS`] digits of the largest load. Two numbers are equal if they differ by at most 1.5
-//! units of the last digit: rounding errors of the solver are smaller, and a change by one percent is far larger.
-//! Frames that are undecided have no proof, so their forces are not reported.
+//! Numbers are rounded so that the largest load has [`DIGITS`] significant digits. Two numbers count as equal if they
+//! differ by at most 1.5 units of the last digit: rounding errors of the solver are smaller, and a change by one
+//! percent is far larger. Frames that are undecided have no proof, so their forces are not reported.
 
 mod compare;
 mod read;
@@ -65,8 +65,8 @@ struct Value {
 }
 
 impl Facts {
-    /// Collects the facts of an analysis. Forces are rounded so that the largest load has `digits` significant digits,
-    /// usually [`DIGITS`]. All other forces have the same number of decimals.
+    /// Collects the facts of an analysis. Forces are rounded so that the largest load has `digits` significant
+    /// digits, usually [`DIGITS`]. All other forces have the same number of decimals.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
@@ -93,7 +93,8 @@ impl Facts {
 
     /// Reads facts from the text of a reference file.
     ///
-    /// # Errors [`FactsError`] if the text is not a list of facts. It names the first line that is not a fact.
+    /// # Errors
+    /// [`FactsError`] if the text is not a list of facts. It names the first line that is not a fact.
     pub fn read(text: &str) -> Result<Facts, FactsError> {
         read::facts(text)
     }

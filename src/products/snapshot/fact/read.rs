@@ -3,7 +3,7 @@
 use super::write::FIRST_LINE;
 use super::{Fact, Facts, Section, Value};
 
-/// Why a text is not a list of facts.
+/// The reason why a text is not a list of facts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FactsError {
     /// The file is empty.
@@ -15,7 +15,7 @@ pub enum FactsError {
     /// A file with merge conflicts.
     #[error("line {0} is a mark of a merge conflict; resolve it, or accept the facts again")]
     Conflict(usize),
-    /// The first line is missing.
+    /// The first line does not identify the file as a list of facts.
     #[error("its first line is not \"{FIRST_LINE}\"")]
     Foreign,
     /// A line that cannot be read.
@@ -53,10 +53,10 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
             text: crate::text::heading(line, 60),
         };
         let fact = fact(line.trim()).ok_or_else(wrong)?;
-        let heads = fact.kind == "scene" || fact.kind.starts_with("frame ");
+        let is_heading = fact.kind == "scene" || fact.kind.starts_with("frame ");
         match sections.last_mut() {
-            Some(section) if !heads => section.facts.push(fact),
-            None if !heads => return Err(wrong()),
+            Some(section) if !is_heading => section.facts.push(fact),
+            None if !is_heading => return Err(wrong()),
             _ => sections.push(Section {
                 head: fact,
                 facts: Vec::new(),
@@ -79,19 +79,20 @@ fn fact(line: &str) -> Option<Fact> {
     }
     let values = rest.strip_prefix(':')?.trim();
     let values: Vec<Value> = values.split(", ").map(value).collect();
-    let sound = !kind.is_empty()
+    let is_valid = !kind.is_empty()
         && values
             .iter()
             .all(|v| !v.unit.is_empty() || !v.numbers.is_empty());
-    sound.then_some(Fact {
+    is_valid.then_some(Fact {
         kind,
         names,
         values,
     })
 }
 
-/// Reads a quoted name; `text` begins after the opening quotation mark. Returns the name without escapes, and the text
-/// after the closing quotation mark. Returns `None` if there is no closing quotation mark.
+/// Reads a quoted name from `text`, which begins after the opening quotation mark. Returns the name with escaped
+/// characters restored, and the text after the closing quotation mark. Returns `None` if there is no closing
+/// quotation mark.
 fn unquoted(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut escaped = false;

@@ -16,9 +16,10 @@ impl Rounding {
     /// Chooses the decimal place at which `largest` has `digits` significant digits. If `largest` is zero, negative,
     /// infinite or NaN, the place is chosen for 1 instead.
     pub(super) fn new(digits: usize, largest: f64) -> Rounding {
-        let sound = largest > 0.0 && largest.is_finite();
-        let size = if sound { largest } else { 1.0 };
-        // Read the exponent from the printed number, because a computed logarithm may be wrong by one at powers of ten.
+        let is_valid = largest > 0.0 && largest.is_finite();
+        let size = if is_valid { largest } else { 1.0 };
+        // Read the exponent from the printed number, because a computed logarithm may be wrong by one at powers of
+        // ten.
         let printed = format!("{size:e}");
         let ten: i32 = printed
             .split_once('e')
@@ -96,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_numbers_end_at_the_place_of_the_largest() {
+    fn all_numbers_end_at_the_decimal_place_of_the_largest_number() {
         let written = |largest: f64, value: f64| Rounding::new(6, largest).write(value);
         assert_eq!(written(24.0, 4.460_206_8), "4.4602");
         assert_eq!(written(6.0, -0.000_000_4), "0.00000");

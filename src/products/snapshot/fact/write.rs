@@ -12,7 +12,7 @@ pub const DIGITS: usize = 6;
 /// The first line of a facts file, with the version of the format.
 pub(super) const FIRST_LINE: &str = "drystone facts 1";
 /// Blocks slower than this, relative to the fastest block, are not reported as falling. Another optimum of the same
-/// program may hold such a block, so the fact would not be reproducible.
+/// program may leave such a block at rest, so the fact would not be reproducible.
 const MIN_FALLING_SPEED: f64 = 1e-3;
 
 /// The roundings for the quantities of one scene.
@@ -146,9 +146,9 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
     }
 }
 
-/// Returns the forces at two points, sorted by the positions of the points along a fixed direction. The facts therefore
-/// do not depend on the order of the points in the result. The direction has an irrational slope (0.38…, from the
-/// golden ratio), so that two different points hardly ever have the same position along it.
+/// Returns the forces at two points, sorted by the positions of the points along a fixed direction. The facts
+/// therefore do not depend on the order of the points in the result. The direction has an irrational slope (0.38…,
+/// from the golden ratio), so that two different points hardly ever have the same position along it.
 fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;
@@ -159,8 +159,8 @@ fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Returns the sorted names of two bodies, with the ground last. The facts therefore do not depend on the order of the
-/// bodies in the result.
+/// Returns the sorted names of two bodies, with the ground last. The facts therefore do not depend on the order of
+/// the bodies in the result.
 fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
     let mut names: Vec<(bool, String)> = bodies
         .iter()
@@ -255,6 +255,7 @@ fn unitless(name: &str, value: f64) -> Value {
     }
 }
 
+/// Makes a value that is only a word, without a number.
 fn word(word: &str) -> Value {
     Value {
         name: String::new(),
@@ -278,6 +279,7 @@ pub(super) fn text(facts: &Facts) -> String {
     out
 }
 
+/// Appends a fact to `out` as one line.
 fn line(out: &mut String, indent: &str, fact: &Fact) {
     out.push_str(indent);
     out.push_str(&fact.kind);

@@ -4,14 +4,14 @@ use super::Picture;
 use super::palette::max_channel_difference;
 use super::perception::{differ, is_antialiased};
 
-/// The differences that pixels may have.
+/// The largest differences at which two pixels count as equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelTolerance {
-    /// The largest allowed difference of a channel, of 255. Colours of transparent pixels are multiplied by alpha first.
-    /// The default is 1: another processor or compiler may round a blended colour to the neighbouring value.
+    /// The largest allowed difference of a channel, 0 … 255. Colours of transparent pixels are multiplied by alpha
+    /// first. The default is 1: another processor or compiler may round a blended colour to the neighbouring value.
     pub channel: u8,
-    /// If given, pixels beyond `channel` must also look different: their colour distance must exceed this threshold, from 0
-    /// to 1, and they must not be antialiasing of the same edge. pixelmatch uses 0.1.
+    /// If given, a pixel that differs by more than `channel` must also look different. Its colour distance must
+    /// exceed this threshold (0 … 1), and it must not be antialiasing of the same edge. pixelmatch uses 0.1.
     pub perceptual: Option<f64>,
 }
 
@@ -28,13 +28,14 @@ impl Default for PixelTolerance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PixelMark {
     Same,
+    /// Different only in antialiasing, so that it counts as equal.
     Smoothed,
     Changed,
     /// Outside one of the pictures.
     Beyond,
 }
 
-/// A pixel of both pictures.
+/// The pixels at one position in both pictures.
 struct PixelPair<'p> {
     expected: &'p Picture,
     found: &'p Picture,
@@ -43,8 +44,8 @@ struct PixelPair<'p> {
 }
 
 impl PixelPair<'_> {
-    /// Compares the two pixels. Returns the mark of the pixel, and the largest difference of a colour channel. Returns
-    /// `None` if the tolerance allows this difference.
+    /// Compares the two pixels. Returns the mark of the pixel, and the largest difference of a colour channel.
+    /// Returns `None` if the tolerance allows this difference.
     fn compare(&self, tolerance: PixelTolerance) -> Option<(PixelMark, u8)> {
         let (expected, found) = (self.expected, self.found);
         let (a, b) = (expected.pixel(self.x, self.y), found.pixel(self.x, self.y));
@@ -60,7 +61,8 @@ impl PixelPair<'_> {
         if !differ(a, b, threshold) {
             return None;
         }
-        // Antialiasing is detected from neighbouring pixels. The neighbours correspond only in pictures of equal size.
+        // Antialiasing is detected from neighbouring pixels. The neighbours correspond only in pictures of equal
+        // size.
         let same_size = (expected.width, expected.height) == (found.width, found.height);
         let antialiased = same_size
             && (is_antialiased(expected, found, self.x, self.y)
@@ -81,11 +83,11 @@ pub struct Difference {
     pub changed: u64,
     /// The number of pixels that differ only in antialiasing. Such pixels count as equal.
     pub smoothed: u64,
-    /// The number of pixels that both pictures have.
+    /// The number of pixels in the area that both pictures share.
     pub of: u64,
-    /// The largest difference of a channel, of 255.
+    /// The largest difference of a channel, 0 … 255.
     pub largest: u8,
-    /// Left, top, width and height of the bounding box of the pixels that differ.
+    /// Left, top, width and height of the bounding box of the pixels that differ; `None` if no pixel differs.
     pub bounds: Option<[u32; 4]>,
     /// The sizes of the expected and of the found picture: width and height.
     pub sizes: [(u32, u32); 2],
@@ -93,7 +95,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Compares a picture with the expected one.
+    /// Compares the picture `found` with the expected picture.
     ///
     /// # Example
     /// ```
@@ -127,7 +129,7 @@ impl Difference {
                 let begin = y as usize * p.width as usize;
                 begin..begin + width as usize
             };
-            // 1. Skip equal rows and equal pixels, because most of them are equal.
+            // 1. Skip equal rows and equal pixels. Most of them are equal.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;
@@ -214,8 +216,8 @@ impl Difference {
         words.join("; ")
     }
 
-    /// Draws an image of the difference. The expected picture is pale grey. Pixels that differ are red, and a rectangle
-    /// encloses them. Antialiasing is yellow, and pixels outside one of the pictures are blue.
+    /// Draws an image of the difference. The expected picture is pale grey. Pixels that differ are red, and a
+    /// rectangle encloses them. Antialiasing is yellow, and pixels outside one of the pictures are blue.
     pub fn image(&self, expected: &Picture) -> Picture {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (wide, high) = (ew.max(fw), eh.max(fh));

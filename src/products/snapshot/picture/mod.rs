@@ -1,8 +1,9 @@
 //! [`Picture`]: reads PNG files from any program, and writes small reference files.
 //!
-//! Every PNG becomes 8-bit red, green, blue and alpha, not premultiplied; 16 bits are rounded to 8. Other files give a
-//! [`PictureError`] that says what they are. [`Picture::encode`] may round rare colours to make the file small. It then
-//! stores the rounding of each colour, and [`Difference`] allows for it.
+//! Every PNG becomes 8-bit red, green, blue and alpha, not premultiplied; 16-bit channels are rounded to 8 bits. For
+//! other files, [`Picture::decode`] returns a [`PictureError`] that names the kind of file. [`Picture::encode`] may
+//! round rare colours to make the file small. It then stores the rounding of each colour, and [`Difference`] allows
+//! for it.
 //!
 //! `output::png` writes the pictures for users; this module reads and writes references.
 
@@ -47,7 +48,7 @@ impl Subject {
     }
 }
 
-/// Why a file cannot be compared.
+/// The reason why a file cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PictureError {
     /// The file is empty.
@@ -88,8 +89,8 @@ pub struct Picture {
     pub width: u32,
     /// The height in pixels.
     pub height: u32,
-    /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha is 0, the
-    /// other channels are 0 too, because nobody sees them.
+    /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha
+    /// is 0, the other channels are 0 too, because they are invisible.
     rgba: Vec<[u8; 4]>,
     /// For each colour that was rounded, the largest rounding of a channel.
     rounding: BTreeMap<[u8; 4], u8>,
@@ -122,7 +123,8 @@ impl Picture {
 
     /// Decodes a PNG.
     ///
-    /// # Errors [`PictureError`] if the bytes are not a PNG, or a PNG that is damaged, too large or animated.
+    /// # Errors
+    /// [`PictureError`] if the bytes are not a PNG, or a PNG that is damaged, too large or animated.
     ///
     /// # Example
     /// ```
@@ -212,13 +214,13 @@ impl Picture {
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())
     }
 
-    /// Returns the largest amount, of 255, by which a channel of this colour may have been rounded.
+    /// Returns the largest rounding error of a channel of this colour, 0 … 255.
     fn rounding_of(&self, colour: [u8; 4]) -> u8 {
         self.rounding.get(&colour).copied().unwrap_or(0)
     }
 }
 
-/// Returns an error that says what the bytes are, if they do not begin like a PNG. Returns `None` if they do.
+/// Returns `None` if the bytes begin like a PNG. Otherwise returns an error that names the kind of file.
 fn not_png_error(bytes: &[u8]) -> Option<PictureError> {
     let begins = |with: &[u8]| bytes.starts_with(with);
     if bytes.is_empty() {
@@ -247,8 +249,8 @@ fn not_png_error(bytes: &[u8]) -> Option<PictureError> {
     }))
 }
 
-/// Converts samples of any colour type to 8-bit red, green, blue and alpha. The decoder has already expanded palettes,
-/// and samples with fewer than 8 bits.
+/// Converts samples of any colour type to 8-bit red, green, blue and alpha. The decoder has already expanded
+/// palettes, and samples with fewer than 8 bits.
 fn to_rgba(data: &[u8], colour: ColorType, depth: BitDepth) -> Vec<[u8; 4]> {
     let eight: Vec<u8>;
     let samples = if depth == BitDepth::Sixteen {

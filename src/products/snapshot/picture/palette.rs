@@ -1,15 +1,15 @@
-//! [`Palette`]: chooses at most 256 colours for a picture, and records for each of them the largest rounding error of the
-//! colours that it replaces.
+//! [`Palette`]: chooses at most 256 colours for a picture, and records for each of them the largest rounding error of
+//! the colours that it replaces.
 //!
-//! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The algorithm
-//! is a variant of median cut (Heckbert 1982) that minimises the largest error:
+//! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The
+//! algorithm is a variant of median cut (Heckbert 1982) that minimises the largest error:
 //!
 //! 1. Frequent colours stay exact, so that even a small change of such a colour is found.
 //! 2. The other colours start in one box. The box with the widest channel is cut in half until the palette is full.
-//! 3. Each box is represented by the colour next to its centre.
+//! 3. Each box is represented by its colour that is nearest to its centre.
 //!
-//! The file stores the rounding error of each colour of the palette as two hexadecimal digits. Without it, the comparison would have to allow
-//! the largest rounding for every pixel.
+//! The file stores the rounding error of each colour of the palette as two hexadecimal digits. Without these numbers,
+//! the comparison would have to allow the largest rounding error for every pixel.
 
 use std::collections::BTreeMap;
 
@@ -50,8 +50,8 @@ impl Palette {
         }
         let mut common: Vec<([u8; 4], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
         common.retain(|(_, count)| *count >= MIN_FREQUENT_PIXELS);
-        // Sort the colours by frequency, the most frequent first. Colours with equal counts keep the order of the map,
-        // so that the result is reproducible.
+        // Sort the colours by frequency, the most frequent first. Colours with equal counts keep the order of the
+        // map, so that the result is reproducible.
         common.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         common.truncate(MAX_EXACT_COLOURS);
         let mut entries: Vec<([u8; 4], Vec<[u8; 4]>)> = Vec::with_capacity(MAX_COLOURS);
@@ -66,6 +66,7 @@ impl Palette {
         Some(Palette::with(entries))
     }
 
+    /// Makes a palette from its colours. Each colour comes with the colours of the picture that it replaces.
     fn with(mut entries: Vec<([u8; 4], Vec<[u8; 4]>)>) -> Palette {
         entries.sort();
         let mut palette = Palette {
@@ -93,8 +94,8 @@ impl Palette {
     }
 }
 
-/// Reads the rounding of each colour of the palette `table` from the stored text. A text that does not have one number
-/// for each colour is ignored.
+/// Reads the rounding of each colour of the palette `table` from the stored text. A text that does not have one
+/// number for each colour is ignored.
 pub(super) fn rounding(note: &str, table: &[u8]) -> BTreeMap<[u8; 4], u8> {
     let digits: Vec<char> = note.chars().collect();
     let values = digits.chunks(2).map(|pair| {
@@ -115,7 +116,8 @@ pub(super) fn max_channel_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     channels.max().unwrap_or(0)
 }
 
-/// Finds the colour channel with the widest range of values. Returns its lowest value, its highest value and its index.
+/// Finds the colour channel with the widest range of values. Returns its lowest value, its highest value and its
+/// index.
 fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     let range = |channel: usize| {
         let values = members.iter().map(|m| m[channel]);
@@ -132,8 +134,8 @@ fn widest(members: &[[u8; 4]]) -> (u8, u8, usize) {
     best
 }
 
-/// Divides colours into at most `max` boxes of similar colours. The box with the widest range of values in one channel
-/// is repeatedly cut at the middle of this range.
+/// Divides colours into at most `max` boxes of similar colours. The box with the widest range of values in one
+/// channel is repeatedly cut at the middle of this range.
 fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     let mut boxes = vec![all];
     let mut widths = vec![widest(&boxes[0])];
@@ -161,8 +163,8 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     boxes
 }
 
-/// Returns the member of a box that is nearest to the centre of the box. The palette thus has no colour twice, because
-/// no other box contains this colour.
+/// Returns the member of a box that is nearest to the centre of the box. The palette thus has no colour twice,
+/// because no other box contains this colour.
 fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     let mut centre = [0; 4];
     for (channel, value) in centre.iter_mut().enumerate() {
@@ -228,7 +230,7 @@ pub(super) fn encode(
 mod tests {
     use super::*;
 
-    /// A page of one colour with a smooth ramp of very many others in a corner.
+    /// A page with two large areas of one colour each, and a smooth gradient of many colours in a corner.
     fn page() -> Picture {
         let pixel = |i: u32| {
             let (x, y) = (i % 200, i / 200);
@@ -260,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn few_colours_and_transparent_pages_lose_nothing() {
+    fn pictures_with_few_colours_or_transparent_pixels_are_stored_exactly() {
         let few = Picture::new(3, 1, vec![[1, 2, 3, 255], [9, 9, 9, 40], [7, 7, 7, 0]]);
         let read = Picture::decode(&few.encode(None).expect("encoded")).expect("readable");
         assert_eq!(read, few);

@@ -1,12 +1,12 @@
 //! Decides whether two colours look different, and whether a pixel is part of an antialiased edge.
 //!
-//! Colour distance: Kotsarenko and Ramos (2010), in the YIQ colour space. Antialiasing: Vyšniauskas (2009). A pixel is
-//! antialiased if it has a darker and a brighter neighbour, and one of these lies in an area of one colour in both
+//! Colour distance: Kotsarenko and Ramos (2010), in the YIQ colour space. Antialiasing: Vyšniauskas (2009). A pixel
+//! is antialiased if it has a darker and a brighter neighbour, and one of these lies in an area of one colour in both
 //! pictures. pixelmatch uses the same two rules; a test compares with its counts.
 
 use super::Picture;
 
-/// The largest distance, between black and white.
+/// The largest squared colour distance: that between black and white.
 const MAX_DISTANCE: f64 = 35_215.0;
 
 /// Blends a colour with a white background. Channels range from 0 to 255.
@@ -15,16 +15,18 @@ fn on_white([r, g, b, a]: [u8; 4]) -> [f64; 3] {
     [r, g, b].map(|c| 255.0 + (f64::from(c) - 255.0) * share)
 }
 
+/// Returns the brightness of a colour: the channel Y of YIQ.
 fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.298_895_31 * r + 0.586_622_47 * g + 0.114_482_23 * b
 }
 
-/// True if two colours look different. The threshold ranges from 0 (any difference counts) to 1 (the difference of
-/// black and white).
+/// True if two colours look different. The threshold of their colour distance ranges from 0 (any difference counts)
+/// to 1 (the distance between black and white).
 pub(super) fn differ(a: [u8; 4], b: [u8; 4], threshold: f64) -> bool {
     distance(a, b) > MAX_DISTANCE * threshold * threshold
 }
 
+/// Returns the squared colour distance in the YIQ colour space, from 0 to [`MAX_DISTANCE`].
 fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     if a == b {
         return 0.0;
@@ -56,7 +58,7 @@ pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32)
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);
     let mut equal = usize::from(edge);
-    let (mut darkest, mut brightest) = ((0.0, (x, y)), (0.0, (x, y)));
+    let (mut brightest, mut darkest) = ((0.0, (x, y)), (0.0, (x, y)));
     for (i, j) in around {
         let delta = if picture.pixel(i, j) == picture.pixel(x, y) {
             0.0
@@ -68,14 +70,14 @@ pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32)
             if equal > 2 {
                 return false;
             }
-        } else if delta < darkest.0 {
-            darkest = (delta, (i, j));
-        } else if delta > brightest.0 {
+        } else if delta < brightest.0 {
             brightest = (delta, (i, j));
+        } else if delta > darkest.0 {
+            darkest = (delta, (i, j));
         }
     }
     let is_flat = |(i, j): (u32, u32)| is_flat(picture, i, j) && is_flat(other, i, j);
-    darkest.0 < 0.0 && brightest.0 > 0.0 && (is_flat(darkest.1) || is_flat(brightest.1))
+    brightest.0 < 0.0 && darkest.0 > 0.0 && (is_flat(brightest.1) || is_flat(darkest.1))
 }
 
 /// True if more than two neighbours of a pixel have the same colour as the pixel. The border of the picture counts as

@@ -1,4 +1,5 @@
-//! [`falls_headline`] describes what a falling frame lacks to stand, for example the share of its load that it carries.
+//! [`falls_headline`] describes what a falling frame lacks to stand, for example which fraction of its load it
+//! carries.
 
 use super::super::number::NO_BREAK;
 use super::confirmed;
@@ -6,8 +7,8 @@ use super::list::friction;
 use crate::analysis::{FrameAnalysis, Interval, Verdict};
 use crate::scene::Scene;
 
-/// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame stands
-/// or is undecided, or if no computed margin shows what is lacking.
+/// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame
+/// stands or is undecided, or if no computed margin shows what is lacking.
 pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
     if frame_analysis.verdict != Verdict::Unstable {
         return None;
@@ -20,7 +21,7 @@ pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<S
     Some(format!("falls: {lack}"))
 }
 
-/// Describes which share of its loads a falling frame carries, or how many times its loads it would need to stand.
+/// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.
 /// Returns `None` if neither is known.
 fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     let loads = match scene.loads.len() {
@@ -29,7 +30,7 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     };
     let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
     match (low, high) {
-        // Round down, so that the frame carries at least the written share.
+        // Round down, so that the frame carries at least the written fraction.
         (_, Some(high)) if high < 1.0 => {
             let share = libm::floor(100.0 * high + 1e-4);
             Some(match share >= 1.0 {
@@ -42,8 +43,8 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     }
 }
 
-/// Describes the friction coefficient with which a falling frame would stand. Returns `None` if its present friction is
-/// large enough, or if no such coefficient is known.
+/// Describes the friction coefficient with which a falling frame would stand. Returns `None` if its present friction
+/// is large enough, or if no such coefficient is known.
 fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(frame_analysis)?;
     match interval {
@@ -57,7 +58,8 @@ fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<
     }
 }
 
-/// Writes a positive number with two decimals. The number is rounded up, so that the frame stands at the written value.
+/// Writes a positive number with two decimals. The number is rounded up, so that the frame stands at the written
+/// value.
 fn above(value: f64) -> String {
     format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
 }

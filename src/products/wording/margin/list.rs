@@ -122,8 +122,8 @@ pub(super) fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// Returns whether the present friction coefficients lie inside the interval of the friction margin, which is for one
-/// coefficient at all interfaces. `alike` is the result if the present coefficients are all equal.
+/// Returns the position of the present friction coefficients relative to the interval of the friction margin. The
+/// interval assumes one coefficient at all interfaces. `alike` is the result if all present coefficients are equal.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,

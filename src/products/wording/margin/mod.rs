@@ -1,5 +1,5 @@
-//! Describes margins in words. A margin is the interval of values of a parameter at which a frame stands, compared with
-//! the present value.
+//! Describes margins in words. A margin is the interval of values of a parameter at which a frame stands, compared
+//! with the present value.
 //!
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
@@ -134,12 +134,12 @@ impl StatedMargin<'_> {
             && (from_zero || free(self.interval.low()))
     }
 
-    /// Returns the relative distance of the present value from the nearest end of the interval, from 0 to 1. It is 0 if
-    /// the frame does not stand at the present value, and 1 if the interval has no end or is
-    /// undecided.
+    /// Returns the relative distance of the present value from the nearest end of the interval, from 0 to 1. It is 0
+    /// if the frame is not known to stand at the present value. It is 1 if the interval has no end or is undecided.
     ///
-    /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the present
-    /// value. The distance of a tilt is divided by 90°. A horizontal force is already a fraction of the weight.
+    /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the
+    /// present value. There are three exceptions: the distance of a tilt is divided by 90°, that of a kernel by 1
+    /// minus the present kernel, and a horizontal force is already a fraction of the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {
             return 0.0;
@@ -179,8 +179,8 @@ pub fn confirmed(end: &End) -> Option<f64> {
     }
 }
 
-/// Describes each margin of a frame in one line, the most important margin first. The notes on margins follow, one line
-/// each.
+/// Describes each margin of a frame in one line, the most important margin first. The notes on margins follow, one
+/// line each.
 pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, frame_analysis);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());

@@ -92,13 +92,13 @@ impl ThemeReader {
         self.note(path, "unknown key".into(), help);
     }
 
-    /// Reports a problem if the value is not one of the known names. `sort` says in the message what is named, for
-    /// example "theme".
+    /// Reports a problem if the value is not one of the known names. `sort` is the kind of the names for the message,
+    /// for example "theme".
     fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
         let Value::Text(name) = value else {
             return self.note(
                 path,
-                format!("{} is no {sort}", value.stated()),
+                format!("{} is not a {sort}", value.stated()),
                 known.join(", "),
             );
         };
@@ -107,8 +107,12 @@ impl ThemeReader {
         }
         let near =
             nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
-        let help = format!("known are {}{}", known.join(", "), near.unwrap_or_default());
-        self.note(path, format!("{} is no {sort}", value.stated()), help);
+        let help = format!(
+            "known names are {}{}",
+            known.join(", "),
+            near.unwrap_or_default()
+        );
+        self.note(path, format!("{} is not a {sort}", value.stated()), help);
     }
 
     fn colour(&mut self, path: &str, value: &Value) -> Option<Colour> {
@@ -152,7 +156,7 @@ impl ThemeReader {
 
     fn amplitudes(&mut self, value: &Value) -> Option<Vec<Colour>> {
         if let Value::Text(name) = value {
-            self.name(AMPLITUDES_KEY, value, &ramp::NAMES, "row of colours");
+            self.name(AMPLITUDES_KEY, value, &ramp::NAMES, "colour ramp");
             return ramp::named(name);
         }
         let stops = self.colours(AMPLITUDES_KEY, value, 2)?;

@@ -12,8 +12,9 @@ use crate::text::line;
 use crate::wording::failure::pair;
 use crate::wording::number::{digits, percent};
 
-/// The forces at common interfaces.
+/// The forces at the interfaces that both frames have.
 pub(super) struct SharedForces<'a> {
+    /// One entry for each common interface, changed or not.
     pub all: Vec<ForceChange<'a>>,
     /// Forces of at most this magnitude, N, count as zero.
     noise: f64,

@@ -22,8 +22,8 @@ fn radius(places: &[PagePoint]) -> f64 {
     };
     let (width, height) = (span(|p| p.x), span(|p| p.y));
     let count = places.len() as f64;
-    // Estimate the distance between neighbouring rings, as if they were spread evenly over their bounding box or along
-    // a line.
+    // Estimate the distance between neighbouring rings, as if they were spread evenly over their bounding box or
+    // along a line.
     let apart = f64::max(
         libm::sqrt(width * height / count),
         width.max(height) / count,

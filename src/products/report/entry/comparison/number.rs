@@ -5,7 +5,8 @@ use crate::analysis::FrameAnalysis;
 use crate::report::entry::{Grid, bullet};
 use crate::wording::number::{digits, tenths};
 
-/// Writes the change of a number relative to `before`, in percent, with its sign; `none` if there is no change.
+/// Writes the change of a number relative to `before`, in percent, with its sign. Returns `none` if there is no
+/// change, and `from nothing` if `before` is 0.
 pub(super) fn change(before: f64, after: f64) -> String {
     if (after - before).abs() <= 1e-9 * before.abs() {
         return "none".to_owned();

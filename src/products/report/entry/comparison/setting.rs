@@ -13,11 +13,12 @@ use crate::wording::number::{amount, digits, listed, place};
 /// Largest number of differences that a sentence names.
 const MAX_NAMED_DIFFERENCES: usize = 4;
 
-/// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts.
+/// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts, if any.
 type FrameInputs = Vec<(String, String, Option<usize>)>;
 
 /// The inputs that differ, apart from the blocks.
 pub(super) struct Settings {
+    /// The name of an input, its value in the first frame, and its value in the second frame.
     lines: Vec<[String; 3]>,
     /// The indices of the blocks whose loads or robots differ, in the first and in the second frame.
     pub blocks: [Vec<usize>; 2],
@@ -75,6 +76,7 @@ impl Settings {
     }
 }
 
+/// Returns the inputs of a frame, apart from its blocks.
 fn given(scene: &Scene, number: usize) -> FrameInputs {
     let frame = &scene.frames[number];
     let corners = if scene.corner_contacts {

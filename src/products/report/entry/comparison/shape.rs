@@ -11,7 +11,8 @@ use crate::text::line;
 use crate::wording::failure::shortened;
 use crate::wording::number::{amount, digits, listed, place};
 
-/// A block counts as moved if its centroid moved by more than this times the largest coordinate of both scenes.
+/// A block counts as moved if its centroid moved by more than `MOVE_TOL` times the largest absolute coordinate in
+/// both scenes.
 const MOVE_TOL: f64 = 1e-6;
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 6;
@@ -25,6 +26,7 @@ pub(super) struct Shapes {
     pub new_or_changed: Vec<usize>,
     gone: Vec<String>,
     new: Vec<String>,
+    /// The names of changed blocks, each with a description of its changes.
     changed: Vec<(String, String)>,
 }
 
@@ -44,7 +46,7 @@ impl Shapes {
             list.iter().map(|(id, i)| (id.as_str(), *i)).collect()
         });
         let [was, is] = sides.map(|side| &side.analysis.scene);
-        let reach = reach(is).max(reach(was));
+        let max_coordinate = max_coordinate(is).max(max_coordinate(was));
         let mut shapes = Shapes::default();
         for (id, old) in &then {
             let Some(new) = after.get(id.as_str()) else {
@@ -52,7 +54,12 @@ impl Shapes {
                 shapes.gone_or_changed.push(*old);
                 continue;
             };
-            let how = differs(&was.blocks[*old], &is.blocks[*new], reach, is.units);
+            let how = differs(
+                &was.blocks[*old],
+                &is.blocks[*new],
+                max_coordinate,
+                is.units,
+            );
             if !how.is_empty() {
                 shapes.gone_or_changed.push(*old);
                 shapes.new_or_changed.push(*new);
@@ -110,19 +117,19 @@ impl Shapes {
 }
 
 /// Returns the largest absolute coordinate of all corners of blocks, m.
-fn reach(scene: &Scene) -> f64 {
+fn max_coordinate(scene: &Scene) -> f64 {
     let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
     corners
         .map(|p| p.x.abs().max(p.y.abs()))
         .fold(0.0, f64::max)
 }
 
-/// Describes the differences of a block between two scenes; empty if the blocks are equal. `reach` is the largest
-/// absolute coordinate, m.
-fn differs(was: &Block, is: &Block, reach: f64, units: UnitsEntry) -> String {
+/// Describes the differences of a block between two scenes; empty if the blocks are equal. `max_coordinate` is the
+/// largest absolute coordinate in both scenes, m.
+fn differs(was: &Block, is: &Block, max_coordinate: f64, units: UnitsEntry) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
-    let near = MOVE_TOL * reach;
+    let near = MOVE_TOL * max_coordinate;
     let rings = |block: &Block| -> Vec<Vec<Point>> { block.body.polygon.rings().to_vec() };
     let (before, after) = (rings(was), rings(is));
     let same_shape = before.len() == after.len()
