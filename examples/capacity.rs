@@ -2,7 +2,7 @@
 //!
 //! Change the numbers below: the span, the posts, the friction, or the point at which the force acts.
 
-#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use std::error::Error;
 
@@ -71,10 +71,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The largest force to the right that is carried for every tilt of up to 2° and every friction from 0.5 to 0.7.
     let cases = Cases::default().tilt(-2.0, 2.0).friction(0.5, 0.7);
-    let sure = analysis.capacity(0, &request.cases(cases))?;
+    let for_all = analysis.capacity(0, &request.cases(cases))?;
     println!(
         "for every tilt and friction: {:.3?} N",
-        sure.reach([1.0, 0.0])
+        for_all.reach([1.0, 0.0])
     );
     Ok(())
 }

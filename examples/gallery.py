@@ -116,13 +116,14 @@ def gabled_wall():
     eaves, rise, rows = 3.2, 4.4, 19
     openings = [(3.8, 5.2, 0, 6), (4.0, 5.0, 9, 12)]  # left, right, first course of the opening, first course above it
 
-    def reach(y):
-        lost = max(0.0, y - eaves) / rise * width / 2
-        return lost, width - lost
+    def ends(y):
+        """Returns the left and right end of the wall at a height."""
+        inset = max(0.0, y - eaves) / rise * width / 2
+        return inset, width - inset
 
     for row in range(rows):
         low, high = row * course, (row + 1) * course
-        parts = [(reach(low), reach(high))]
+        parts = [(ends(low), ends(high))]
         for left, right, first, above in openings:
             if first <= row < above:
                 (l0, r0), (l1, r1) = parts.pop()
@@ -141,7 +142,7 @@ def gabled_wall():
                 scene.add(f"{row + 1}{'ab'[part] if len(parts) > 1 else ''}-{k + 1}", polygon)
     # The loads from two purlins and from the ridge of the roof.
     for y, force in [(4.4, 4000), (6.0, 4000)]:
-        for x, side in zip(reach(y), (1, -1)):
+        for x, side in zip(ends(y), (1, -1)):
             at = (x + 0.25 * side, y)
             scene.load(block_at(scene, at), at, (0, -force))
     scene.load(block_at(scene, (4.5, 7.4)), (4.5, 7.5), (0, -3000))

@@ -94,7 +94,7 @@ class StepSolver:
 
 
 class HighsSolver(StepSolver):
-    """Decides each step with a linear program for HiGHS. The joints are given here, while drystone finds them itself."""
+    """Decides each step with a linear program for HiGHS, which gets the joints. drystone finds the joints itself."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         import numpy
@@ -166,8 +166,8 @@ class HighsSolver(StepSolver):
 
 
 class CraSolver(StepSolver):
-    """Decides the same steps with `rbe_solve` of compas_cra, which gets the joints of the whole arch. compas_cra has no
-    robots; a held block is a support there, without a limit on its force."""
+    """Decides each step with `rbe_solve` of compas_cra. The joints of the whole arch are found once. compas_cra has
+    no robots, so a held block is a support, without a limit on its force."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         import compas_cra.equilibrium
@@ -194,15 +194,15 @@ class CraSolver(StepSolver):
         self.reset()
 
     def stands(self) -> bool:
-        there, fixed = self.placed | {self.ground}, {*self.held.values(), self.ground}
-        joints = {(u, v): found for (u, v), found in self.joints.items() if {u, v} <= there and not {u, v} <= fixed}
+        present, fixed = self.placed | {self.ground}, {*self.held.values(), self.ground}
+        joints = {(u, v): found for (u, v), found in self.joints.items() if {u, v} <= present and not {u, v} <= fixed}
         touching = {number for edge in joints for number in edge}
         if not self.placed - fixed <= touching:
             return False
         if not joints:
             return True
         assembly = self.Assembly()
-        for number in sorted(there):
+        for number in sorted(present):
             assembly.add_block(self.blocks[number], node=number)
         assembly.set_boundary_conditions(sorted(fixed))
         for (u, v), found in joints.items():
@@ -213,7 +213,8 @@ class CraSolver(StepSolver):
                 self.rbe_solve(assembly, mu=FRICTION, density=1.0)
         except ValueError:
             return False
-        # rbe_solve allows tension at a cost. If a joint needs more tension than the solver's error, the structure falls.
+        # rbe_solve allows tension and minimises it. If a joint needs more tension than the error of the solver, the
+        # structure falls.
         forces = [force for interface in assembly.interfaces() for force in interface.forces]
         pushed = sum(force["c_np"] for force in forces)
         return all(force["c_nn"] <= 1e-4 * pushed for force in forces)

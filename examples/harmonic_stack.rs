@@ -3,7 +3,7 @@
 //! The largest overhang is known: half the length of a brick times 1 + 1/2 + … + 1/n. The example shows that a stack
 //! with 0.1 % less overhang stands, and that a stack with 0.1 % more overhang falls.
 
-#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use std::error::Error;
 

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example render -- assets/thesis/figure-4.json figure-4.png`
 
-#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use std::error::Error;
 use std::{env, fs};

@@ -3,7 +3,7 @@
 //!
 //! Change the numbers below and run `cargo run --example sensitivity`.
 
-#![allow(clippy::print_stdout, reason = "an example speaks to a person")]
+#![allow(clippy::print_stdout, reason = "the example prints its results")]
 
 use std::error::Error;
 use std::f64::consts::PI;

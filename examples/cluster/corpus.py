@@ -3,7 +3,7 @@
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
 
 One third each are piles of randomly shifted bricks, leaning towers and semicircular arches. Some of them stand and some fall.
-With --broken N every Nth line is truncated, as may happen in a real corpus.
+With --broken N, every Nth line is truncated, as may happen in a real corpus.
 """
 
 import argparse
@@ -20,32 +20,32 @@ def rectangle(x, y, width, height):
             [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]]
 
 
-def pile(chance):
+def pile(generator):
     """Returns rows of 4, 3, 2 and 1 bricks. Each brick lies on about two bricks of the row below."""
-    shift = chance.choice([0.1, 0.2, 0.4])
+    shift = generator.choice([0.1, 0.2, 0.4])
     blocks = []
     for row in range(4):
         left = 0.5 * row
         for k in range(4 - row):
-            x = left + 1.2 * k + round(chance.uniform(0, shift), 3)
+            x = left + 1.2 * k + round(generator.uniform(0, shift), 3)
             blocks.append(rectangle(x, 0.5 * row, 0.8, 0.5))
     return blocks
 
 
-def tower(chance):
+def tower(generator):
     """Returns a tower of ten bricks, each shifted relative to the brick below it."""
-    lean = chance.uniform(0, 0.12)
+    lean = generator.uniform(0, 0.12)
     x = 0.0
     blocks = []
     for k in range(BLOCKS):
         blocks.append(rectangle(x, 0.4 * k, 1.0, 0.4))
-        x += round(lean + chance.uniform(-0.1, 0.1), 3)
+        x += round(lean + generator.uniform(-0.1, 0.1), 3)
     return blocks
 
 
-def arch(chance):
+def arch(generator):
     """Returns ten voussoirs of a semicircular arch. An arch thinner than about 0.1075 of its radius falls (Milankovitch)."""
-    thickness = chance.uniform(0.08, 0.2)
+    thickness = generator.uniform(0.08, 0.2)
     inner, outer = 1 - thickness / 2, 1 + thickness / 2
 
     def at(radius, k):
@@ -56,14 +56,14 @@ def arch(chance):
 
 
 def scene(number, seed):
-    chance = random.Random(seed * 1_000_003 + number)
+    generator = random.Random(seed * 1_000_003 + number)
     make = [pile, tower, arch][number % 3]
     return {
         "drystone": 1,
         "title": f"scene {number}",
-        "friction": chance.choice([0.4, 0.6, 0.8]),
+        "friction": generator.choice([0.4, 0.6, 0.8]),
         "ground": [{"polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]]}],
-        "blocks": [{"polygon": polygon, "density": 1000} for polygon in make(chance)],
+        "blocks": [{"polygon": polygon, "density": 1000} for polygon in make(generator)],
     }
 
 
@@ -72,10 +72,10 @@ def main():
     arguments.add_argument("scenes", type=int)
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--broken", type=int, default=0, metavar="N")
-    wanted = arguments.parse_args()
-    for number in range(1, wanted.scenes + 1):
-        line = json.dumps(scene(number, wanted.seed), separators=(",", ":"))
-        if wanted.broken and number % wanted.broken == 0:
+    options = arguments.parse_args()
+    for number in range(1, options.scenes + 1):
+        line = json.dumps(scene(number, options.seed), separators=(",", ":"))
+        if options.broken and number % options.broken == 0:
             line = line[: len(line) // 2]
         sys.stdout.write(line + "\n")
 

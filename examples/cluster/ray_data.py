@@ -7,7 +7,7 @@
 The corpus is divided into parts at the ends of lines. One process of drystone analyses each part and writes one result for
 each line. If this process or its worker fails, results are missing: the task of the part fails, and Ray runs it again from the
 start. In the end, every scene has exactly one result. --kill N kills N of the processes while they work, to test this. The
-corpus must be in a place that every machine can read.
+corpus must be in a folder that every machine can read.
 """
 
 import argparse
@@ -43,7 +43,7 @@ def parts(corpus, lines_each):
     return found
 
 
-def answered(corpus, binary, fields, pids):
+def analysed(corpus, binary, fields, pids):
     """Returns a function for map_batches that converts a part to a table with one row per line."""
 
     def part(batch):
@@ -101,26 +101,26 @@ def main():
     arguments.add_argument("--attempts", type=int, default=4)
     arguments.add_argument("--kill", type=int, default=0, metavar="N")
     arguments.add_argument("--after", type=float, default=5.0, metavar="SECONDS")
-    wanted = arguments.parse_args()
-    corpus = os.path.abspath(wanted.corpus)
-    binary = wanted.drystone if os.sep not in wanted.drystone else os.path.abspath(wanted.drystone)
+    options = arguments.parse_args()
+    corpus = os.path.abspath(options.corpus)
+    binary = options.drystone if os.sep not in options.drystone else os.path.abspath(options.drystone)
     ray.init(include_dashboard=False, log_to_driver=False)
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as pids:
-        if wanted.kill:
-            threading.Thread(target=kill_some, args=(pids, wanted.kill, wanted.after), daemon=True).start()
-        cut = parts(corpus, wanted.lines)
-        scenes = sum(part["lines"] for part in cut)
-        answers = ray.data.from_items(cut, override_num_blocks=len(cut)).map_batches(
-            answered(corpus, binary, wanted.fields, pids),
+        if options.kill:
+            threading.Thread(target=kill_some, args=(pids, options.kill, options.after), daemon=True).start()
+        all_parts = parts(corpus, options.lines)
+        scenes = sum(part["lines"] for part in all_parts)
+        answers = ray.data.from_items(all_parts, override_num_blocks=len(all_parts)).map_batches(
+            analysed(corpus, binary, options.fields, pids),
             batch_size=1,
-            max_retries=wanted.attempts,
+            max_retries=options.attempts,
             retry_exceptions=True,
         )
-        answers.write_parquet(wanted.parquet, mode="overwrite")
+        answers.write_parquet(options.parquet, mode="overwrite")
     seconds = time.perf_counter() - start
 
-    table = pq.read_table(wanted.parquet)
+    table = pq.read_table(options.parquet)
     numbers = table["number"]
     found = (table.num_rows, pc.count_distinct(numbers).as_py(), pc.max(numbers).as_py())
     assert found == (scenes, scenes, scenes), f"{scenes} scenes, but {found}"

@@ -23,7 +23,7 @@ import time
 from pyspark.sql import Row, SparkSession
 
 
-def answered(binary, fields, pids):
+def analysed(binary, fields, pids):
     """Returns a function for mapPartitions that converts pairs (number, line) to rows, one for each pair."""
 
     def partition(pairs):
@@ -93,26 +93,26 @@ def main():
     arguments.add_argument("--partitions", type=int, default=32)
     arguments.add_argument("--kill", type=int, default=0, metavar="N")
     arguments.add_argument("--after", type=float, default=5.0, metavar="SECONDS")
-    wanted = arguments.parse_args()
-    spark = SparkSession.builder.master(wanted.master).appName("drystone").getOrCreate()
+    options = arguments.parse_args()
+    spark = SparkSession.builder.master(options.master).appName("drystone").getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as pids:
-        if wanted.kill:
-            threading.Thread(target=kill_some, args=(pids, wanted.kill, wanted.after), daemon=True).start()
-        lines = spark.sparkContext.textFile(wanted.corpus, wanted.partitions).zipWithIndex()
+        if options.kill:
+            threading.Thread(target=kill_some, args=(pids, options.kill, options.after), daemon=True).start()
+        lines = spark.sparkContext.textFile(options.corpus, options.partitions).zipWithIndex()
         pairs = lines.map(lambda pair: (pair[1] + 1, pair[0]))
-        binary = wanted.drystone if os.sep not in wanted.drystone else os.path.abspath(wanted.drystone)
-        rows = pairs.mapPartitions(answered(binary, wanted.fields, pids))
+        binary = options.drystone if os.sep not in options.drystone else os.path.abspath(options.drystone)
+        rows = pairs.mapPartitions(analysed(binary, options.fields, pids))
         schema = "number long, scene string, verdict string, problems string"
-        spark.createDataFrame(rows, schema).write.mode("overwrite").parquet(wanted.parquet)
+        spark.createDataFrame(rows, schema).write.mode("overwrite").parquet(options.parquet)
     seconds = time.perf_counter() - start
 
-    answers = spark.read.parquet(wanted.parquet)
+    answers = spark.read.parquet(options.parquet)
     answers.createOrReplaceTempView("answers")
     scenes = lines.count()
-    told = spark.sql("select count(*) as n, count(distinct number) as d, max(number) as m from answers").first()
-    assert (told.n, told.d, told.m) == (scenes, scenes, scenes), f"{scenes} scenes, but {told}"
+    row = spark.sql("select count(*) as n, count(distinct number) as d, max(number) as m from answers").first()
+    assert (row.n, row.d, row.m) == (scenes, scenes, scenes), f"{scenes} scenes, but {row}"
     print(f"{scenes} scenes, each answered once, in {seconds:.0f} s: {scenes / seconds:.0f} a second")
     spark.sql("select verdict, count(*) as scenes from answers group by verdict order by scenes desc").show()
     spark.stop()

@@ -53,7 +53,7 @@ def check(
     True
     """
     scene = as_scene(scene)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all, sensitivity)
+    options = analysis_options(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all, sensitivity)
     return Result(_drystone.check(scene._json(), options), scene)
 
 
@@ -84,7 +84,7 @@ def check_many(
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
     given = [as_scene(scene) for scene in scenes]
     located = all(scene._located for scene in given)
-    options = asked(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all, sensitivity)
+    options = analysis_options(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all, sensitivity)
     answers = _drystone.check_many([scene._json() for scene in given], options, progress, threads)
     results: list[Result | SceneError] = []
     for number, (scene, answer) in enumerate(zip(given, answers)):
@@ -111,7 +111,7 @@ def as_scene(scene: AnyScene) -> Scene:
     raise TypeError(f"a {kind} is not a scene; give a Scene, a dict or a pathlib.Path, and read text with Scene.from_json")
 
 
-def asked(
+def analysis_options(
     margins: Margins,
     wedging: bool,
     verdict_only: bool,

@@ -68,10 +68,10 @@ class Figure:
         Path(path).write_bytes(self._bytes(ending, options))
 
     def _bytes(self, ending: str, options: Mapping[str, Any]) -> bytes:
-        asked = words({**self._options, **options})
+        arguments = words({**self._options, **options})
         if self._analysis is None:
-            return _drystone.sketch(self._text, asked, ending)
-        return self._analysis.figure(asked, ending, self._frame)
+            return _drystone.sketch(self._text, arguments, ending)
+        return self._analysis.figure(arguments, ending, self._frame)
 
     def _repr_svg_(self) -> str:
         return self.svg()

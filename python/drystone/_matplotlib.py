@@ -55,8 +55,8 @@ def _body(ax: Any, rings: list[list[list[float]]], gid: str, **look: Any) -> Non
 
 
 def _forces(ax: Any, analysis: _drystone.Analysis, frame: int, corners: list[list[float]]) -> None:
-    """Draws arrows for the forces of contacts, robots and failures to one scale. The longest arrow has a third of the size of
-    the structure.
+    """Draws arrows for the forces of contacts, robots and failures in one scale. The length of the longest arrow is a third
+    of the larger of the width and height of the structure.
     """
     from matplotlib.patches import FancyArrowPatch
 

@@ -110,7 +110,7 @@ class Table:
 
 
 class _Answer:
-    """The common part of a result and of one of its frames."""
+    """The base class of a result and of one of its frames."""
 
     _native: _drystone.Analysis
     _frame: int | None
@@ -145,7 +145,8 @@ class _Answer:
         ``drystone render``, such as ``amounts=True``, ``fill="stress"``, ``block="a"`` and ``no_title=True``.
 
         The kinds "margin" and "sensitivity" show the margin ``margin="friction"``, and the kind "capacity" shows the block
-        ``capacity="lintel"`` or ``capacity=("lintel", (2, 3))``. A figure computes what the result does not contain.
+        ``capacity="lintel"`` or ``capacity=("lintel", (2, 3))``. If the result lacks values that a figure shows, they
+        are computed for the figure.
         """
         return Figure.of_analysis(self._native, self._frame, {"kind": kind, "theme": theme, "width_mm": width_mm, **options})
 

@@ -50,8 +50,9 @@ class Scene:
     ) -> None:
         keys = _without(locals(), "self")
         self._file: dict[str, Any] | None = {"drystone": 1, **keys, "blocks": []}
-        # The text of the scene. If it was read from a file or a string, problems have lines.
+        # The text of the scene file; None if it has to be written from `_file`.
         self._text: str | None = None
+        # True if the text was read from a file or a string, so that problems have lines.
         self._located = False
         self._path: str | None = None
 
@@ -292,7 +293,7 @@ class Scene:
         return self._text
 
     def _frozen(self) -> Scene:
-        """Returns a scene with the present content, which later changes of this scene do not reach."""
+        """Returns a copy with the present content. Later changes of this scene do not change the copy."""
         made = object.__new__(type(self))
         made._file, made._text, made._located, made._path = None, self._json(), self._located, self._path
         return made

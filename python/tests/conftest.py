@@ -14,7 +14,7 @@ FLOOR = [(-9, -1), (9, -1), (9, 0), (-9, 0)]
 
 
 def needed(name):
-    """The module with this name. Without it the test is skipped; under CI it fails."""
+    """Returns the module with this name. If it is not installed, the test is skipped, but fails if CI is set."""
     return importlib.import_module(name) if os.environ.get("CI") else pytest.importorskip(name)
 
 

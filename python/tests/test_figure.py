@@ -31,7 +31,7 @@ def test_every_kind_is_drawn(steps):
 def test_a_figure_computes_what_the_result_lacks(lintel):
     bare = ds.check(lintel)
     asked = ds.check(lintel, sensitivity="friction", capacity="lintel")
-    # The lintel pushes on nothing sideways, so no friction is needed, and gravity may be tilted by some degrees.
+    # The lintel exerts no horizontal force, so it stands without friction, and gravity may be tilted by some degrees.
     assert bare.margins is None and "sensitivity" not in bare.frames[0].to_dict()
     friction, tilt = (bare.figure("sensitivity", margin=name).svg() for name in ("friction", "tilt"))
     assert "friction" in friction and "tilt" in tilt and friction != tilt

@@ -24,7 +24,7 @@ def test_doctests_of_the_package_and_the_page():
     assert tried >= 8
 
 
-def test_the_page_is_true(tmp_path, monkeypatch):
+def test_the_examples_of_the_python_page_are_correct(tmp_path, monkeypatch):
     needed("numpy")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.json").write_text((ROOT / "assets/thesis/figure-4.json").read_text(encoding="utf-8"))
@@ -50,7 +50,7 @@ def test_types(tmp_path):
         text=True,
     )
     assert clean.returncode == 0, clean.stdout + clean.stderr
-    # Away from the sources, so that the installed package is compared with its types.
+    # Run outside the repository, so that the installed package is compared with its types.
     stubs = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", ROOT / "pyproject.toml", "drystone._drystone"],
         capture_output=True,
@@ -81,14 +81,14 @@ def test_one_wheel_serves_every_python():
 
 
 def resident():
-    """The memory of this process, bytes."""
+    """Returns the resident memory of this process in bytes."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGESIZE")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 def test_nothing_leaks():
-    """Memory does not grow with the number of scenes; DRYSTONE_LEAK_SCENES sets it, 100000 for the full test."""
+    """Memory does not grow with the number of scenes. DRYSTONE_LEAK_SCENES sets this number; the full test uses 100000."""
     count = int(os.environ.get("DRYSTONE_LEAK_SCENES", "1000"))
     scene = ds.Scene().ground(FLOOR).block("a", brick(0, 0)).block("b", brick(1, 1))
     wrong = ds.Scene().block("a", brick(0, 0)).block("b", brick(1, 0))

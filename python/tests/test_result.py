@@ -1,4 +1,4 @@
-"""Answers: attributes, tables, JSON."""
+"""Results: attributes, tables, JSON."""
 
 import json
 import subprocess
@@ -111,7 +111,7 @@ def test_tables_agree_with_the_result(steps):
         result.contacts["weights"]
 
 
-def test_columns_are_arrays_that_a_person_can_change():
+def test_columns_are_writable_arrays():
     needed("numpy")
     result = ds.check(ds.Scene().ground(FLOOR).block("a", brick(0, 0)).block("b", brick(4, 2)))
     blocks = result.blocks
@@ -185,7 +185,7 @@ def test_a_refused_scene_among_many(lintel):
     assert len(ds.check_many([])) == 0
 
 
-def test_what_progress_raises_ends_the_work(lintel):
+def test_an_exception_in_progress_ends_the_work(lintel):
     def stop(count):
         raise KeyboardInterrupt
 

@@ -1,4 +1,4 @@
-"""Scenes from what people have, and their errors."""
+"""Scenes from files, arrays, polygons and assemblies, and their errors."""
 
 import inspect
 import json
@@ -39,12 +39,12 @@ def test_every_key_of_a_scene_is_an_argument_or_a_method():
     assert arguments | added | {"drystone", "$schema"} == keys_of(None)
 
 
-def test_a_scene_goes_round(steps):
+def test_a_scene_that_is_written_and_read_again_is_equal(steps):
     again = ds.Scene.from_json(steps.to_json())
     assert again == steps
     assert ds.Scene.from_dict(steps.to_dict()) == steps
     one, other = ds.check(again).to_dict(timing=False), ds.check(steps).to_dict(timing=False)
-    # Only what was read from a text has lines.
+    # Only notes of a scene that was read from text have a line.
     assert [note.pop("line") is None for note in one["notes"] + other["notes"]] == [False, True]
     assert one == other
     assert repr(steps) == "<Scene 'A lintel': 3 blocks, 1 part of the ground, 1 robot, 3 steps>"
@@ -87,7 +87,7 @@ def test_an_unknown_key_of_a_dict_is_named():
         ds.check({"blokcs": []})
 
 
-def test_what_is_no_scene_is_refused_in_words():
+def test_input_that_is_not_a_scene_is_refused_with_a_reason():
     with pytest.raises(TypeError, match="from_json"):
         ds.check("{}")
     with pytest.raises(ds.DrystoneError, match="corner 1"):
@@ -160,7 +160,7 @@ def test_geopandas_rows():
 
 
 class Box:
-    """A box with the methods of a compas mesh that are used."""
+    """A box with those methods of a compas mesh that the import calls."""
 
     def __init__(self, x, z, width=2.0, depth=0.5, height=1.0, lean=0.0):
         self.corners = [

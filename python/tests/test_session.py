@@ -1,4 +1,4 @@
-"""Sessions."""
+"""Sessions: verdicts after each step, copies, and the forces that a block can carry."""
 
 import copy
 
@@ -13,7 +13,7 @@ def session():
     return ds.Session(ds.Scene(friction=0.6).ground(FLOOR).robot("crane"))
 
 
-def test_a_step_gives_a_verdict(session):
+def test_every_step_returns_the_verdict(session):
     assert session.place("a", brick(0, 0)) == "stable"
     assert session.place("b", brick(2, 1)) == "unstable"
     assert session.hold("crane", "b") == "stable"
@@ -61,7 +61,7 @@ def test_a_step_that_is_not_possible_changes_nothing(session):
     assert session.blocks == ["a"] and session.verdict == "stable"
 
 
-def test_a_copy_is_apart(session):
+def test_a_copy_is_independent(session):
     session.place("a", brick(0, 0))
     for other in (session.copy(), copy.copy(session), copy.deepcopy(session)):
         other.place("b", brick(2, 1))
@@ -86,7 +86,6 @@ def test_the_forces_that_a_block_can_carry(session):
     carried = session.capacity("a")
     assert carried.shape == "unbounded" and carried.stands_without
     assert carried.vertices[0] == pytest.approx([0, 6], abs=1e-5)
-    # On the top the force to the side tips the brick of 3 x 1 only after it slides.
     top = session.capacity("a", (1.5, 1.0))
     assert top.at == [[1.5, 1.0]]
     assert session.capacity("a", (0, 1), (3, 1)).shape == "unbounded"

@@ -37,7 +37,7 @@ fn tolerance(typed: &str) -> Result<f64, String> {
     }
 }
 
-/// The forms of a study.
+/// The file formats of a study.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Html,

@@ -12,15 +12,15 @@ use crate::clock::Instant;
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct AnalysisArgs {
-    /// standard gives the unique forces; proved also demands stricter proofs, by a factor of 100 for forces and 1000
-    /// for motions
+    /// standard computes the unique forces; proved also requires proofs that are stricter by a factor of 100 for
+    /// forces and 1000 for motions
     #[arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser())]
     accuracy: Accuracy,
     /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up from
     /// rest
     #[arg(long)]
     wedging: bool,
-    /// Edges within this many metres touch, and bodies may overlap by as much. It replaces the scene's
+    /// Edges within this many metres touch, and bodies may overlap by up to this depth. It replaces the scene's
     /// `contact_tolerance`, or the value that is estimated from its coordinates
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) contact_tolerance: Option<f64>,

@@ -35,10 +35,10 @@ use resume::Settings;
 /// The default width of a picture in pixels.
 const DEFAULT_PICTURE_WIDTH: u32 = 400;
 
-/// Analyse many scenes, one per line, on all cores, and print a line of JSON for each, in their order
+/// Analyse many scenes, one per line, on all cores, and print a line of JSON for each, in the order of the scenes
 ///
-/// A scene that is not valid gets { "line", "problems" } in its place, and the other scenes are still analysed. The
-/// exit code is 0, 1, 2 or 3 as for check, or 4 if the output could not be written.
+/// A scene that is not valid gets the line { "line", "problems" }, and the other scenes are still analysed. The exit
+/// code is 0, 1, 2 or 3 as for check, or 4 if the output could not be written.
 #[derive(Debug, Args)]
 pub(crate) struct Batch {
     /// Files with one scene per line (.ndjson, .jsonl), scene files (.json), or folders with both; - reads lines from
@@ -248,7 +248,7 @@ impl Batch {
     }
 }
 
-/// The work for every scene.
+/// The options with which every scene is analysed, drawn and written.
 struct SceneWork {
     level: AnalysisArgs,
     margins: MarginArgs,
@@ -257,7 +257,7 @@ struct SceneWork {
     drawn: Option<Arc<PictureOutput>>,
 }
 
-/// The form of the output.
+/// The format of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     /// One line of JSON for each scene.
@@ -276,7 +276,7 @@ struct OutputLine {
 
 impl SceneWork {
     /// Analyses one scene of the input, and returns its output line. A scene that is not valid gets a line with its
-    /// problems. An error means that the picture cannot be written; later pictures would then fail too.
+    /// problems. Returns an error if the picture cannot be written, because later pictures would then fail too.
     fn answer(&self, record: Record) -> Result<OutputLine, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);

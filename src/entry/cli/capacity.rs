@@ -6,14 +6,15 @@ use crate::analysis::{Options, typed_capacity};
 use crate::cli::error::CliError;
 use crate::scene::Scene;
 
-/// The block of which the carried forces are computed, and the cases in which they must be carried.
+/// The block whose capacity is computed, and the cases in which it must carry the forces.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct CapacityArgs {
-    /// Compute all forces that a block can carry in addition to what acts already: BLOCK at its centroid (or the force of
-    /// the robot that holds it), BLOCK@x,y at a point, BLOCK@x,y..x,y at two points, as their resultant
+    /// Compute all forces that a block can carry in addition to the forces that already act: BLOCK at its centroid
+    /// (or the force of the robot that holds it), BLOCK@x,y at a point, BLOCK@x,y..x,y at two points, as their
+    /// resultant
     #[arg(long, value_name = "BLOCK[@x,y]")]
     capacity: Option<String>,
-    /// With --capacity: only forces that are carried in every case of these ranges, such as
+    /// With --capacity: only forces that the block can carry for all values in these ranges, such as
     /// tilt=±2,horizontal=±0.05,friction=0.5..0.7
     #[arg(
         long,

@@ -22,14 +22,14 @@ use crate::wording::number::letter;
 use crate::wording::sensitivity;
 use crate::wording::verdict::counted;
 
-/// Decide whether scenes stand, show what fails, and prove it
+/// Decide whether structures stand, show what fails, and prove the verdicts
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
-    /// Print JSON: one object for one scene, or a line for each of several scenes; a file that is not valid gets its
-    /// problems in its place
+    /// Print JSON: one object for one scene, or a line for each of several scenes; for a file that is not valid, its
+    /// problems instead of a result
     #[arg(long)]
     json: bool,
     /// Add the placed blocks of each frame to the JSON: name, centre, area, weight and corners
@@ -56,10 +56,10 @@ pub(crate) struct Check {
     /// Add the sum of all forces, the sum of the missing forces, the proof, the time and the contact tolerance
     #[arg(long, short, conflicts_with = "json")]
     verbose: bool,
-    /// Exit with 0 for every verdict; wrong input still gives 2
+    /// Exit with 0 for every verdict; for wrong input, the exit code is still 2
     #[arg(long)]
     exit_zero: bool,
-    /// Explain the words of the tables below them
+    /// Explain the words of the tables, in a list below the tables
     #[arg(long, conflicts_with = "json")]
     explain: bool,
     /// Analyse only one frame: its number from 1, its letter in the strip, or last
@@ -194,8 +194,8 @@ impl Check {
         Ok((ending, verdicts, String::new(), page))
     }
 
-    /// Returns the tables of all scenes. Below them are the totals of several scenes, and the meanings of the words if
-    /// `--explain` is given.
+    /// Returns the tables of all scenes. Totals follow if there are several scenes. With `--explain`, the meanings of
+    /// the words follow too.
     fn tables(&self, done: &[SceneResult], width: Option<usize>) -> Page {
         let mut page = Page::default();
         for (.., table) in done {
@@ -223,7 +223,7 @@ impl Check {
 /// The exit status of a scene, the verdicts of its frames, and its JSON or its table.
 type SceneResult = (ExitStatus, Vec<Verdict>, String, Page);
 
-/// The number and the path of a file that got no answer, and the reason.
+/// The index and the path of a file that has no result, and the error.
 type RefusedFile = (usize, PathBuf, CliError);
 
 /// Returns the JSON of all files in their order: the answers of valid files, and the problems of refused files.
@@ -278,7 +278,7 @@ fn sensitivities(analysis: &Analysis) -> Page {
     page
 }
 
-/// Writes the notes below a table. Each note has two lines: its message, and a hint what to change.
+/// Writes the notes below a table. Each note has two lines: its message, and a hint that says what to change.
 fn notes_page(notes: &[Note]) -> Page {
     let mut page = Page::default();
     for note in notes {

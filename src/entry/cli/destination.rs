@@ -12,7 +12,7 @@ use crate::output::file::{Existing, same, write_whole};
 pub(crate) enum Destination {
     /// Standard output, `-`.
     Stdout,
-    /// A file of its own.
+    /// A single file.
     File(PathBuf),
     /// A file in a folder, named after the scene. The folder is created if it does not exist.
     Folder(PathBuf),
@@ -70,7 +70,8 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
-/// Refuses outputs that would overwrite an input or another output, even through other names or links.
+/// Returns an error if an output would overwrite an input or another output. Different paths and links of the same
+/// file are recognised.
 pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
     // If a shell redirects a file to standard input, `/dev/stdin` is this file. Not all systems have this path.
     let stdin = Path::new("/dev/stdin");
@@ -126,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_extension_gives_the_format_and_must_not_contradict_an_option() {
+    fn the_file_extension_selects_the_format_and_must_agree_with_the_format_option() {
         let file = |name: &str| Destination::from_path(Path::new(name));
         assert_eq!(file("a/b.PNG").format(None).ok(), Some(Format::Png));
         assert_eq!(

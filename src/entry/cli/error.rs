@@ -1,6 +1,6 @@
 //! [`CliError`]: all errors of a command, and their messages.
 //!
-//! No other file uses `ariadne`. It shows a problem of a scene in its line of the file. `ariadne` gets only this
+//! No other file uses `ariadne`. `ariadne` shows a problem of a scene below its line in the file. It gets only this
 //! line, so that a long file takes no more time than a short one.
 
 use std::fmt::Write;
@@ -17,12 +17,12 @@ use crate::text::line;
 /// At most this many problems of one file are shown. If there are more, they usually have one cause, which is among
 /// the first.
 const MAX_SHOWN_PROBLEMS: usize = 30;
-/// Only a part of a line with more characters is shown, around the problem. The same holds for lines wider than the
-/// terminal.
+/// A line with more characters, or wider than the terminal, is not shown completely: an excerpt shows the characters
+/// around the problem.
 const MAX_LINE_CHARACTERS: usize = 160;
-/// The part has this many columns, a third of them before the problem. It has fewer on a narrower terminal.
+/// The width of an excerpt in columns, a third of them before the problem. It is smaller on a narrower terminal.
 const EXCERPT_COLUMNS: usize = 120;
-/// The part has at least this many columns.
+/// The least width of an excerpt in columns.
 const MIN_EXCERPT_COLUMNS: usize = 12;
 
 /// An error that ends the command.
@@ -32,36 +32,36 @@ pub(crate) enum CliError {
     Scene {
         /// The file's name.
         name: String,
-        /// What is wrong with it.
+        /// The problems of the scene.
         problems: SceneError,
     },
     /// A style file is not valid.
     Style {
         /// The file's name.
         name: String,
-        /// What is wrong with it.
+        /// The problems of the style file.
         problems: style::format::StyleProblems,
     },
     /// An input cannot be read.
     NotRead {
-        /// Which.
+        /// The path of the input, or `standard input`.
         what: String,
-        /// The system's reason.
+        /// The reason, mostly from the operating system.
         why: String,
     },
-    /// A scene does not have the selected frame.
+    /// A scene does not have the selected frame; the text is the message.
     NoSuchFrame(String),
     /// A drawing cannot be imported; the page is the message.
     Drawing(Page),
     /// Scenes in a book cannot be drawn. Each entry has lines whose parts are escaped by [`line`].
     Book(Vec<String>),
-    /// The command line is wrong.
+    /// The command line is wrong; the text is the message.
     CommandLine(String),
     /// An output cannot be written.
     NotWritten {
-        /// Which.
+        /// The path of the output, or a description such as `the picture`.
         what: String,
-        /// The system's reason.
+        /// The reason, mostly from the operating system.
         why: String,
     },
 }
@@ -167,6 +167,7 @@ impl CliError {
     }
 }
 
+/// Returns the messages of the first [`MAX_SHOWN_PROBLEMS`] problems of a file, and the number of further problems.
 fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize>) -> String {
     let name = line(name);
     let mut out = String::new();
@@ -231,7 +232,7 @@ impl<'a> ProblemLine<'a> {
     }
 }
 
-/// The columns from the middle of a place to its label, `╰──── `, and one more.
+/// The number of columns from the middle of the marked text to its label (`╰──── `), plus one.
 const ARROW_COLUMNS: usize = 8;
 
 /// Returns the number of columns before the text of a line, which show the line number.
@@ -247,6 +248,7 @@ fn label(problem: &Problem) -> String {
     }
 }
 
+/// Returns the message of a problem, after the path of the problem in the scene if it has one.
 fn headline(problem: &Problem) -> String {
     let message = line(&problem.message);
     if problem.path.is_empty() {
@@ -256,6 +258,7 @@ fn headline(problem: &Problem) -> String {
     }
 }
 
+/// Writes the message without quoting the line of the file.
 fn plain(name: &str, problem: &Problem) -> String {
     let at = if problem.line == 0 {
         String::new()

@@ -61,7 +61,7 @@ impl Export {
         });
         let bytes = text.map_err(|c| vec![c])?.into_bytes();
         match file {
-            // The drawing from which a scene was imported often has the same name.
+            // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
             Some(path) => {
                 let existing = if self.force {
                     Existing::Replace

@@ -21,18 +21,18 @@ use crate::scene::format::SceneFile;
 use crate::scene::{Note, NoteCode, Scene};
 use value::{FormatArg, ScaleArg, Unit, gravity, scale, stone};
 
-/// At most this many moved bodies are listed; `--json` lists all.
+/// The largest number of moved bodies that are listed; `--json` lists all.
 const MAX_LISTED_BODIES: usize = 12;
 
 /// Turn a drawing (SVG, DXF, GeoJSON, WKT), a contact list or a COMPAS assembly into a scene
 ///
 /// Every closed outline becomes a block, named after its label or id. Layers and elements whose names begin with
-/// "ground" become ground, and those with "robot" become robots, which hold the block that contains their centre.
-/// Names with "ignore" or "guide" are left out. Edges that nearly touch are moved so that they touch. Elements that
-/// cannot be imported are reported.
+/// "ground" become ground. If the names begin with "robot", they become robots, which hold the block that contains
+/// their centre. Elements whose names begin with "ignore" or "guide" are left out. Edges that nearly touch are moved
+/// so that they touch. Elements that cannot be imported are reported.
 ///
-/// A contact list (.csv, .json) has the centres and masses of bodies, and the points at which they touch. Of an
-/// assembly of COMPAS (.json) the section of its prismatic blocks is taken.
+/// A contact list (.csv, .json) has the centres and masses of bodies, and the points at which they touch. From a
+/// COMPAS assembly (.json), the cross-section of its prismatic blocks is imported.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
@@ -70,14 +70,14 @@ pub(crate) struct Import {
     /// Title of the scene [default: the title of the drawing]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
-    /// Friction coefficient of all blocks and ground without one
+    /// Friction coefficient of all blocks and ground that have none
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
-    /// Density and friction of all blocks and ground without them, from a table: basalt, concrete, gneiss, granite,
+    /// Density and friction of all blocks and ground that have none, from a table: basalt, concrete, gneiss, granite,
     /// limestone or sandstone; --density and --friction replace its values
     #[arg(long, value_name = "NAME", value_parser = stone)]
     material: Option<Stone>,
-    /// Density in kg/m³ of all blocks without one
+    /// Density in kg/m³ of all blocks that have none
     #[arg(long, value_name = "KG/M3")]
     density: Option<f64>,
     /// Thickness of all blocks across the plane, in metres
@@ -141,7 +141,7 @@ impl Import {
                 .print_bytes(scene.as_bytes())
                 .map_err(|c| vec![c])?,
         }
-        self.tell(terminal, &name, &imported);
+        self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
             terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
@@ -193,7 +193,7 @@ impl Import {
             Some("wkt") => Ok(Format::Wkt),
             Some("csv") => Ok(Format::Contacts),
             Some("svgz") => Err(CliError::CommandLine(format!(
-                "{} is packed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
+                "{} is compressed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
             ))),
             Some("dwg") => Err(CliError::CommandLine(format!(
@@ -258,7 +258,8 @@ impl Import {
         }
     }
 
-    fn tell(&self, terminal: &Terminal, name: &str, imported: &Imported) {
+    /// Prints warnings, the numbers of imported bodies, the notes and the moved bodies to standard error.
+    fn print_summary(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
             terminal.notes(&remark_page("warning", name, remark));
         }
@@ -283,7 +284,7 @@ impl Import {
                 stone.name, stone.density, stone.friction, stone.source
             ));
         }
-        for note in imported.notes.iter().chain(&light(imported)) {
+        for note in imported.notes.iter().chain(&default_density_note(imported)) {
             page.line(&format!("  {note}"));
         }
         for snapped in imported.snapped.iter().take(MAX_LISTED_BODIES) {
@@ -303,7 +304,7 @@ impl Import {
                 .map(|s| s.distance)
                 .fold(0.0, f64::max);
             page.line(&format!(
-                "  snapped {more} more; of all, the farthest by {most:.2e} m; --json lists them"
+                "  snapped {more} more; the largest move of all is {most:.2e} m; --json lists them"
             ));
         }
         terminal.notes(&page);
@@ -329,7 +330,7 @@ fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
 }
 
 /// Returns a note if the scene has weights that come from the default density.
-fn light(imported: &Imported) -> Option<String> {
+fn default_density_note(imported: &Imported) -> Option<String> {
     let scene = Scene::new(imported.scene.clone()).ok()?;
     let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
     let note = scene.notes().iter().find(is_it)?;

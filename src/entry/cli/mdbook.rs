@@ -11,9 +11,9 @@ use crate::report::book;
 
 /// Draw the scenes in the chapters of an mdBook; mdbook runs this preprocessor itself
 ///
-/// In book.toml, [preprocessor.drystone] with command = "drystone mdbook"; in a chapter, a fenced block that begins
-/// with drystone and contains a scene, or names a file with file=scene.json. More options: kind=, block=, theme=,
-/// width=, amounts, nocaption.
+/// In book.toml, add [preprocessor.drystone] with command = "drystone mdbook". In a chapter, add a fenced block that
+/// begins with drystone and contains a scene, or names a file with file=scene.json. More options: kind=, block=,
+/// theme=, width=, amounts, nocaption.
 #[derive(Debug, Args)]
 pub(crate) struct MdBook {
     #[command(subcommand)]

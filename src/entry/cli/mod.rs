@@ -8,7 +8,7 @@
 //! |---|---|
 //! | 0 | done; with `check`, or `render --strict`: everything is stable |
 //! | 1 | done, and something is unstable |
-//! | 2 | the input or the command line is wrong; nothing was written, except by `batch` and `report`, which answer the sound scenes and list the others; or the program failed on a scene by its own fault, and every command answered the others |
+//! | 2 | the input or the command line is wrong; nothing was written, except by `batch` and `report`, which answer the valid scenes and list the others; or an internal fault occurred on a scene, and the command answered the other scenes |
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!
@@ -58,7 +58,7 @@ use crate::cli::error::CliError;
 use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::{OutputArgs, Terminal};
 
-const BEFORE_YOU_TRUST_IT: &str = "\
+const AFTER_LONG_HELP: &str = "\
 A verdict of 'stands' means that a balance of forces exists for rigid blocks at rest, laid dry (no cohesion). A balance \
 that exists only by wedging counts too.
 
@@ -66,12 +66,12 @@ Exit codes: 0 done and everything stands, 1 something falls, 2 the input or the 
 undecided, 4 the output could not be written. A picture of a falling structure is a success: render, report and shapes \
 end with 0 once it is written, unless --strict.";
 
-/// Does a structure of dry-laid blocks stand, how do the forces run, and a figure that shows it.
+/// Decide whether a structure of dry-laid blocks stands, find its forces, and draw figures
 #[derive(Debug, Parser)]
-#[command(name = "drystone", version, arg_required_else_help = true, max_term_width = 80, after_long_help = BEFORE_YOU_TRUST_IT)]
+#[command(name = "drystone", version, arg_required_else_help = true, max_term_width = 80, after_long_help = AFTER_LONG_HELP)]
 struct CommandLine {
     #[command(flatten)]
-    voice: OutputArgs,
+    output: OutputArgs,
     #[command(subcommand)]
     command: Command,
 }
@@ -113,7 +113,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
         }
     };
     signal::listen();
-    let terminal = Terminal::new(line.voice);
+    let terminal = Terminal::new(line.output);
     let ended = match line.command {
         Command::Render(render) => render.run(&terminal),
         Command::Figures(figures) => figures.run(&terminal),

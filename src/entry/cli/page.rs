@@ -1,8 +1,8 @@
 //! [`Page`]: text for a terminal. It escapes all text that may come from files.
 //!
-//! The terminal prints nothing else. Fixed text of the program is `&'static str`. All other text is escaped when it is
-//! added, so that the title of a scene cannot begin a line, set a colour or move the cursor. A new message cannot
-//! forget this, because there is no other way to add text.
+//! The terminal prints only pages. Fixed text of the program is `&'static str`. All other text is escaped when it is
+//! added, so that the title of a scene cannot begin a line, set a colour or move the cursor. No message can skip this
+//! step, because there is no other way to add text.
 
 use clap::builder::styling::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -74,8 +74,8 @@ impl Page {
         self.text.push_str(&page.text);
     }
 
-    /// Returns the page with lines of at most `width` columns. The rest of a longer line follows on the next line. The
-    /// continuation is indented further than the rows of a table, so that nobody takes it for a row.
+    /// Returns the page with lines of at most `width` columns. The rest of a longer line follows on the next line.
+    /// The continuation is indented further than the rows of a table, so that it does not look like a row.
     pub(crate) fn fitted(&self, width: usize) -> Page {
         let mut page = Page::default();
         for line in self.text.lines() {
@@ -84,6 +84,7 @@ impl Page {
         page
     }
 
+    /// Appends a line, broken into lines of at most `width` columns as in [`Page::fitted`].
     fn broken(&mut self, line: &str, width: usize) {
         let indent = line.len() - line.trim_start_matches(' ').len();
         let hang = (indent + 2).clamp(4, 12).min(width / 2);
@@ -164,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn foreign_text_cannot_break_lines_or_set_colours() {
+    fn text_from_files_cannot_break_lines_or_set_colours() {
         let mut page = Page::new("a\n\u{1b}[31mb\rc");
         page.literal("x\n");
         assert_eq!(page.text(), "a \u{fffd}[31mb c\nx\n");

@@ -273,13 +273,18 @@ fn millimetres(typed: &str) -> Result<f64, String> {
 }
 
 fn dots(typed: &str) -> Result<f64, String> {
-    between(typed, 1.0, 10_000.0, "pixels per inch, such as 300 or 600")
+    between(
+        typed,
+        1.0,
+        10_000.0,
+        "a number of pixels per inch, such as 300 or 600",
+    )
 }
 
 fn between(typed: &str, least: f64, most: f64, what: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(number) if (least..=most).contains(&number) => Ok(number),
-        _ => Err(format!("it is {what}, from {least} to {most}")),
+        _ => Err(format!("it must be {what}, from {least} to {most}")),
     }
 }
 
@@ -295,7 +300,7 @@ fn background(typed: &str) -> Result<Background, String> {
         "white" => Ok(Background::Plain(Colour::WHITE)),
         _ => match typed.strip_prefix('#').and_then(hex) {
             Some(value) => Ok(Background::Plain(Colour::hex(value))),
-            None => Err("a page is none, white or #rrggbb, such as #f4f1ea; shells want quotes around the #".into()),
+            None => Err("a page is none, white or #rrggbb, such as #f4f1ea; in a shell, put the colour in quotes".into()),
         },
     }
 }

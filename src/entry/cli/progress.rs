@@ -1,7 +1,8 @@
 //! [`Progress`]: a progress bar on standard error, which appears when the work takes longer than half a second.
 //!
-//! No other file uses `indicatif`. The bar counts steps of work. Next to it is the number of changed frames that were
-//! decided for margins; one step may need hundreds of them. The bar is removed when the work is done.
+//! No other file uses `indicatif`. The bar counts steps of work. Next to the bar is the number of changed frames
+//! whose verdict was computed for margins; one step may need hundreds of such frames. The bar is removed when the
+//! work is done.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};
@@ -11,10 +12,10 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::analysis::trials;
 
-/// Work that is shorter than this has no bar.
+/// The bar appears after this time, so shorter work has no bar.
 const BAR_DELAY: Duration = Duration::from_millis(500);
 
-/// Work that is under way.
+/// The progress of a command, shown as a bar.
 #[derive(Debug)]
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -79,9 +80,9 @@ impl Progress {
 /// Whether a bar is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BarVisibility {
-    /// Never: there is no terminal, or the user wants no bar.
+    /// Never shown: there is no terminal, or the user wants no bar.
     Never,
-    /// If the work takes long.
+    /// Shown if the work takes longer than half a second.
     WhenLong,
 }
 
@@ -89,7 +90,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((done, waiter)) = self.waiter.take() {
             drop(done);
-            // Ignore the result: a thread that has failed shows no bar.
+            // Ignore the result: if the thread has panicked, no bar is shown, and the work is done anyway.
             let _ = waiter.join();
         }
         self.bar.finish_and_clear();
@@ -161,7 +162,7 @@ mod tests {
             margins: true,
             ..Default::default()
         };
-        crate::analysis::Analysis::with(scene.expect("sound"), &options);
+        crate::analysis::Analysis::with(scene.expect("valid"), &options);
         thread::sleep(Duration::from_millis(300));
         drop(progress);
         let drawn = paper.text();

@@ -36,7 +36,7 @@ use crate::scene::Scene;
 
 /// A strip of more frames than this may be too large for a PNG.
 const MAX_PNG_FRAMES: usize = 50;
-/// Width of an animation, pixels, where none is given.
+/// The width of an animation in pixels, if the command line gives none.
 const ANIMATION_WIDTH: u32 = 800;
 /// A strip higher than this many page heights does not fit on a page.
 const MAX_PAGE_HEIGHTS: f64 = 1.02;
@@ -256,7 +256,7 @@ impl Render {
             && !self.writes_parts()
             && analysis.frames.len() > MAX_PNG_FRAMES
         {
-            // Check the size before the layout, which takes long for a figure with many frames.
+            // Check the size before the layout, which takes a long time for a figure with many frames.
             let size = figure::least_size(&analysis, kind, options);
             self.picture.check_png(size).map_err(split)?;
         }
@@ -321,7 +321,8 @@ impl Render {
         }
     }
 
-    /// Adds the block of `--capacity`, and the margin of `--margin` if the figure shows the sensitivity of a margin.
+    /// Returns the analysis options with the block of `--capacity` and the ranges of `--for-all`. If the figure shows
+    /// the sensitivity of a margin, they also have the margin of `--margin`.
     fn with_requests(
         &self,
         analysis_options: &analysis::Options,

@@ -40,8 +40,8 @@ pub(crate) struct Report {
     /// Output: a file that ends in .html, .md (with its figures next to it), .pdf or .json; with --split a folder
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Make the figures of an HTML report interactive: readers drag the stones. FILE is interactive.js, or its folder,
-    /// as examples/playground/build.sh in the repository of drystone makes it
+    /// Make the figures of an HTML report interactive: readers drag the stones. FILE is the script interactive.js, or
+    /// its folder; examples/playground/build.sh in the repository of drystone makes it
     #[arg(long, value_name = "FILE", conflicts_with_all = ["split", "compare"])]
     interactive: Option<PathBuf>,
     /// Write an index and a page for each scene into the folder OUT
@@ -77,7 +77,7 @@ pub(crate) struct Report {
     level: AnalysisArgs,
 }
 
-/// The margins of a sheet, unless all are requested.
+/// The margins in a report, unless `--margins` requests all margins.
 const DEFAULT_MARGINS: [MarginKind; 3] = [
     MarginKind::LoadFactor,
     MarginKind::Friction,
@@ -87,7 +87,7 @@ const DEFAULT_MARGINS: [MarginKind; 3] = [
 /// Files that are not valid scenes, with the error for the command line.
 type InvalidFiles = Vec<(Refused, CliError)>;
 
-/// The piece of a task and its exit status, or the files that are not valid scenes.
+/// The part of the report for one task and the exit status of the task, or the files that are not valid scenes.
 type TaskResult = Result<(Piece, ExitStatus), InvalidFiles>;
 
 /// The results of all tasks.

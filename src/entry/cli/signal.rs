@@ -28,6 +28,7 @@ pub(crate) fn listen() {
             if signal == SIGXFSZ {
                 continue;
             }
+            // Keep the guard until the end, so that no thread creates another temporary file.
             let nothing_new = crate::output::file::abandon();
             let _ = emulate_default_handler(signal);
             drop(nothing_new);
@@ -35,8 +36,8 @@ pub(crate) fn listen() {
     });
 }
 
-/// Returns the signals that this process was started to ignore, as `nohup` does. Each signal is one bit; signal 1 is
-/// the lowest. They are known on Linux only; elsewhere the result is 0.
+/// Returns the signals that this process ignores since its start, for example if `nohup` started it. Each signal is
+/// one bit; signal 1 is the lowest. They are known on Linux only; elsewhere the result is 0.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -90,7 +90,7 @@ impl Snapshot {
         };
         self.write_reports(&report, page).map_err(|c| vec![c])?;
         drop(turn);
-        self.tell(terminal, &report, &described, accepts, &failing)?;
+        self.print_result(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
             // Without --accept, the unwritten files would only help people to inspect the difference. The exit code
             // does not depend on them.
@@ -129,7 +129,8 @@ impl Snapshot {
                 .is_some_and(|e| e.eq_ignore_ascii_case("html"));
             if !html {
                 return Err(CliError::CommandLine(format!(
-                    "--review {}: the page is an .html file; to be asked here, put --review behind the folders",
+                    "--review {}: the page is an .html file; to review the changes in the terminal, put --review \
+                    after the folders",
                     page.display()
                 )));
             }
@@ -173,7 +174,9 @@ impl Snapshot {
         ))
     }
 
-    fn tell(
+    /// Prints the differences (as annotations with `--github`) and a summary. If there are differences, also prints
+    /// the commands to review and to accept them.
+    fn print_result(
         &self,
         terminal: &Terminal,
         report: &CheckOutcome,
@@ -209,7 +212,7 @@ impl Snapshot {
                 .map(|f| crate::text::shell(&f.display().to_string()))
                 .collect();
             let places = places.join(" ");
-            terminal.note(&format!("to look: drystone snapshot {places} --review review.html; to accept: drystone snapshot {places} --accept"));
+            terminal.note(&format!("to review: drystone snapshot {places} --review review.html; to accept: drystone snapshot {places} --accept"));
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use std::str::FromStr;
 use crate::cli::error::CliError;
 use crate::scene::{Scene, isolate};
 
-/// A scene and where it came from.
+/// A scene and the path from which it was read.
 #[derive(Debug)]
 pub(crate) struct Source {
     /// The path as typed, `-` for standard input.
@@ -29,7 +29,7 @@ impl Source {
         name(&self.path)
     }
 
-    /// Removes all frames of the scene but one. Returns an error if there is no such frame.
+    /// Removes all frames of the scene except the chosen one. Returns an error if the scene has no such frame.
     fn only_frame(&mut self, choice: FrameChoice) -> Result<(), CliError> {
         let count = self.scene.frames.len();
         let number = match choice {
@@ -137,7 +137,7 @@ pub(crate) fn read_apart_from_faults(
     }
 }
 
-/// A path as given, with the scene that was read from it, or the error.
+/// A path, and the scene that was read from it or the error.
 pub(crate) type ReadResult = (PathBuf, Result<Source, CliError>);
 
 /// Reads all scenes, and returns a scene or an error for each file. The files are in the order of `paths`, and the

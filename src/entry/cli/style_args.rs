@@ -10,7 +10,7 @@ use crate::cli::error::CliError;
 use crate::drawing::Theme;
 use crate::drawing::style::format::Notation;
 
-/// The theme, and changes to it.
+/// The theme, and a style file that changes it.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct StyleArgs {
     /// Colours: those of Vallat (2023), for print and greyscale, for all kinds of colour vision, or for a dark page

@@ -93,7 +93,7 @@ pub(crate) fn explained(width: Option<usize>) -> Page {
     page
 }
 
-/// At most this many failures of a frame are described in words; figures and JSON have all.
+/// The largest number of failures of a frame that are described in words; figures and JSON have all.
 const MAX_LISTED_FAILURES: usize = 12;
 /// Titles of frames with more columns are shortened.
 const MAX_FRAME_TITLE: usize = 40;
@@ -108,7 +108,7 @@ const MIN_TITLE: usize = 8;
 
 /// Titles of frames and names of bodies are first cut to these numbers of columns.
 const READABLE_WIDTHS: [usize; 2] = [20, 12];
-/// The column with the names of the two bodies.
+/// The index of the column with the names of the two bodies.
 const BODIES_COLUMN: usize = 4;
 
 /// The amount of detail in a table.
@@ -122,8 +122,9 @@ pub(crate) enum Detail {
 
 /// Writes the table of one scene, for a terminal of `width` columns.
 ///
-/// If the rows would be wider, titles and names are shortened as far as needed. If that is not enough, every value
-/// has a line of its own. The remarks below the rows may be wider than the terminal; [`Page::fitted`] breaks them.
+/// If the rows would be wider, titles and names are shortened as far as needed. If that is not enough, every value is
+/// written on a separate line. The remarks below the rows may be wider than the terminal; [`Page::fitted`] breaks
+/// them.
 pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
@@ -170,7 +171,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     page
 }
 
-/// The columns; the last one only if there are robots.
+/// The headings of the columns. The last column is present only if there are robots.
 const COLUMN_HEADS: [&str; 7] = [
     "frame", "verdict", "weight", "largest", "between", "friction", "robots",
 ];
@@ -224,8 +225,8 @@ fn row_width(widths: &[usize]) -> usize {
     widths.iter().sum::<usize>() + gaps
 }
 
-/// Writes the cells of a row. Words are aligned to the left of their columns, and numbers to the right. The second
-/// style is for the verdict, the first for all other cells.
+/// Writes the cells of a row. Words are left-aligned, and numbers are right-aligned. The second style is for the
+/// verdict, the first for all other cells.
 fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
@@ -282,6 +283,7 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
     }
 }
 
+/// Returns the cells of the row of a frame, in the order of [`COLUMN_HEADS`].
 fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
     // The forces of a frame that falls are balanced only together with the missing forces, so they are not shown.
     let stands = frame.verdict == Verdict::Stable;

@@ -39,14 +39,16 @@ pub(crate) struct Terminal {
 
 impl Terminal {
     /// Returns the standard output and standard error of the process, with these options for messages and colours.
-    pub(crate) fn new(voice: OutputArgs) -> Terminal {
-        let choice = match voice.color {
+    pub(crate) fn new(output: OutputArgs) -> Terminal {
+        let choice = match output.color {
             Colour::Auto => ColorChoice::Auto,
             Colour::Always => ColorChoice::Always,
             Colour::Never => ColorChoice::Never,
         };
         choice.write_global();
-        Terminal { quiet: voice.quiet }
+        Terminal {
+            quiet: output.quiet,
+        }
     }
 
     /// True if only errors are printed.
@@ -54,7 +56,7 @@ impl Terminal {
         self.quiet
     }
 
-    /// True if a progress bar is wanted and visible.
+    /// True if progress bars are shown: standard error is a terminal, and `--quiet` is not given.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()
     }

@@ -1,6 +1,7 @@
 //! `--watch`: repeats a command whenever one of its input files changes.
 //!
-//! It compares size and time of the files a few times a second. This works on every system and on network drives.
+//! It compares the size and the modification time of the files a few times a second. This works on every system and
+//! on network drives.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,29 +15,29 @@ use crate::cli::terminal::Terminal;
 /// The time between two comparisons.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
-/// The time of change and the size of a file in bytes; `None` while an editor replaces the file.
+/// The modification time of a file, and its size in bytes; `None` while an editor replaces the file.
 type FileStamp = Option<(SystemTime, u64)>;
 
 /// Runs a command, and runs it again whenever one of the files changes, until the process is stopped.
 ///
-/// Errors of a run are printed, and the next change of a file starts the next run.
+/// Errors of a run are printed. The command still runs again when a file changes.
 pub(crate) fn repeat(
     files: &[PathBuf],
     terminal: &Terminal,
     mut run: impl FnMut() -> Result<ExitStatus, Vec<CliError>>,
 ) -> Result<ExitStatus, Vec<CliError>> {
     loop {
-        let before = marks(files);
+        let before = stamps(files);
         if let Err(complaints) = run() {
             for complaint in &complaints {
                 terminal.refuse(complaint);
             }
         }
         // A change during the run counts too. If a file is still being written, wait until it stays unchanged.
-        let mut last = marks(files);
+        let mut last = stamps(files);
         loop {
             thread::sleep(POLL_INTERVAL);
-            let now = marks(files);
+            let now = stamps(files);
             let is_settled = now == last && !now.contains(&None);
             if is_settled && now != before {
                 break;
@@ -46,11 +47,11 @@ pub(crate) fn repeat(
     }
 }
 
-fn marks(files: &[PathBuf]) -> Vec<FileStamp> {
-    files.iter().map(|file| mark(file)).collect()
+fn stamps(files: &[PathBuf]) -> Vec<FileStamp> {
+    files.iter().map(|file| stamp(file)).collect()
 }
 
-fn mark(file: &Path) -> FileStamp {
+fn stamp(file: &Path) -> FileStamp {
     let known = fs::metadata(file).ok()?;
     Some((known.modified().ok()?, known.len()))
 }

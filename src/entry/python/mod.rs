@@ -29,13 +29,14 @@ use crate::scene::{Scene, SceneError, isolate};
 #[derive(Clone, Debug)]
 struct Options {
     analysis_options: analysis::Options,
-    /// The block of which to compute the forces that it can carry, and the ranges of the cases, as on the command line.
+    /// The block whose capacity is computed, written like the value of `--capacity`.
     capacity: Option<String>,
+    /// The ranges in which the block must carry the forces, written like the value of `--for-all`.
     for_all: Option<String>,
     time_limit: Option<Duration>,
     contact_tolerance: Option<f64>,
     notes: bool,
-    /// Whether problems have a line and a column, because the text is a file that somebody wrote.
+    /// Whether problems have a line and a column. This is useful only if the scene was read from text.
     located: bool,
 }
 
@@ -65,7 +66,7 @@ impl Options {
             "standard" => Accuracy::Standard,
             "proved" => Accuracy::Proved,
             other => {
-                let why = format!("accuracy is \"standard\" or \"proved\", not {other:?}");
+                let why = format!("accuracy must be \"standard\" or \"proved\", not {other:?}");
                 return Err(fault(py, &why));
             }
         };
@@ -153,7 +154,7 @@ impl Options {
 enum Refusal {
     /// The scene is not valid.
     Scene(SceneError),
-    /// What was asked for does not fit the scene.
+    /// The request of a capacity does not fit the scene. The text is the message.
     Request(String),
 }
 
@@ -307,7 +308,7 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
 }
 
 /// Analyses scenes on several threads, and returns analyses and errors in the order of the scenes. Calls `progress`
-/// with the number of finished scenes; an exception in it ends the work.
+/// with the number of finished scenes; if `progress` raises an exception, the work ends with this exception.
 #[pyfunction]
 fn check_many(
     py: Python<'_>,
@@ -337,14 +338,15 @@ fn check_many(
                 pool.install(|| texts.map(answer).collect::<Vec<_>>())
             });
             let mut count = 0;
-            let mut told = 0;
+            let mut reported = 0;
             loop {
+                // Wait at most 50 ms, so that Python can handle an interrupt while the threads work.
                 let heard = done.recv_timeout(Duration::from_millis(50));
                 if heard.is_ok() {
                     count += 1 + done.try_iter().count();
                 }
-                if count > told || heard == Err(RecvTimeoutError::Timeout) {
-                    told = count;
+                if count > reported || heard == Err(RecvTimeoutError::Timeout) {
+                    reported = count;
                     let heard = Python::attach(|py| {
                         py.check_signals()?;
                         progress
@@ -384,7 +386,7 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
     }
 }
 
-/// Returns the text of a scene file in drystone's own layout, with line breaks and spaces as drystone writes them.
+/// Returns the text of a scene file with the line breaks and spaces that drystone uses.
 #[pyfunction]
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
     let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;

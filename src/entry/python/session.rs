@@ -15,23 +15,23 @@ use crate::session::{self, SessionError};
 #[pyclass(module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 pub(super) struct Session {
-    now: session::Session,
+    inner: session::Session,
 }
 
 #[pymethods]
 impl Session {
     #[new]
     fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
-        // Check the text first, because only `Scene::from_json` knows the lines of problems.
+        // Check the text first, because only `Scene::from_json` reports the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
         let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
-        let now = py.detach(|| session::Session::with(file, options.analysis_options));
-        let now = now.map_err(|error| complaint(py, error))?;
-        Ok(Session { now })
+        let inner = py.detach(|| session::Session::with(file, options.analysis_options));
+        let inner = inner.map_err(|error| complaint(py, error))?;
+        Ok(Session { inner })
     }
 
     /// Places a block with these rings, in metres or in the scene's unit of length. `keys` are its other keys as JSON
-    /// text; without `polygon`, one of them gives the outline.
+    /// text; without `polygon`, one of these keys must define the outline.
     fn place(
         &mut self,
         py: Python<'_>,
@@ -45,11 +45,11 @@ impl Session {
             Some(keys) => parsed(keys).map_err(|why| fault(py, &format!("block: {why}")))?,
         };
         (block.id, block.polygon, block.holes) = (id, polygon, holes);
-        self.step(py, |now| now.place(block))
+        self.step(py, |inner| inner.place(block))
     }
 
     fn remove(&mut self, py: Python<'_>, block: &str) -> PyResult<&'static str> {
-        self.step(py, |now| now.remove(block))
+        self.step(py, |inner| inner.remove(block))
     }
 
     fn hold(
@@ -60,22 +60,22 @@ impl Session {
         at: Option<[f64; 2]>,
     ) -> PyResult<&'static str> {
         let at = at.map(|[x, y]| Point::new(x, y));
-        self.step(py, |now| now.hold(robot, block, at))
+        self.step(py, |inner| inner.hold(robot, block, at))
     }
 
     fn release(&mut self, py: Python<'_>, robot: &str) -> PyResult<&'static str> {
-        self.step(py, |now| now.release(robot))
+        self.step(py, |inner| inner.release(robot))
     }
 
     #[getter]
     fn verdict(&self) -> &'static str {
-        self.now.verdict().word()
+        self.inner.verdict().word()
     }
 
     /// Returns the ids of the placed blocks, in the order in which they were placed.
     #[getter]
     fn blocks(&self) -> Vec<&str> {
-        let scene = self.now.scene();
+        let scene = self.inner.scene();
         let placed = scene.frames().first().into_iter().flat_map(|f| &f.placed);
         placed.map(|b| scene.blocks()[b.0].id.as_str()).collect()
     }
@@ -83,7 +83,7 @@ impl Session {
     /// Returns pairs of ids: a robot, and the block that it holds.
     #[getter]
     fn holds(&self) -> Vec<(&str, &str)> {
-        let scene = self.now.scene();
+        let scene = self.inner.scene();
         let holds = scene.frames().first().into_iter().flat_map(|f| &f.holds);
         holds
             .map(|h| {
@@ -95,18 +95,18 @@ impl Session {
 
     /// Analyses the placed blocks with these options.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
-        let scene = self.now.scene();
+        let scene = self.inner.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.analysis_options)))
     }
 
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written
     /// like the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
-        let request = analysis::typed_capacity(self.now.scene(), typed, for_all);
+        let request = analysis::typed_capacity(self.inner.scene(), typed, for_all);
         let request = request.map_err(|why| fault(py, &why))?;
-        let found = py.detach(|| self.now.capacity(&request));
+        let found = py.detach(|| self.inner.capacity(&request));
         let found = found.map_err(|why| fault(py, &why.to_string()))?;
-        Ok(result::capacity_json(self.now.scene(), &found))
+        Ok(result::capacity_json(self.inner.scene(), &found))
     }
 
     fn copy(&self) -> Session {
@@ -120,8 +120,8 @@ impl Session {
         py: Python<'_>,
         work: impl FnOnce(&mut session::Session) -> Result<analysis::Verdict, SessionError> + Send,
     ) -> PyResult<&'static str> {
-        let now = &mut self.now;
-        match py.detach(|| work(now)) {
+        let inner = &mut self.inner;
+        match py.detach(|| work(inner)) {
             Ok(verdict) => Ok(verdict.word()),
             Err(error) => Err(complaint(py, error)),
         }

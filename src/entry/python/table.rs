@@ -44,8 +44,8 @@ impl Table {
         self.columns.iter().map(|column| column.0).collect()
     }
 
-    /// Returns the numpy type of each column, and its values as a bytearray or a list of texts. An array on a bytearray
-    /// can be written.
+    /// Returns the numpy type of each column, and its values as a bytearray or a list of texts. A numpy array that
+    /// shares the memory of a bytearray is writable.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
         let bytes = |bytes: Vec<u8>| PyByteArray::new(py, &bytes).into_any();
         let one = |(_, column): &(&'static str, Column)| {
@@ -181,7 +181,7 @@ fn value(margin: &Margin) -> f64 {
     }
 }
 
-/// Rows, each with the number of its frame, and the columns that were made of them.
+/// Rows, each with the number of its frame, and the columns that were computed from the rows.
 struct Rows<T> {
     rows: Vec<(usize, T)>,
     columns: Vec<(&'static str, Column)>,

@@ -7,7 +7,8 @@ use crate::import::{Format, Options, STONES, Stone, import};
 use crate::result::imported_json;
 use crate::scene::format::SceneFile;
 
-/// The options of an import, with the names of the library's.
+/// The options of an import. Their names are those of the fields of [`Options`] and of the keys of a scene file. In
+/// addition, `material` is the name of a stone. `frame` is counted from 1.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct ImportOptions {
@@ -38,7 +39,7 @@ pub(super) fn imported(
         "geojson" | "json" => Format::GeoJson,
         "wkt" => Format::Wkt,
         other => {
-            let why = format!("format is svg, dxf, geojson, json or wkt, not {other:?}");
+            let why = format!("format must be svg, dxf, geojson, json or wkt, not {other:?}");
             return Err(Refusal::of_option(why));
         }
     };
@@ -55,7 +56,7 @@ impl ImportOptions {
             None => None,
             Some(name) => Some(Stone::from_name(name).ok_or_else(|| {
                 let known = STONES.map(|stone| stone.name).join(", ");
-                Refusal::of_option(format!("material is one of {known}, not {name:?}"))
+                Refusal::of_option(format!("material must be one of {known}, not {name:?}"))
             })?),
         };
         Ok(Options {

@@ -6,7 +6,8 @@ use crate::import::DrawingProblems;
 use crate::result::{problem_list, remark_list};
 use crate::scene::SceneError;
 
-/// Why the input was refused. JavaScript receives an `Error` with the message, whose property `problems` is a list.
+/// Why the input was refused. JavaScript receives an `Error` with this message. The property `problems` of the
+/// `Error` is a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
     /// The message, which contains all problems.

@@ -24,7 +24,7 @@ pub(super) struct FigureOptions {
     pub(super) block: Option<String>,
     pub(super) frame: Option<FrameChoice>,
     theme: Option<String>,
-    /// Changes of the theme: the text of a style file.
+    /// The text of a style file, which changes the theme.
     style: Option<String>,
     width_mm: Option<f64>,
     width_px: Option<f64>,
@@ -46,6 +46,7 @@ pub(super) struct FigureOptions {
     with_polygon: bool,
     pub(super) zoom: Option<String>,
     columns: Option<u16>,
+    /// The fraction of their paths, from 0 to 1, that the moving blocks of a mechanism have covered.
     way: Option<f64>,
     pub(super) broken: bool,
     pub(super) accuracy: Level,
@@ -64,7 +65,10 @@ impl FigureOptions {
             Some(name) if name == FREEBODY => Ok(None),
             Some(name) => Kind::from_name(name).map(Some).ok_or_else(|| {
                 let known = Kind::ALL.map(Kind::name).join(", ");
-                Refusal::of_option(format!("kind is {known} or {}, not {name:?}", FREEBODY))
+                Refusal::of_option(format!(
+                    "kind must be {known} or {}, not {name:?}",
+                    FREEBODY
+                ))
             }),
         }
     }
@@ -74,7 +78,7 @@ impl FigureOptions {
             None => None,
             Some(name) => Some(Theme::named(name).ok_or_else(|| {
                 let known = Theme::NAMES.join(", ");
-                Refusal::of_option(format!("theme is one of {known}, not {name:?}"))
+                Refusal::of_option(format!("theme must be one of {known}, not {name:?}"))
             })?),
         };
         match &self.style {
@@ -128,7 +132,7 @@ impl FigureOptions {
         })
     }
 
-    /// Returns the margin that the figure shows; `None` for the default one.
+    /// Returns the margin that the figure shows; `None` for the default margin.
     pub(super) fn margin(&self) -> Option<MarginKind> {
         self.margin.map(|margin| margin.0)
     }
@@ -169,7 +173,8 @@ impl FigureOptions {
     }
 }
 
-/// Declares options of a few words, the default first, each with its value for figures.
+/// Declares enums for options. Each variant is a word of the option with its value for figures; the first is the
+/// default.
 macro_rules! choices {
     ($($name:ident: $target:ty { $first:ident => $default:expr $(, $word:ident => $value:expr)* })*) => {
         $(

@@ -1,10 +1,10 @@
 //! The WebAssembly module for browsers. Its functions take scenes and options as JSON text, and return results and
 //! pictures as text.
 //!
-//! Nothing is computed here. `examples/playground/build.sh` makes a package of it for JavaScript, with declarations for
-//! TypeScript. A function that refuses its input throws an `Error` whose property `problems` is the list that
-//! `drystone check --json` prints. After an internal error (an `Error` without `problems`) the module has to be started
-//! again.
+//! Nothing is computed here. `examples/playground/build.sh` makes a package of it for JavaScript, with declarations
+//! for TypeScript. A function that refuses its input throws an `Error`. Its property `problems` is the list of
+//! problems that `drystone check --json` prints. After an internal error (an `Error` without `problems`) the module
+//! has to be started again.
 
 mod draw;
 mod drawing;
@@ -78,9 +78,9 @@ pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
 }
 
 /// Draws a scene as SVG, as `drystone render` does. `options` is a JSON object with the names of the options of
-/// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill`, `capacity`, `for_all` and others. Three
-/// more options exist. `style` is the text of a style file. `width_px` is the width of the page in pixels. `way`, from
-/// 0 to 1, is the part of their paths that the blocks of a mechanism have moved.
+/// `render`: `kind`, `frame`, `theme`, `width_mm`, `amounts`, `arrows`, `fill`, `capacity`, `for_all` and others.
+/// Three more options exist. `style` is the text of a style file. `width_px` is the width of the page in pixels.
+/// `way`, from 0 to 1, is the fraction of their paths that the blocks of a mechanism have moved.
 ///
 /// # Errors
 /// Returns the same errors as [`check`].
@@ -99,10 +99,10 @@ pub fn problems(scene: &str) -> String {
     }
 }
 
-/// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the log
-/// of the import as JSON, with the text of the scene file under the key `scene`. `options` is JSON: `scale` and
-/// `flatten`, `gap`, `ratio`, `ground_layers`, `frame`, `title`, `friction`, `material`, `density`, `thickness`,
-/// `kernel`, `gravity`.
+/// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the
+/// log of the import as JSON, with the text of the scene file under the key `scene`. `options` is a JSON object with
+/// the keys `scale`, `flatten`, `gap`, `ratio`, `ground_layers`, `frame`, `title`, `friction`, `material`, `density`,
+/// `thickness`, `kernel`, `gravity`.
 ///
 /// # Errors
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.

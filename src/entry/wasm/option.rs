@@ -126,7 +126,7 @@ pub(super) fn scene(
     Ok(scene)
 }
 
-/// A frame: its number from 1, or "last".
+/// The choice of a frame: its number from 1, or "last".
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(untagged, expecting = "a frame is a number from 1, or \"last\"")]
 pub(super) enum FrameChoice {
@@ -140,7 +140,7 @@ pub(super) enum Last {
     Last,
 }
 
-/// How strong a proof must be.
+/// The level of accuracy, which determines how strict the proofs are.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Level {

@@ -7,7 +7,8 @@ use crate::scene::Problem;
 use crate::text;
 use crate::wording::verdict::word;
 
-/// The first row. Forces are in newtons; a share of 1 is all of the available friction, or a robot at its limit.
+/// The first row. Forces are in newtons. `friction_used` and `limit_used` are fractions: 1 means that all available
+/// friction is used, or that a robot is at its limit.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 
 /// Writes the rows of a scene, one for each frame.

@@ -13,9 +13,9 @@ use crate::result::Origin;
 #[derive(Debug)]
 pub(super) struct Inputs {
     pub list: Vec<Input>,
-    /// Their paths; `-` for standard input.
+    /// The paths of the inputs; `-` for standard input.
     pub files: Vec<PathBuf>,
-    /// Their size in bytes, if it is known.
+    /// The total size of the inputs in bytes; `None` if it is not known.
     pub bytes: Option<u64>,
 }
 
@@ -37,7 +37,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         }
     }
     if drawn {
-        complaints.extend(one_name(&files));
+        complaints.extend(name_clashes(&files));
     }
     if !complaints.is_empty() {
         return Err(complaints);
@@ -149,7 +149,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
 }
 
 /// Returns an error for each pair of files whose pictures would have the same name.
-fn one_name(files: &[PathBuf]) -> Vec<CliError> {
+fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut complaints = Vec::new();
     for file in files {

@@ -11,7 +11,7 @@ use crate::batch::Records;
 use crate::cli::destination;
 use crate::cli::error::CliError;
 
-/// Lines are collected, and written as soon as they have this many bytes.
+/// Lines are collected in memory until they have this many bytes, and then written.
 const BUFFER_BYTES: usize = 1 << 16;
 
 /// The stream to which the lines are written.
@@ -19,19 +19,20 @@ pub(super) struct Output {
     stream: Box<dyn Write>,
     /// Lines that are not written yet.
     waiting: Vec<u8>,
-    /// The record of options and scenes, if the lines go to a file.
+    /// The resume file; `None` if the output cannot be resumed.
     resume: Option<ResumeFile>,
-    /// Its name in error messages.
+    /// The name of the output in error messages.
     name: String,
     is_stdout: bool,
+    /// The number of lines that an earlier run has written.
     done: usize,
 }
 
-/// An output as the command line names it.
+/// The output that the command line selects.
 pub(super) struct Target<'a> {
     /// The file; `None` for standard output.
     pub path: Option<&'a Path>,
-    /// Whether its existing answers are kept.
+    /// Whether the existing answers in the file are kept.
     pub resume: bool,
     /// The settings on which the answers depend.
     pub settings: Settings,

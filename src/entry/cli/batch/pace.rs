@@ -13,22 +13,26 @@ use crate::wording::verdict::counted;
 /// The default interval between two reports on a terminal.
 const REPORT_INTERVAL: Duration = Duration::from_secs(2);
 
-/// The pace of a batch.
+/// The progress of a batch.
 pub(super) struct BatchProgress<'t> {
     terminal: &'t Terminal,
     start: Instant,
     /// The interval between two reports; `None` for no reports.
     every: Option<Duration>,
     reported: Instant,
-    /// The bytes of all inputs, the bytes read so far, and those that were read before this run began.
+    /// The size of all inputs in bytes; `None` if it is not known.
     all: Option<u64>,
+    /// The number of bytes read so far, including `read_before`.
     read: Arc<AtomicU64>,
+    /// The number of input bytes with scenes that an earlier run has answered.
     read_before: u64,
+    /// The number of scenes that an earlier run has answered.
     before: usize,
+    /// The number of scenes with each verdict of [`VERDICTS`], and the number of scenes that are not valid.
     counts: [usize; 4],
 }
 
-/// The kinds of answers, in the order in which they are counted. Scenes that are not valid come last.
+/// The verdicts in the order of the counts of [`BatchProgress`].
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> BatchProgress<'t> {
@@ -93,7 +97,7 @@ impl<'t> BatchProgress<'t> {
             .filter(|(_, count)| **count > 0)
             .map(|(kind, count)| match VERDICTS.get(kind) {
                 Some(verdict) => counted(*count, *verdict),
-                None => format!("{count} wrong"),
+                None => format!("{count} not valid"),
             })
             .collect();
         let done: usize = self.counts.iter().sum();

@@ -1,10 +1,11 @@
 //! [`ResumeFile`]: a file next to the output. It stores the options of the run, and for each output line the hash of
 //! the scene and the hash of the line.
 //!
-//! The output contains only one line of JSON for each scene, so the record has a file of its own:
+//! The output contains only one line of JSON for each scene, so the options and hashes are in a separate file:
 //! `answers.ndjson.resume` for `answers.ndjson`. It begins with the options, one `name: value` per line, and an empty
 //! line. Each line after that has two hashes in hexadecimal: the hash of a scene as it was read, and the hash of the
-//! line that answers it. `--resume` continues only if all of them agree.
+//! line that answers it. `--resume` continues only if the options, the scenes and the output lines agree with this
+//! file.
 
 use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
@@ -17,11 +18,11 @@ use crate::cli::error::CliError;
 use crate::result::Origin;
 use crate::text;
 
-/// The ending that is added to the path of an output.
+/// The suffix that is added to the path of an output.
 const FILE_SUFFIX: &str = ".resume";
 /// Bytes of an entry: two hashes of 16 digits, a space and a line feed.
 const ENTRY_BYTES: usize = 34;
-/// Bytes that are read at once.
+/// The size of a read buffer in bytes.
 const BUFFER_BYTES: usize = 1 << 16;
 
 /// The options on which the answers of a run depend: name and value.
@@ -57,7 +58,7 @@ impl Settings {
     }
 }
 
-/// Reads the header of a resume file. `None` if the file does not begin with a header.
+/// Reads the header of a resume file. Returns `None` if the file does not begin with a header.
 fn read_header(entries: &mut impl BufRead) -> Option<String> {
     let mut header = String::new();
     loop {
@@ -156,7 +157,7 @@ pub(super) struct Checked {
     pub answers: usize,
     /// Their length in bytes; an incomplete line may follow.
     pub bytes: u64,
-    /// The length of the part of the resume file that belongs to them, in bytes.
+    /// The length of the header and of the entries of these answers in the resume file, in bytes.
     resume_bytes: u64,
 }
 
@@ -164,7 +165,7 @@ pub(super) struct Checked {
 /// input. Changes no file.
 ///
 /// # Errors
-/// Returns the first difference, and says what to do about it.
+/// Returns an error for the first difference. Its message also says what to do.
 pub(super) fn check(
     output: &Path,
     settings: &Settings,

@@ -40,7 +40,7 @@ fn shown_within(text: &str, list: &[Problem], width: Option<usize>) -> String {
 }
 
 #[test]
-fn a_problem_is_shown_in_its_line_with_its_place() {
+fn a_problem_is_shown_with_its_line_and_position() {
     let text = "{\n  \"é\": 1,\n  \"weight\": -3\n}";
     let shown = shown(text, &[problem(text, "-3")]);
     assert!(shown.contains("a.json:3:13"), "{shown}");
@@ -71,7 +71,7 @@ fn a_long_line_is_shown_around_the_problem_only() {
 
 /// Long lines, wide letters, long paths and long help, on terminals of 40 columns and more.
 #[test]
-fn a_problem_fits_the_terminal_and_is_marked_at_its_place() {
+fn a_problem_fits_the_terminal_and_is_marked_at_its_position() {
     let lines = [
         "{ \"weight\": -3 }".to_owned(),
         format!(

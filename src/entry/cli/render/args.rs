@@ -29,7 +29,8 @@ pub(crate) struct Render {
     /// One resultant arrow for each interface and block, or separate arrows for normal and friction force
     #[arg(long, value_enum, default_value = "resultant")]
     pub(super) arrows: Arrows,
-    /// The force that is one unit long: the largest arrow, or the largest single unknown, as in Vallat (2023)
+    /// The force whose arrow has unit length: the largest drawn force, or the largest single unknown, as in Vallat
+    /// (2023)
     #[arg(long, value_enum, default_value = "drawn")]
     pub(super) normalise: Normalise,
     /// One scale of arrows for each panel, or for the whole strip
@@ -45,10 +46,10 @@ pub(crate) struct Render {
     #[arg(long)]
     pub(super) corners: bool,
     /// Show the frames one after the other in a GIF or an animated PNG, each for this many seconds; falling blocks
-    /// move for this time, and rest for one second at its end
+    /// move for this time, and then rest for one second
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) animate: Option<f64>,
-    /// Write the amount of the force next to every arrow
+    /// Write the magnitude of the force next to every arrow
     #[arg(long)]
     pub(super) amounts: bool,
     /// The quantity that the colours of blocks show
@@ -62,13 +63,13 @@ pub(crate) struct Render {
     /// Leave out the frames' captions
     #[arg(long)]
     pub(super) no_caption: bool,
-    /// Leave out the verdicts and what is written below them
+    /// Leave out the verdicts and the text below them
     #[arg(long)]
     pub(super) no_verdict: bool,
     /// Leave out the key and the scale of arrows
     #[arg(long)]
     pub(super) no_key: bool,
-    /// Show a bar of a round number of metres
+    /// Show a scale bar with a round number of metres
     #[arg(long)]
     pub(super) scale_bar: bool,
     /// Draw dimension lines at the edges of each panel: width and height of all blocks, or of the block of --zoom
@@ -77,7 +78,7 @@ pub(crate) struct Render {
     /// Draw the force polygon next to the line of thrust of --kind thrust: a load line, a pole, and a ray for each joint
     #[arg(long)]
     pub(super) with_polygon: bool,
-    /// Show the neighbourhood of one block only, by its id
+    /// Show only the neighbourhood of the block with this id
     #[arg(long, value_name = "ID")]
     pub(super) zoom: Option<String>,
     /// Write every panel of a strip to a separate file, with its letter after the name

@@ -40,11 +40,11 @@ pub(super) enum Fill {
     Amplitude,
     /// The largest mean pressure on one of its interfaces, N/m², for the scene's thickness
     Stress,
-    /// The largest share of the available friction that one of its interfaces uses
+    /// The largest fraction of the available friction that one of its interfaces uses
     Friction,
     /// Nothing: plain blocks
     None,
-    /// Shares of the robots' limits, by the rule and in the colours of Vallat (2023)
+    /// Fractions of the robots' limits, computed and coloured as in Vallat (2023)
     Source,
 }
 

@@ -1,5 +1,5 @@
-//! Draws figures of an existing analysis for a caller in the same process, such as the Python module. The options are
-//! words, as on the command line of `render`.
+//! Draws figures of an existing analysis for a caller in the same process, such as the Python module. The options
+//! have the same form as the arguments of `render` on the command line.
 
 use clap::Parser;
 
@@ -15,7 +15,7 @@ use crate::output::animation;
 use crate::output::fonts::Fonts;
 use crate::scene::Sketch;
 
-/// The options of `render` without the program around them.
+/// A command line that consists of the options of `render` only.
 #[derive(Debug, Parser)]
 #[command(name = "figure", disable_help_flag = true)]
 struct Line {
@@ -23,7 +23,8 @@ struct Line {
     render: Render,
 }
 
-/// Parses the options of `render`. Returns them, the format for the file extension `ending`, and the fonts of `--font`.
+/// Parses the options of `render`. Returns the options, the format for the file extension `ending`, and the fonts of
+/// `--font`.
 fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), String> {
     let output = format!("figure.{ending}");
     let head = ["figure", "scene.json", "-o", output.as_str()];

@@ -15,7 +15,7 @@ use crate::wording::verdict::{counted, plain};
 
 /// A figure, with the exit status and a summary of its scene.
 pub(super) struct Rendered {
-    /// The content of each file; there are several if each panel has its own file.
+    /// The content of each file; there are several if each panel or page is a separate file.
     pub(super) bytes: Vec<Vec<u8>>,
     pub(super) ending: ExitStatus,
     pub(super) summary: String,

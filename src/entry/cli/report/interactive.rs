@@ -7,13 +7,13 @@ use crate::cli::error::CliError;
 
 /// The name of the file in the folder that `examples/playground/build.sh` makes.
 const NAME: &str = "interactive.js";
-/// What makes the file.
+/// How to make the file, for error messages.
 const MADE: &str = "examples/playground/build.sh in the repository of drystone makes it";
 
 /// Reads the script. `path` is the file, or the folder that contains it.
 ///
 /// # Errors
-/// If the file cannot be read, is another file, or belongs to another version of drystone.
+/// Returns an error if the file cannot be read, is not this script, or belongs to another version of drystone.
 pub(super) fn script(path: &Path) -> Result<String, CliError> {
     let path = match path.is_dir() {
         true => path.join(NAME),

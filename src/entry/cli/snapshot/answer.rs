@@ -1,5 +1,5 @@
-//! Reviews snapshots in the terminal. It shows each snapshot that differs, as text and, if the terminal can, as a
-//! picture, and asks whether to accept it.
+//! Reviews snapshots in the terminal. It shows each snapshot that differs, as text and, if the terminal can show
+//! pictures, as a picture, and asks whether to accept it.
 
 use std::io::{self, BufRead};
 
@@ -20,11 +20,11 @@ enum Pictures {
     Inline,
     /// The protocol of kitty and Ghostty.
     Kitty,
-    /// It shows no pictures.
+    /// The terminal shows no pictures.
     None,
 }
 
-/// The size of a part of a picture in one message to kitty, in bytes.
+/// The largest part of an encoded picture in one message to kitty, in bytes.
 const MAX_CHUNK_BYTES: usize = 4096;
 
 /// Asks for each snapshot that differs whether to accept it: `y` accepts it, `n` and `s` keep the reference, and `q`

@@ -46,7 +46,7 @@ fn every_scene_of_the_assets_fits_a_terminal() {
             let path = entry.expect("an entry").path();
             let name = path.to_string_lossy();
             let scene = Scene::from_json(&fs::read_to_string(&path).expect("text"));
-            let scene = scene.expect("a sound scene");
+            let scene = scene.expect("a valid scene");
             let options = match folder {
                 "thesis" => Options::default().margins(true),
                 _ => Options::default().verdict_only(true),
@@ -90,7 +90,7 @@ fn strange_names_and_many_robots_fit_a_terminal() {
         let scene = scene
             .step(StepEntry::new(&name).place(&ids[..5]))
             .step(held);
-        let scene = scene.build().expect("a sound scene");
+        let scene = scene.build().expect("a valid scene");
         let options = Options::default().margins(true);
         assert_fits(&format!("{name}.json"), &Analysis::with(scene, &options));
     }
