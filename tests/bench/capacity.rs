@@ -1,4 +1,4 @@
-//! The time to compute the forces that a block can carry, relative to one check of the same arch.
+//! The time to compute the set of forces that the keystone of an arch can carry, relative to one check of that arch.
 //!
 //! `cargo bench --bench capacity` prints the medians. The goal for a block of an arch of 100 blocks is at most the
 //! time of 20 checks.
@@ -32,7 +32,9 @@ fn main() {
         let check = median(|| drop(Analysis::new(&scene)));
         let mut corners = 0;
         let capacity = median(|| {
-            let found = analysis.capacity(0, &request).expect("it is found");
+            let found = analysis
+                .capacity(0, &request)
+                .expect("the capacity is found");
             corners = found.vertices.len();
         });
         let times = capacity / check;
@@ -40,7 +42,7 @@ fn main() {
     }
 }
 
-/// The median time, ms.
+/// The median time of `ROUNDS` calls, ms.
 fn median(mut work: impl FnMut()) -> f64 {
     let mut times: Vec<f64> = (0..ROUNDS)
         .map(|_| {

@@ -1,5 +1,5 @@
-//! The cost of each effect. The effects are switched on one by one for the same wall. The table has the unknowns that
-//! each effect adds, as counted in the result, and the time relative to the wall with only weight and contact.
+//! The cost of each effect. Each effect is switched on alone for the same wall. The table lists the number of
+//! unknowns in the result, and the time relative to the wall with only weight and contact.
 //!
 //! `cargo bench --bench effects` prints the table of `src/doc/performance.md`. The measurements of all walls
 //! alternate; each time is a median.
@@ -7,7 +7,7 @@
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; what cannot be read is a mistake here"
+    reason = "the table is the output; a scene that cannot be read is a bug in this benchmark"
 )]
 
 mod turn;
@@ -34,8 +34,8 @@ fn main() {
     let wedging = plain.wedging(true);
     let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
         { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);
-    let mut strong = robots.clone();
-    for robot in strong.as_array_mut().unwrap() {
+    let mut with_torque = robots.clone();
+    for robot in with_torque.as_array_mut().unwrap() {
         robot["limits"]["torque"] = json!(10.0);
     }
     let loads = json!([{ "block": "0", "force": [0.0, -4.0], "at": [0.5, 0.25] }]);
@@ -44,7 +44,7 @@ fn main() {
         ("+ friction", with(&[("friction", json!(0.7))]), plain),
         ("+ kernel", with(&[("kernel", json!(0.2))]), plain),
         ("+ robots", with(&[("robots", robots)]), plain),
-        ("+ robot torque", with(&[("robots", strong)]), plain),
+        ("+ robot torque", with(&[("robots", with_torque)]), plain),
         ("+ loads", with(&[("loads", loads)]), plain),
         (
             "+ corner contacts",
@@ -98,7 +98,7 @@ fn smooth() -> Value {
     file
 }
 
-/// The smooth wall with some keys set.
+/// The wall without friction, after some keys of its scene file are set.
 fn with(keys: &[(&str, Value)]) -> Value {
     let mut file = smooth();
     for (key, value) in keys {
@@ -107,7 +107,7 @@ fn with(keys: &[(&str, Value)]) -> Value {
     file
 }
 
-/// Gravity turned to the right by some degrees.
+/// Gravity of 9.81 m/s², rotated from downwards towards the right.
 fn turned(degrees: f64) -> Value {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     json!([9.81 * sin, -9.81 * cos])

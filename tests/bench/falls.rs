@@ -1,15 +1,16 @@
-//! Compares the times of structures that fall and that stand: the same stacks, arches and walls with gravity tilted
-//! and upright. Both are also compared with the solver alone on the hard program of the source, which only answers
-//! "solved" or "infeasible".
+//! Compares the times of structures that fall and of structures that stand: the same stacks, arches and walls with
+//! tilted and with vertical gravity. Both are also compared with the time of the solver alone. It solves the hard
+//! program of the source, and the answer is only "solved" or "infeasible".
 //!
-//! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`. An argument after `--`, such as `-- "wall
-//! 915"`, keeps the rows whose name contains it. `BLOCKS=10000` includes structures of more than 2 100 blocks. The
-//! measurements of a row alternate, and each value is a median. Walls are in running bond, μ is 0.7.
+//! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`. With arguments after `--`, such as `--
+//! "wall 915"`, only the rows whose name contains all of them are measured. `BLOCKS=10000` includes structures of
+//! more than 2 100 blocks. The measurements of a row alternate, and each value is a median. Walls are in running
+//! bond, μ is 0.7.
 
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; what cannot be read is a mistake here"
+    reason = "the table is the output; a scene that cannot be read is a bug in this benchmark"
 )]
 
 mod turn;
@@ -27,22 +28,22 @@ use serde_json::{Value, json};
 use turn::Turns;
 use turn::structure::{arch, block, on_floor, rectangle, scene, wall};
 
-/// The number of measurements of a row, and their approximate duration.
+/// The number of measurements of a row, and the time after which no further round begins.
 const TURNS: Turns = Turns {
     least: 1,
     most: 7,
     seconds: 3.0,
 };
 
-/// Angles by which gravity is turned, degrees.
+/// Angles by which gravity is rotated, degrees.
 const ANGLES: [f64; 4] = [26.0, 30.0, 40.0, 60.0];
 
 fn main() {
     let most: usize = std::env::var("BLOCKS").map_or(2_100, |text| text.parse().unwrap());
-    let words = std::env::args()
+    let filters = std::env::args()
         .skip(1)
-        .filter(|word| !word.starts_with('-'));
-    let words: Vec<String> = words.collect();
+        .filter(|argument| !argument.starts_with('-'));
+    let filters: Vec<String> = filters.collect();
     println!(
         "| structure | upright, ms | solver, ms | turned by | verdict | failures | programs | iterations | ms | ratio | verdict only, ms | ratio | solver, ms | says |"
     );
@@ -50,15 +51,16 @@ fn main() {
     for (name, blocks, file) in structures() {
         for angle in ANGLES {
             let row = format!("{name} {blocks} at {angle}°");
-            if blocks > most || words.iter().any(|word| !row.contains(word.as_str())) {
+            if blocks > most || filters.iter().any(|part| !row.contains(part.as_str())) {
                 continue;
             }
-            told(&name, blocks, &file, angle);
+            print_row(&name, blocks, &file, angle);
         }
     }
 }
 
-fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
+/// Measures a structure with vertical and with rotated gravity, and prints its row.
+fn print_row(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
     let verdict_only = Options::default().verdict_only(true);
     let upright = Analysis::new(&stands);
@@ -70,13 +72,13 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     let hard = [program(&stands), program(&falls)].map(|program| hard(&program));
     let analysis = Analysis::new(&falls);
     let frame = &analysis.frames[0];
-    let said = solve(&hard[1], TOLERANCE, Conditioning::Full).status;
+    let status = solve(&hard[1], TOLERANCE, Conditioning::Full).status;
     let work: [&dyn Fn(); 5] = [
-        &|| examined(&stands, &Options::default()),
-        &|| examined(&falls, &Options::default()),
-        &|| examined(&falls, &verdict_only),
-        &|| posed(&hard[0]),
-        &|| posed(&hard[1]),
+        &|| analyse(&stands, &Options::default()),
+        &|| analyse(&falls, &Options::default()),
+        &|| analyse(&falls, &verdict_only),
+        &|| solve_alone(&hard[0]),
+        &|| solve_alone(&hard[1]),
     ];
     let times = TURNS.medians(&work);
     let [stands, falls, alone, solver_stands, solver_falls] = <[f64; 5]>::try_from(times).unwrap();
@@ -92,7 +94,7 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
         frame.solve.iterations,
         falls / stands,
         alone / stands,
-        match said {
+        match status {
             Status::Solved => "solved",
             Status::Infeasible => "infeasible",
             Status::Unbounded => "unbounded",
@@ -101,15 +103,15 @@ fn told(name: &str, blocks: usize, file: &Value, angle: f64) {
     );
 }
 
-fn examined(scene: &Scene, options: &Options) {
+fn analyse(scene: &Scene, options: &Options) {
     black_box(Analysis::with(black_box(scene), options));
 }
 
-fn posed(conic: &QuadraticProgram) {
-    black_box(solve(black_box(conic), TOLERANCE, Conditioning::Full));
+fn solve_alone(program: &QuadraticProgram) {
+    black_box(solve(black_box(program), TOLERANCE, Conditioning::Full));
 }
 
-/// The program of a structure with a single component.
+/// The program of the first component of a structure. The structures here have only one.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
@@ -122,8 +124,8 @@ fn program(scene: &Scene) -> Program {
     Program::new(&component, Scale::from_assembly(&component))
 }
 
-/// The hard program of the source: its soft program without the last half of its unknowns and their rows, which stand
-/// for sticking.
+/// The hard program of the source: its soft program without the second half of the unknowns, which are the adhesion
+/// forces, and without the rows of these unknowns.
 fn hard(program: &Program) -> QuadraticProgram {
     let soft = vallat_program(program, 1.0);
     let (unknowns, rows) = (soft.unknowns / 2, soft.bound.len() - soft.unknowns / 2);
@@ -137,7 +139,7 @@ fn hard(program: &Program) -> QuadraticProgram {
     }
 }
 
-/// The same file with gravity turned to the right.
+/// The same file with gravity rotated from downwards towards the right.
 fn turned(file: &Value, degrees: f64) -> Value {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let mut file = file.clone();

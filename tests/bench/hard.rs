@@ -1,12 +1,12 @@
-//! The cost of hard cases: a table with the verdict, the proof and the time of each case. The time is also given
-//! relative to that of an easy case with the same number of blocks.
+//! The cost of hard cases: a table with the verdict, the proof and the time of each case. The last column is this
+//! time divided by the time of an easy case with about the same number of blocks.
 //!
 //! `cargo bench --bench hard` prints the table. The measurements of the two cases alternate; each value is a median.
 
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; what cannot be read is a mistake here"
+    reason = "the table is the output; a scene that cannot be read is a bug in this benchmark"
 )]
 
 mod turn;
@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 use turn::Turns;
 use turn::structure::{arch, block, on_floor, on_slope, rectangle, scene, wall};
 
-/// The number of measurements of a hard case and its easy case, and their approximate duration.
+/// The number of measurements of a hard case and its easy case, and the time after which no further round begins.
 const TURNS: Turns = Turns {
     least: 3,
     most: 15,
@@ -58,13 +58,13 @@ fn main() {
                 Verdict::Unstable => "falls",
                 Verdict::Undecided => "undecided",
             },
-            told(&frame.proof),
+            proof_text(&frame.proof),
             hard / easy
         );
     }
 }
 
-fn told(proof: &Proof) -> String {
+fn proof_text(proof: &Proof) -> String {
     match proof {
         Proof::Forces {
             worst_imbalance, ..
@@ -76,7 +76,7 @@ fn told(proof: &Proof) -> String {
     }
 }
 
-/// The scene with an additional horizontal load, a share of the weights.
+/// The scene with an additional horizontal load on every block: `share` times its weight.
 fn pushed(mut file: Value, share: f64) -> Value {
     file["gravity"] = json!([10.0 * share, -10.0]);
     for block in file["blocks"].as_array_mut().unwrap() {
@@ -168,14 +168,14 @@ fn feather(mountain: f64, x: f64) -> Value {
     )
 }
 
-/// Each hard case with its easy case, which has the same blocks but is far from its limit.
+/// The name of each case, its hard scene, and its easy scene. The easy scene is similar but far from its limit.
 fn cases() -> Vec<(String, Value, Value)> {
     let slope = |friction| on_slope(30.0, 4.0, 0.5, friction, 0.0);
     let mut heavy = [6.0; 3];
     heavy[2] = 6e8;
     let mut cases = vec![
         (
-            "tower of 1000 blocks, 1 m in 0.5 m".to_string(),
+            "tower of 1000 blocks of 1 m by 0.5 m".to_string(),
             tower(&[6.0; 1000]),
             wall(31, 32),
         ),
@@ -190,7 +190,7 @@ fn cases() -> Vec<(String, Value, Value)> {
             feather(60.0, 1.2),
         ),
         (
-            "a feather beside a mountain, falls".into(),
+            "a feather past the edge of a mountain, falls".into(),
             feather(6e8, 1.6),
             feather(60.0, 1.9),
         ),
@@ -207,7 +207,7 @@ fn cases() -> Vec<(String, Value, Value)> {
         ("μ = 0".into(), rough(0.0), rough(0.7)),
         ("μ = 1000".into(), rough(1e3), rough(0.7)),
         ("kernel 1".into(), cored(1.0), cored(0.2)),
-        ("10⁶ lengths from the origin".into(), far(1e6), far(0.0)),
+        ("wall 10⁶ m from the origin".into(), far(1e6), far(0.0)),
         (
             "friction exactly at tan θ".into(),
             slope(libm::tan(30f64.to_radians())),
@@ -218,7 +218,11 @@ fn cases() -> Vec<(String, Value, Value)> {
             held(8.0),
             held(20.0),
         ),
-        ("robot 10⁻⁵ short of it".into(), held(8.0 - 1e-5), held(4.0)),
+        (
+            "robot with 10⁻⁵ N less than it needs".into(),
+            held(8.0 - 1e-5),
+            held(4.0),
+        ),
         (
             "five blocks locked between walls".into(),
             locked(0.02),
@@ -243,7 +247,7 @@ fn cases() -> Vec<(String, Value, Value)> {
             wedge(0.5),
         ));
         cases.push((
-            format!("the same upside down, half-angle 1e-{exponent}"),
+            format!("inverted frictionless wedge, half-angle 1e-{exponent}"),
             wedge(-half_angle),
             wedge(-0.2),
         ));
@@ -257,29 +261,30 @@ fn cases() -> Vec<(String, Value, Value)> {
         ));
     }
     for (voussoirs, least) in THINNEST {
-        for (off, sibling) in [(-1e-6, 0.5), (1e-6, 2.0)] {
+        for (off, easy_factor) in [(-1e-6, 0.5), (1e-6, 2.0)] {
             cases.push((
                 format!("arch of {voussoirs} at its minimum thickness {off:+.0e}"),
                 arch(voussoirs, least + off, 0.9),
-                arch(voussoirs, sibling * least, 0.9),
+                arch(voussoirs, easy_factor * least, 0.9),
             ));
         }
     }
-    for (share, sibling) in [
+    for (share, easy_share) in [
         (0.4815, 0.3),
         (0.481615, 0.3),
         (0.481617, 0.6),
         (0.482, 0.6),
     ] {
-        let name = format!("wall of 410 bricks, edge 0.481616, pushed by {share}");
+        let name = format!("wall of 410 bricks, limit 0.481616, horizontal load {share}");
         cases.push((
             name,
             pushed(wall(20, 20), share),
-            pushed(wall(20, 20), sibling),
+            pushed(wall(20, 20), easy_share),
         ));
     }
     cases
 }
 
-/// The least thickness over radius for numbers of voussoirs, as in `tests/it/edge.rs`.
+/// Numbers of voussoirs, and the least ratio of thickness to radius at which such an arch stands. As in
+/// `tests/it/edge.rs`.
 const THINNEST: [(usize, f64); 2] = [(27, 0.106_720_9), (181, 0.107_462_3)];

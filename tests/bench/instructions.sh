@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Counts the instructions of three tasks, in the profile of the tests. It fails if a count is more than a tenth above
-# that in tests/bench/instructions.txt. Counts, unlike times, do not depend on other load, but they depend on the
-# compiler. With a compiler other than that of the file, a message is printed and only counts more than a fifth above
-# fail.
+# Counts the instructions of three tasks in the dev profile, which the tests use. It fails if a count is more than 10
+# % above the count in tests/bench/instructions.txt. Counts, unlike times, do not depend on other load, but they
+# depend on the compiler. If the compiler is not the one named in the file, a message is printed and the tolerance is
+# 20 %.
 #
 #   cargo build --locked && bash tests/bench/instructions.sh            compares
-#   cargo build --locked && bash tests/bench/instructions.sh --accept   writes the counts of now into the file
+#   cargo build --locked && bash tests/bench/instructions.sh --accept   writes the current counts to the file
 #
-# Needs valgrind. Tasks: only the verdicts of structures of ten blocks; a full check of a wall of a hundred blocks;
-# check and figures of the structures of ten blocks, as PNG of 400 pixels.
+# Needs valgrind. The tasks are: the verdicts alone of structures of about ten blocks; a full check of a wall of about
+# a hundred blocks; a check of four structures of about ten blocks, with figures as PNG.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export LC_ALL=C
@@ -34,13 +34,13 @@ for bricks in 2 3 4; do
 done
 "$program" new wall --courses 10 --bricks 10 -q -o "$folder/hundred.json"
 
-# For an unstable structure drystone ends with 1, which is a valid answer. Codes other than 0 and 1 are failures.
+# For an unstable structure, drystone exits with 1, which is a valid answer. Codes above 1 are failures.
 count() {
     local code=0
     valgrind --tool=cachegrind --cache-sim=no --cachegrind-out-file=/dev/null --log-file="$folder/log" "$@" \
-        >"$folder/said" 2>&1 || code=$?
+        >"$folder/output" 2>&1 || code=$?
     if [ "$code" -gt 1 ]; then
-        cat "$folder/said" "$folder/log" >&2
+        cat "$folder/output" "$folder/log" >&2
         return 1
     fi
     sed -n 's/.*I *refs: *//p' "$folder/log" | tr -d ,
@@ -66,8 +66,8 @@ known() { sed -n "s/^$1 //p" "$kept"; }
 most=10
 if [ "$(known compiler)" != "$compiler" ]; then
     most=20
-    echo "The counts of $kept hold for $(known compiler), and this is $compiler: up to $most % more is let pass here." >&2
-    echo "On a commit whose counts are right by the old compiler, --accept writes those of this one." >&2
+    echo "The counts in $kept were made with $(known compiler), and this is $compiler: the tolerance is $most %." >&2
+    echo "On a commit that passes with the old compiler, --accept writes the counts of this compiler." >&2
 fi
 failed=0
 for path in ten hundred figures; do
@@ -81,6 +81,6 @@ for path in ten hundred figures; do
     }' || failed=1
 done
 if [ "$failed" = 1 ]; then
-    echo "More than $most % above $kept: find out why; where it is worth it, --accept takes the new counts." >&2
+    echo "A count is more than $most % above $kept. If the increase is justified, --accept writes the new counts." >&2
 fi
 exit "$failed"

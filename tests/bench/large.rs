@@ -33,8 +33,8 @@ impl std::fmt::Display for Case {
 }
 
 fn cases() -> Vec<Case> {
-    let asked = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
-    let sizes = asked.map_or(vec![100, 1000], |size: usize| vec![size]);
+    let chosen = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
+    let sizes = chosen.map_or(vec![100, 1000], |size: usize| vec![size]);
     let kinds = ["wall", "arch", "towers"];
     let of = |size: usize| kinds.map(|kind| Case(kind, size));
     sizes.into_iter().flat_map(of).collect()
@@ -81,7 +81,7 @@ fn e_prove(bencher: Bencher, case: Case) {
 }
 
 #[divan::bench(args = cases(), sample_count = 3, sample_size = 1)]
-fn f_all_of_it(bencher: Bencher, case: Case) {
+fn f_analyse(bencher: Bencher, case: Case) {
     let scene = scene(case);
     bencher.bench_local(|| Analysis::new(black_box(&scene)).verdict());
 }
@@ -115,17 +115,17 @@ fn programs(parts: &[Assembly]) -> Vec<Program> {
 /// The forces that an analysis found, in the form that a proof needs.
 fn forces(analysis: &Analysis) -> Forces {
     let frame = &analysis.frames[0];
-    let pressed = frame.contacts.iter().map(|contact| ContactForces {
+    let contacts = frame.contacts.iter().map(|contact| ContactForces {
         normal: contact.normal_forces,
         friction: contact.friction_force,
     });
-    let held = frame.robots.iter().map(|robot| GripForces {
+    let grips = frame.robots.iter().map(|robot| GripForces {
         force: robot.force,
         torque: robot.torque,
     });
     Forces {
-        contacts: pressed.collect(),
-        grips: held.collect(),
+        contacts: contacts.collect(),
+        grips: grips.collect(),
     }
 }
 

@@ -32,18 +32,18 @@ fn main() {
         .stdout(Stdio::piped())
         .spawn()
         .expect("PYTHON is an interpreter");
-    let mut ask = child.stdin.take().expect("piped");
+    let mut input = child.stdin.take().expect("piped");
     let mut answers = BufReader::new(child.stdout.take().expect("piped")).lines();
     let mut names: Vec<String> = Vec::new();
     let (mut rust, mut package): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         rust.push(round().iter().map(|row| row.1).collect());
-        writeln!(ask, "round").expect("the script reads");
+        writeln!(input, "round").expect("the script reads");
         let mut times = Vec::new();
         for (name, _) in round() {
             let line = answers.next().expect("a line for each row").expect("text");
-            let (told, micros) = line.rsplit_once('\t').expect("a name and a time");
-            assert_eq!(told, name, "both sides measure the same");
+            let (python_name, micros) = line.rsplit_once('\t').expect("a name and a time");
+            assert_eq!(python_name, name, "Rust and Python measure the same calls");
             times.push(micros.parse().expect("a number"));
             if names.len() < rust[0].len() {
                 names.push(name.into());
@@ -51,7 +51,7 @@ fn main() {
         }
         package.push(times);
     }
-    drop(ask);
+    drop(input);
     let _ = child.wait();
     println!("| call | Rust, µs | Python, µs | added, µs |");
     println!("|---|---|---|---|");
@@ -65,7 +65,7 @@ fn main() {
     }
 }
 
-/// One round in Rust: the rows and the medians of their times, microseconds.
+/// Runs one round in Rust. Returns the name of each row and the median time of its calls, microseconds.
 fn round() -> Vec<(&'static str, f64)> {
     let mut rows = Vec::new();
     let free = Scene::builder()

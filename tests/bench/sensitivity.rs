@@ -46,7 +46,7 @@ fn main() {
     });
     let times = TURNS.medians(&work);
     let whole = times[2];
-    println!("| arch of 100 blocks | ms | in parts of a check with all margins |");
+    println!("| arch of 100 blocks | ms | relative to a check with all margins |");
     println!("|---|---|---|");
     for ((name, _), time) in cases.iter().zip(&times) {
         println!("| {name} | {time:.1} | {:.2} |", time / whole);

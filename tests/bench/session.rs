@@ -24,8 +24,8 @@ const ROUNDS: usize = 41;
 fn main() {
     println!("| blocks | step | µs, median | answered from the warm start |");
     println!("|---|---|---|---|");
-    let asked = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
-    for blocks in asked.map_or(vec![20, 200], |blocks: usize| vec![blocks]) {
+    let chosen = std::env::var("BLOCKS").ok().and_then(|n| n.parse().ok());
+    for blocks in chosen.map_or(vec![20, 200], |blocks: usize| vec![blocks]) {
         let mut steps = Steps::default();
         let rounds = if blocks > 100 { 5 } else { ROUNDS };
         let mut wholes = Vec::new();
@@ -40,7 +40,7 @@ fn main() {
             let times = list.iter().map(|s| s.0).collect();
             println!("| {blocks} | {name} | {:.1} | {share} % |", median(times));
         }
-        println!("| {blocks} | all of these | {:.0} | |", median(wholes));
+        println!("| {blocks} | all steps | {:.0} | |", median(wholes));
         let file = (0..blocks).fold(empty(blocks), |file, k| file.block(brick(k, blocks)));
         let scratch = |examine: &dyn Fn(&Scene) -> Verdict| {
             let one = |_| {
@@ -58,7 +58,7 @@ fn main() {
     }
 }
 
-/// Times of steps by their kind, in microseconds.
+/// The steps of each kind: the time in microseconds, and how the verdict was found.
 #[derive(Default)]
 struct Steps(Vec<(&'static str, Vec<(f64, Source)>)>);
 
@@ -81,7 +81,7 @@ impl Steps {
     }
 }
 
-/// Builds a wall and changes it in a few ways.
+/// Builds a wall and changes it: its last brick is held, released and removed, and bricks are placed in the air.
 fn lay(blocks: usize, steps: &mut Steps) {
     let mut session = Session::new(empty(blocks)).expect("sound");
     for k in 0..blocks {
@@ -92,35 +92,35 @@ fn lay(blocks: usize, steps: &mut Steps) {
         assert_eq!(verdict, Verdict::Stable);
     }
     let top = blocks.to_string();
-    let told = steps.take("hold the last", &mut session, |s| {
+    let verdict = steps.take("hold the last brick", &mut session, |s| {
         s.hold("r0", &top, None).expect("there")
     });
-    assert_eq!(told, Verdict::Stable);
-    let told = steps.take("let it go", &mut session, |s| {
+    assert_eq!(verdict, Verdict::Stable);
+    let verdict = steps.take("release it", &mut session, |s| {
         s.release("r0").expect("held")
     });
-    assert_eq!(told, Verdict::Stable);
-    let stray = || cells(-40, 3);
-    let told = steps.take("place one in the air", &mut session, |s| {
-        s.place(stray()).expect("free")
+    assert_eq!(verdict, Verdict::Stable);
+    let in_the_air = || cells(-40, 3);
+    let verdict = steps.take("place a brick in the air", &mut session, |s| {
+        s.place(in_the_air()).expect("free")
     });
-    assert_eq!(told, Verdict::Unstable);
+    assert_eq!(verdict, Verdict::Unstable);
     for k in 0..3 {
         let more = cells(-30 + 4 * k, 0);
-        let told = steps.take("place another while it falls", &mut session, |s| {
+        let verdict = steps.take("place another while it falls", &mut session, |s| {
             s.place(more).expect("free")
         });
-        assert_eq!(told, Verdict::Unstable);
+        assert_eq!(verdict, Verdict::Unstable);
     }
     let name = (blocks + 1).to_string();
-    let told = steps.take("take the falling one away", &mut session, |s| {
+    let verdict = steps.take("remove the falling brick", &mut session, |s| {
         s.remove(&name).expect("there")
     });
-    assert_eq!(told, Verdict::Stable);
-    let told = steps.take("take the last away", &mut session, |s| {
+    assert_eq!(verdict, Verdict::Stable);
+    let verdict = steps.take("remove the last brick", &mut session, |s| {
         s.remove(&top).expect("there")
     });
-    assert_eq!(told, Verdict::Stable);
+    assert_eq!(verdict, Verdict::Stable);
 }
 
 fn empty(blocks: usize) -> SceneFile {
@@ -131,7 +131,7 @@ fn empty(blocks: usize) -> SceneFile {
         .robot(RobotEntry::default())
 }
 
-/// The bricks of a pyramid in running bond, row by row.
+/// The brick with this number in a pyramid in running bond, counted row by row from below.
 fn brick(number: usize, blocks: usize) -> BlockEntry {
     let mut width = 1;
     while width * (width + 1) / 2 < blocks {

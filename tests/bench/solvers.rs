@@ -7,7 +7,7 @@
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "the table is the result; what cannot be read is a mistake here"
+    reason = "the table is the output; a scene that cannot be read is a bug in this benchmark"
 )]
 
 mod turn;
@@ -48,13 +48,13 @@ fn main() {
         }
         for angle in [0.0, 26.0, 40.0] {
             for (name, problem) in problems(&program(&file, angle)) {
-                told(blocks, angle, name, &problem);
+                print_row(blocks, angle, name, &problem);
             }
         }
     }
 }
 
-fn told(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
+fn print_row(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
     let settings = SolverSettings::from(Conditioning::Plain);
     let [ours, theirs] =
         [solve_within, by_clarabel].map(|solver| solver(problem, settings, MAX_ITERATIONS));
@@ -116,7 +116,7 @@ fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     ]
 }
 
-/// The program of a wall with gravity turned to the right.
+/// The program of a wall whose gravity is rotated from downwards towards the right.
 fn program(file: &Value, degrees: f64) -> Program {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let mut file = file.clone();

@@ -1,4 +1,5 @@
-//! The times of reading, checking and drawing; and of our program and that of the source, solved by the same solver.
+//! The times of reading, checking and drawing, and of solving our program and the program of the source with the same
+//! solver.
 //!
 //! `cargo bench` prints the least, the median and the mean time of each. The walls are in running bond with half
 //! bricks at the ends of every second row. Their only load is their weight.
@@ -53,7 +54,7 @@ fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
 }
 
 #[divan::bench(args = [10, 100, 1000, 10_050])]
-fn read_and_check_a_file(bencher: Bencher, blocks: usize) {
+fn read_a_file(bencher: Bencher, blocks: usize) {
     let text = serde_json::to_string(&wall_file(blocks)).expect("a scene is plain data");
     bencher.bench_local(|| Scene::from_json(black_box(&text)).map(|scene| scene.blocks().len()));
 }
@@ -97,7 +98,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
     });
 }
 
-/// The program of a wall, which is a single component.
+/// The program of a wall. A wall has a single component.
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];

@@ -1,25 +1,25 @@
-//! Shared by the benchmarks that print a table. Measurements alternate, so that other load on the machine affects all
-//! values of a row in the same way. The values are medians.
+//! Alternating measurements, for the benchmarks that print a table. They alternate so that other load on the machine
+//! affects all values of a row in the same way. The values are medians.
 
 #![allow(
     clippy::panic,
     clippy::unwrap_used,
-    reason = "a scene of our own that is not sound is a mistake in a benchmark"
+    reason = "an invalid scene is a bug in the benchmark"
 )]
 
-#[allow(dead_code, reason = "the tests use the rest")]
+#[allow(dead_code, reason = "the tests use the other functions")]
 #[path = "../it/structure.rs"]
 pub mod structure;
 
 use std::time::Instant;
 
-/// The number of measurements.
+/// The number of rounds. In each round, every piece of work is measured once.
 pub struct Turns {
-    /// At least.
+    /// The minimum number of rounds.
     pub least: usize,
-    /// At most.
+    /// The maximum number of rounds.
     pub most: usize,
-    /// After this many seconds no new round begins, if `least` is reached.
+    /// After `least` rounds and this many seconds, no new round begins.
     pub seconds: f64,
 }
 

@@ -27,7 +27,7 @@ fn near(found: Option<f64>, expected: f64) {
     let found = found.expect("certified");
     assert!(
         (found - expected).abs() <= 1e-14 * expected,
-        "{found:e} against {expected:e}"
+        "{found:e} instead of {expected:e}"
     );
 }
 
@@ -74,10 +74,9 @@ fn scenes() -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// The scenes of the study are made here with the functions of the hard cases. `UPDATE_SNAPSHOTS=1` writes their
-/// files again.
+/// The files in `assets/study` contain the scenes that are built here. `UPDATE_SNAPSHOTS=1` writes the files again.
 #[test]
-fn the_scenes_of_the_study_are_as_they_are_made() {
+fn the_files_of_the_study_contain_the_scenes_built_here() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/study");
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none();
     for (name, mut file) in scenes() {
@@ -98,7 +97,7 @@ fn the_scenes_of_the_study_are_as_they_are_made() {
     assert_eq!(files, scenes().len(), "no file without a scene");
 }
 
-/// Sums known by hand. They would show a mistake that the reference shares with the solver.
+/// Sums computed by hand. They reveal a mistake that the reference shares with the solver.
 #[test]
 fn the_reference_agrees_with_sums_by_hand() {
     let truth = case(&wedge(1e-3)).truth;
@@ -183,7 +182,7 @@ fn a_penalty_smaller_than_the_thrust_is_flagged() {
 }
 
 #[test]
-fn all_forms_tell_every_run_and_names_are_escaped() {
+fn every_output_format_lists_all_runs_and_escapes_names() {
     let mut file = tower(2, 0.5);
     file["title"] = json!("<b> \"two\" & more");
     let study = measured(&file, &[1e-4, 1e-9]);

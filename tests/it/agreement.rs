@@ -80,9 +80,9 @@ fn all_ways_to_get_a_result_agree() {
         let options = Options::default().margins(true);
         let session = Session::with(scene, options).expect("a sound scene");
         let margins = session.analysis();
-        let told = to_json(&margins, Timing::LeftOut, Layout::OneLine);
-        let told: Value = serde_json::from_str(&told).expect("JSON");
-        assert_eq!(told["frames"], check["frames"], "scene {number}");
+        let written = to_json(&margins, Timing::LeftOut, Layout::OneLine);
+        let written: Value = serde_json::from_str(&written).expect("JSON");
+        assert_eq!(written["frames"], check["frames"], "scene {number}");
         let margins = session.margins(MarginKinds::ALL).expect("one frame");
         let margins: Value =
             serde_json::from_str(&margins_json(session.scene(), &margins)).expect("JSON");
@@ -94,7 +94,7 @@ fn all_ways_to_get_a_result_agree() {
         );
 
         let analysis = Analysis::new(Scene::from_json(&file.to_string()).expect("sound"));
-        says_facts(&Facts::new(&analysis, DIGITS).text(), &check["frames"][0]);
+        assert_facts(&Facts::new(&analysis, DIGITS).text(), &check["frames"][0]);
         let caption = figure::caption(&analysis);
         let word = match check["frames"][0]["verdict"].as_str().expect("a word") {
             "stable" => "It stands",
@@ -105,7 +105,7 @@ fn all_ways_to_get_a_result_agree() {
     }
 }
 
-/// A number as written in facts, and half a unit of its last digit.
+/// The value of a number as written in facts, and half a unit of its last digit.
 fn written(word: &str) -> (f64, f64) {
     let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
     let decimals = mantissa
@@ -116,7 +116,7 @@ fn written(word: &str) -> (f64, f64) {
     (value, 0.5 * libm::pow(10.0, f64::from(exponent - decimals)))
 }
 
-/// The values behind a name in a line of facts, such as `N 6.00000 N` or `N at its ends 3.0 3.0 N`.
+/// The numbers that follow a name in a line of facts, such as `N 6.00000 N`. Panics if there are none.
 fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
     let (_, found) = line.split_once(": ").expect("a fact has values");
     let part = found.split(", ").find_map(|part| {
@@ -131,9 +131,9 @@ fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
     numbers.collect()
 }
 
-/// The facts list the verdict, the sums, each interface with its forces and each robot of a result, in the same
-/// order.
-fn says_facts(text: &str, frame: &Value) {
+/// Asserts that the facts list the verdict, the sums, the interfaces, the robots and the failures of a frame of the
+/// result, in the same order.
+fn assert_facts(text: &str, frame: &Value) {
     let near = |word: &str, exact: f64| {
         let (value, half) = written(word);
         // A value close to the middle of two roundings may be rounded either way.

@@ -1,5 +1,5 @@
-//! The assembly is compared with the outlines by separate code, and the analysis of a frame must not depend on
-//! anything placed later.
+//! Separate code compares the assembly with the outlines. The result of a frame must not depend on blocks that are
+//! placed later.
 //!
 //! Proofs sum forces with the assembly's centroids, load vectors and contacts. If those were wrong, every proof would
 //! be wrong. Here areas and centroids are summed over triangles with the first corner (the library sums over edges),
@@ -113,7 +113,7 @@ fn centroids_and_load_vectors_are_those_of_the_outlines() {
                     (centroid - body.centroid).norm() < 1e-9,
                     "{name}: {centroid}"
                 );
-                // The loads again, with the moment about the origin, in plain components.
+                // The loads are summed in components, with the moment about the origin.
                 let g = scene.gravity();
                 let pull = if g.norm() > 0.0 { g / g.norm() } else { g };
                 let (mut fx, mut fy) = (pull.x * block.weight, pull.y * block.weight);
@@ -212,7 +212,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
 }
 
 #[test]
-fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_posed() {
+fn components_contain_every_body_contact_and_grip_once_and_effects_count_all_unknowns() {
     for (name, file) in scenes() {
         let scene = crate::structure::scene(&file);
         let analysis = Analysis::new(&scene);
@@ -227,11 +227,11 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
                 "{name}"
             );
             assert_eq!(count(|p| p.grips.len()), assembly.grips.len(), "{name}");
-            let mut posed = 0;
+            let mut unknowns = 0;
             for part in &parts {
                 let program = Program::new(part, Scale::from_assembly(part));
                 let all = columns(&program);
-                posed += all.len();
+                unknowns += all.len();
                 let count = UnknownCounts::new(&program, &all);
                 assert_eq!(
                     [
@@ -253,7 +253,7 @@ fn components_hold_every_body_contact_and_grip_once_and_effects_count_what_is_po
                 .filter(|e| e.simulated && e.effect != EffectName::Sticking)
                 .map(|e| e.unknowns)
                 .sum();
-            assert_eq!(reported, posed, "{name}: {:?}", result.effects);
+            assert_eq!(reported, unknowns, "{name}: {:?}", result.effects);
         }
     }
 }
@@ -313,7 +313,7 @@ fn a_frame_has_the_result_of_a_scene_with_only_its_blocks() {
         let scene = crate::structure::scene(&file);
         let whole = Analysis::new(&scene);
         for (frame, result) in scene.frames().iter().zip(&whole.frames) {
-            // The same frame as a file of its own: only the placed blocks, with the robots that hold them in this
+            // The same frame as a separate file: only the placed blocks, with the robots that hold them in this
             // frame.
             let mut alone = file.clone();
             alone.as_object_mut().expect("an object").remove("steps");

@@ -7,7 +7,7 @@ const SCENE: &str = r#"{ "drystone": 1, "title": "An overhang",
   "ground": [{ "polygon": [[0, 0], [2, 0], [2, -1], [0, -1]] }],
   "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#;
 
-/// The input that mdbook gives to a preprocessor, for a book with one chapter and one below it.
+/// The input that mdbook sends to a preprocessor, for a book with one chapter and one subchapter.
 fn input(chapter: &str, below: &str) -> String {
     let chapter_of = |name: &str, content: &str, items: Value| {
         json!({ "Chapter": { "name": name, "content": content, "number": [1], "sub_items": items,
@@ -30,7 +30,7 @@ fn contents(book: &str) -> [String; 2] {
 }
 
 #[test]
-fn scenes_become_figures_with_captions_and_the_rest_of_a_chapter_stays() {
+fn scenes_become_figures_with_captions_and_the_rest_of_a_chapter_is_unchanged() {
     let chapter = format!(
         "# One\n\n```drystone\n{SCENE}\n```\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"
     );
@@ -79,14 +79,14 @@ fn every_broken_scene_is_reported_with_its_chapter_and_line() {
     let problems = illustrate(&input(chapter, below))
         .expect_err("all are broken")
         .to_string();
-    for said in [
+    for message in [
         "outer.md, line 4: the scene is not valid",
         "inner.md, line 1: cannot read",
         "nowhere.json",
         "inner.md, line 4: there is no kind of figure \"spiral\"; known are forces, flow, mechanism",
         "inner.md, line 7: unknown option \"colour=red\"",
     ] {
-        assert!(problems.contains(said), "{said} is not in {problems}");
+        assert!(problems.contains(message), "{message} is not in {problems}");
     }
     for no_book in ["", "{}", "[1, 2]", "[{}, {}]"] {
         let problems = illustrate(no_book).expect_err("no book").to_string();

@@ -12,7 +12,7 @@ use serde_json::json;
 const REFERENCE: &str = include_str!("../reference/problems.txt");
 
 #[test]
-fn every_key_has_a_method_of_its_name() {
+fn every_key_has_a_builder_method() {
     let read = json!({ "drystone": 1, "title": "all", "author": "A. Mason", "project": "Mill Lane", "date": "2026-11-23", "gravity": [0.0, -9.0], "friction": 0.6, "kernel": 0.1, "density": 2.0,
         "thickness": 0.5, "contact_tolerance": 1e-6, "corner_contacts": true,
         "materials": { "oak": { "density": 700.0, "friction": 0.5, "fill": "#8b6b3d" }, "slate": {} },
@@ -114,7 +114,7 @@ fn every_key_has_a_method_of_its_name() {
         )
         .step(StepEntry::new("three").plan("s", "2"))
         .silence(NoteCode::FrictionHigh);
-    let file: SceneFile = serde_json::from_value(read.clone()).expect("it fits");
+    let file: SceneFile = serde_json::from_value(read.clone()).expect("a scene file");
     assert_eq!(made, file);
     let same = |scene: &Scene| format!("{:?}", Analysis::new(scene).frames[2].contacts);
     let (built, read) = (
@@ -126,7 +126,7 @@ fn every_key_has_a_method_of_its_name() {
 }
 
 #[test]
-fn cells_and_their_grid_read_like_the_file() {
+fn cells_and_their_grid_equal_those_of_a_file() {
     let made = Scene::builder()
         .grid(GridKind::Triangular, 2.0)
         .ground(GroundEntry::default().cells([CellEntry::Triangle(0.0, -1.0, CellHalf::Up)]))
@@ -140,13 +140,13 @@ fn cells_and_their_grid_read_like_the_file() {
     assert!(made.build().expect("sound").exact());
 }
 
-/// The messages for each place, without line and column, in alphabetical order.
-fn said(problems: &[Problem]) -> Vec<String> {
-    let mut said: Vec<String> = (problems.iter())
+/// The path, code, message and help of each problem, without line and column, in alphabetical order.
+fn messages(problems: &[Problem]) -> Vec<String> {
+    let mut messages: Vec<String> = (problems.iter())
         .map(|p| format!("{} {} {} {}", p.path, p.code, p.message, p.help))
         .collect();
-    said.sort();
-    said
+    messages.sort();
+    messages
 }
 
 #[test]
@@ -155,13 +155,13 @@ fn errors_in_code_are_reported_as_in_a_file() {
     for case in REFERENCE.split("\n## ") {
         let text = case.split_once('\n').expect("a title").1;
         let text = text.split("\n--\n").next().expect("a scene");
-        // A value without a type of the format cannot be written in code.
+        // A value of a wrong type cannot be written in code.
         let Ok(file) = serde_json::from_str::<SceneFile>(text) else {
             continue;
         };
         let (read, made) = (Scene::from_json(text), Scene::new(file));
         let list = |scene: Result<Scene, drystone::scene::SceneError>| {
-            scene.map_or_else(|problems| said(&problems.list), |_| Vec::new())
+            scene.map_or_else(|problems| messages(&problems.list), |_| Vec::new())
         };
         let (read, made) = (list(read), list(made));
         assert_eq!(made, read, "{text}");
@@ -190,7 +190,7 @@ fn a_name_used_twice_in_code_is_reported_as_a_key_used_twice_in_a_file() {
         .step(StepEntry::new("two").plan("r", "b").plan("r", "b"))
         .build()
         .expect_err("refused");
-    let told: Vec<(Code, &str)> = (problems.list.iter())
+    let found: Vec<(Code, &str)> = (problems.list.iter())
         .map(|p| (p.code, p.path.as_str()))
         .collect();
     let at = [
@@ -199,5 +199,5 @@ fn a_name_used_twice_in_code_is_reported_as_a_key_used_twice_in_a_file() {
         "steps[0].hold.r",
         "steps[1].plan.r",
     ];
-    assert_eq!(told, at.map(|path| (Code::DuplicateKey, path)));
+    assert_eq!(found, at.map(|path| (Code::DuplicateKey, path)));
 }

@@ -50,7 +50,8 @@ fn semicircle() -> Value {
     json!({ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": polygon(0) }], "blocks": blocks })
 }
 
-/// The force at two points, the ends of the last radial face. Reference values from exact linear programs.
+/// The force acts at two points, the ends of the last radial face. The reference values are from exact linear
+/// programs.
 #[test]
 fn an_arch_is_held_by_a_force_at_its_last_face() {
     let file = semicircle();
@@ -67,7 +68,7 @@ fn an_arch_is_held_by_a_force_at_its_last_face() {
         let most = found.most(direction).expect("it is bounded");
         assert!((most - expected).abs() < 1e-6, "{direction:?}: {most}");
     }
-    // A force at the middle of the face alone has no torque about it, so fewer forces hold the arch.
+    // A force at the single point in the middle of the face has no torque about it, so fewer forces hold the arch.
     let fewer = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
     assert!(
         fewer
@@ -100,8 +101,8 @@ fn near(found: impl Into<Option<f64>>, expected: f64) {
 }
 
 #[test]
-fn a_block_on_a_floor_is_carried_as_by_hand() {
-    // At its centroid it slides: |Fx| ≤ 0.5 (6 − Fy). It would tip only at |Fx| = 2 (6 − Fy).
+fn the_capacity_of_a_block_on_a_floor_agrees_with_sums_by_hand() {
+    // A force at the centroid makes the block slide: |Fx| ≤ 0.5 (6 − Fy). It would tip only at |Fx| = 2 (6 − Fy).
     let found = capacity(&on_floor(), "a", ForceAt::Default);
     assert_eq!(found.shape(), CapacityShape::Unbounded);
     assert_eq!((found.vertices.len(), found.edges.len()), (1, 2));
@@ -111,10 +112,11 @@ fn a_block_on_a_floor_is_carried_as_by_hand() {
     }
     assert_eq!(found.reach([0.0, -1.0]), Some(f64::INFINITY));
     assert!(found.gap < 1e-5, "{}", found.gap);
-    // At its upper right corner it tips to the right about (5, 0) before it slides, at 2 Fx = 12 N·m.
+    // A force at the upper right corner: the block slides at Fx = 3 N. It would tip about (5, 0) only at 2 Fx = 12
+    // N·m.
     let corner = capacity(&on_floor(), "a", ForceAt::Point(Point::new(5.0, 2.0)));
     near(corner.reach([1.0, 0.0]), 3.0);
-    // Lifted there it turns about (1, 0): 4 Fy = 12 N·m.
+    // An upward force at the same corner turns the block about (1, 0): 4 Fy = 12 N·m.
     near(corner.reach([0.0, 1.0]), 3.0);
 }
 
@@ -127,32 +129,33 @@ fn every_shape_occurs() {
     assert_eq!((ray.shape(), ray.rays.len()), (CapacityShape::Unbounded, 1));
     near(ray.reach([0.0, 1.0]), 6.0);
     near(ray.reach([1.0, 0.0]), 0.0);
-    // Beyond its edge a block is lifted or tips: a segment.
+    // A vertical force 1 m to the right of the block either lifts it or tips it: the set is a segment.
     let segment = capacity(&smooth, "a", ForceAt::Point(Point::new(6.0, 1.0)));
     assert_eq!(segment.shape(), CapacityShape::Segment, "{segment:?}");
     near(segment.reach([0.0, -1.0]), 12.0);
     near(segment.reach([0.0, 1.0]), 12.0 / 5.0);
-    // One force holds a block in the air.
+    // Only one force holds a block in the air: its weight, upwards at the centroid.
     let mut hangs = on_floor();
     hangs["ground"] = json!([]);
     let point = capacity(&hangs, "a", ForceAt::Default);
     assert_eq!(point.shape(), CapacityShape::Point, "{point:?}");
     near(point.vertices[0].force.y, 6.0);
-    // A single force at a point beside the centroid cannot hold the block, but a contact of two points can.
-    let beside = capacity(&hangs, "a", ForceAt::Point(Point::new(4.0, 1.0)));
-    assert_eq!(beside.shape(), CapacityShape::Empty);
-    assert!(!beside.mechanism.is_empty() && !beside.contains([0.0, 6.0]));
+    // A force at a point right of the centroid cannot hold the block. Two forces at the ends of a contact can,
+    // because they also exert a torque.
+    let off_centre = capacity(&hangs, "a", ForceAt::Point(Point::new(4.0, 1.0)));
+    assert_eq!(off_centre.shape(), CapacityShape::Empty);
+    assert!(!off_centre.mechanism.is_empty() && !off_centre.contains([0.0, 6.0]));
     let ends = [Point::new(4.0, 0.0), Point::new(4.0, 2.0)];
     let held = capacity(&hangs, "a", ForceAt::Contact(ends));
     assert_eq!(held.shape(), CapacityShape::Point);
     near(held.vertices[0].torque, -6.0);
-    // A robot without limits carries everything.
+    // A robot without limits carries every force.
     let mut held = hangs.clone();
     held["robots"] = json!([{ "id": "r", "holds": "a" }]);
     let all = capacity(&held, "a", ForceAt::Point(Point::new(3.0, 1.0)));
     assert_eq!(all.shape(), CapacityShape::Everything);
     assert_eq!(all.reach([1.0, 0.0]), Some(f64::INFINITY));
-    // By default the force replaces that of the robot that holds the block: it must carry exactly the weight.
+    // By default the force replaces the robot that holds the block, so it must equal the weight.
     let tool = capacity(&held, "a", ForceAt::Default);
     assert_eq!(tool.shape(), CapacityShape::Point);
     assert!(tool.robot.is_some());
@@ -190,22 +193,22 @@ fn requests_that_are_not_valid_are_refused() {
     }
 }
 
-/// The set carried in all cases of a range, for the same block on a floor, by hand.
+/// The set of forces that the block on a floor carries in all cases of a range, compared with sums by hand.
 #[test]
-fn what_is_carried_in_every_case_is_carried_in_each() {
+fn a_force_carried_in_all_cases_is_carried_in_each_case() {
     let file = on_floor();
     let (scene, request) = (scene(&file), CapacityRequest::of_block(named(&file, "a")));
     let every = |cases: Cases| of(&scene, request.cases(cases)).expect("a capacity");
-    // The least friction counts: |Fx| ≤ 0.4 (6 − Fy).
+    // The smallest friction coefficient decides: |Fx| ≤ 0.4 (6 − Fy).
     let friction = every(Cases::default().friction(0.4, 0.9));
     near(friction.reach([1.0, 0.0]), 2.4);
     near(friction.reach([0.0, 1.0]), 6.0);
-    // A tenth of the weight to either side takes 0.6 N.
+    // A horizontal load of a tenth of the weight uses 0.6 N of the friction of 3 N.
     let across = every(Cases::default().horizontal_load(-0.1, 0.1));
     assert_eq!(across.cases, 2);
     near(across.reach([1.0, 0.0]), 2.4);
     near(across.reach([-1.0, 0.0]), 2.4);
-    // Tilted: Fx + 6 sin t ≤ 0.5 · 6 cos t, on the safe side by less than 4e-5 of the weight.
+    // Tilted: Fx + 6 sin t ≤ 0.5 · 6 cos t. The result may be smaller by 5e-5 of the weight.
     let tilted = every(Cases::default().tilt(-2.0, 2.0));
     let (sin, cos) = libm::sincos(2.0_f64.to_radians());
     let exact = 3.0 * cos - 6.0 * sin;
@@ -224,14 +227,16 @@ fn what_is_carried_in_every_case_is_carried_in_each() {
     }
 }
 
-/// Scenes for the checks below: the arch, walls and random ones.
+/// Scenes for the checks below: the arch, the block on a floor, and ten random scenes.
 fn scenes() -> Vec<Value> {
     let mut all = vec![semicircle(), on_floor()];
     all.extend((0..10).map(|number| crate::oracle::random::scene(number).1));
     all
 }
 
-fn first_capacity(file: &Value) -> Option<(Scene, LoadCapacity)> {
+/// The capacity of the last block at its centroid. `None` if the scene is invalid, its blocks overlap, or the
+/// capacity is withheld.
+fn last_capacity(file: &Value) -> Option<(Scene, LoadCapacity)> {
     let scene = Scene::from_json(&file.to_string()).ok()?;
     if !scene.penetrations().is_empty() {
         return None;
@@ -244,7 +249,7 @@ fn first_capacity(file: &Value) -> Option<(Scene, LoadCapacity)> {
     Some((scene, found.ok()?))
 }
 
-/// The same scene with one more load.
+/// The verdict of the same scene with one more load.
 fn with_load(file: &Value, scene: &Scene, capacity: &LoadCapacity, force: [f64; 2]) -> Verdict {
     let mut file = file.clone();
     let id = &scene.blocks()[capacity.block.0].id;
@@ -261,7 +266,7 @@ fn with_load(file: &Value, scene: &Scene, capacity: &LoadCapacity, force: [f64; 
 fn just_beyond_an_edge_it_falls_and_at_a_vertex_it_stands() {
     let mut count = 0;
     for file in scenes() {
-        let Some((scene, found)) = first_capacity(&file) else {
+        let Some((scene, found)) = last_capacity(&file) else {
             continue;
         };
         let weight: f64 = scene.blocks().iter().map(|b| b.weight).sum();
@@ -323,7 +328,7 @@ fn the_forces_of_a_vertex_balance_every_block() {
 }
 
 #[test]
-fn what_is_written_is_what_was_found() {
+fn the_json_contains_the_capacity_that_was_found() {
     let file = semicircle();
     let scene = scene(&file);
     let at = ForceAt::Point(Point::new(5.5, 0.0));
@@ -332,30 +337,30 @@ fn what_is_written_is_what_was_found() {
     let found = analysis.frames[0].capacity.as_ref().expect("requested");
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     let json: Value = serde_json::from_str(&json).expect("JSON");
-    let told = &json["frames"][0]["capacity"];
+    let capacity = &json["frames"][0]["capacity"];
     assert_eq!(
-        (&told["block"], &told["shape"]),
+        (&capacity["block"], &capacity["shape"]),
         (&json!("19"), &json!("polygon"))
     );
-    assert_eq!(told["at"], json!([[5.5, 0.0]]));
-    assert_eq!(told["stands_without"], json!(false));
+    assert_eq!(capacity["at"], json!([[5.5, 0.0]]));
+    assert_eq!(capacity["stands_without"], json!(false));
     let forces: Vec<[f64; 2]> = found
         .vertices
         .iter()
         .map(|v| [v.force.x, v.force.y])
         .collect();
-    assert_eq!(told["vertices"], json!(forces));
+    assert_eq!(capacity["vertices"], json!(forces));
     assert_eq!(
-        told["edges"].as_array().map(Vec::len),
+        capacity["edges"].as_array().map(Vec::len),
         Some(found.edges.len())
     );
     assert_eq!(
-        told["balances"].as_array().map(Vec::len),
+        capacity["balances"].as_array().map(Vec::len),
         Some(forces.len())
     );
-    assert_eq!(told["cases"], json!(1));
+    assert_eq!(capacity["cases"], json!(1));
     let limits: Vec<f64> = found.edges.iter().map(|e| e.limit).collect();
-    let written: Vec<f64> = told["edges"]
+    let written: Vec<f64> = capacity["edges"]
         .as_array()
         .expect("a list")
         .iter()
@@ -382,8 +387,9 @@ fn every_block_of_the_doorway_has_a_capacity() {
     }
 }
 
-/// A force on a stone high in a gabled wall. Farther down, other mechanisms limit the downward forces: the last vertices
-/// before the unbounded edges are many times farther away than the first ones. Without them the set was withheld.
+/// A force on a stone high in a gabled wall. For larger downward forces, other mechanisms limit the set. So the last
+/// vertices before the unbounded edges are more than ten times as far away as the first ones. If they are missed, the
+/// set is withheld.
 #[test]
 fn far_vertices_before_an_unbounded_edge_are_found() {
     let text = include_str!("../../assets/gallery/gabled-wall.json");

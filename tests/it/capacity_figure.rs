@@ -1,7 +1,7 @@
 //! The figure of the capacity: its area is the set of the result, and its small pictures show the mechanisms of the
 //! edges.
 
-use drystone::analysis::{CapacityRequest, ForceAt, LoadCapacity, Options as Asked};
+use drystone::analysis::{CapacityRequest, ForceAt, LoadCapacity, Options as AnalysisOptions};
 use drystone::drawing::{Camera, Drawing, Group, Item, PagePoint, Path};
 use drystone::figure::{self, Kind, Options};
 use drystone::geometry::{Point, Vector};
@@ -13,10 +13,10 @@ use crate::structure::{arch, block, on_floor, rectangle, scene};
 fn analysed(scene: &Scene, block: &str, at: ForceAt) -> Analysis {
     let block = scene.block_named(block).expect("the block exists");
     let request = CapacityRequest::of_block(block).at(at);
-    Analysis::with(scene, &Asked::default().capacity(request))
+    Analysis::with(scene, &AnalysisOptions::default().capacity(request))
 }
 
-/// The groups of a class, each with the camera of its picture.
+/// Adds to `found` the groups of a class, each with the camera of its picture.
 fn of_class<'a>(
     items: &'a [Item],
     class: &str,
@@ -53,7 +53,8 @@ fn shown(from: PagePoint, to: PagePoint) -> Vector {
     Vector::new(to.x - from.x, from.y - to.y)
 }
 
-/// The corners of the drawn area, and the position of the force 0; `None` if the area is drawn apart from the point.
+/// The corners of the drawn area, and the position of the force 0. The position is `None` if the area is drawn apart
+/// from the point at which the force acts.
 fn drawn(drawing: &Drawing, capacity: &LoadCapacity) -> (Vec<PagePoint>, Option<PagePoint>) {
     let found = groups(drawing, "capacity");
     let [(Some(camera), group)] = found[..] else {
@@ -64,7 +65,8 @@ fn drawn(drawing: &Drawing, capacity: &LoadCapacity) -> (Vec<PagePoint>, Option<
     (corners, (!is_apart).then(|| camera.place(capacity.at[0])))
 }
 
-/// The scale in pixels per newton, and the position of the force 0, for which every force is a corner.
+/// The scale in pixels per newton and the position of the force 0 for which every force of the set is a corner of the
+/// area.
 fn scale(corners: &[PagePoint], forces: &[Vector], zero: Option<PagePoint>) -> (f64, PagePoint) {
     let place = |force: Vector, scale: f64, zero: PagePoint| {
         PagePoint::new(zero.x + scale * force.x, zero.y - scale * force.y)
@@ -91,7 +93,7 @@ fn scale(corners: &[PagePoint], forces: &[Vector], zero: Option<PagePoint>) -> (
     found.unwrap_or_else(|| panic!("{corners:?} {forces:?}"))
 }
 
-/// A block on the ground that a robot with limits holds. Its set is unbounded downwards.
+/// A block on the ground, held by a robot with limits. Its set is unbounded downwards.
 fn held() -> Scene {
     let mut file = on_floor(0.5, vec![block("a", rectangle(-1.0, 0.0, 2.0, 1.0), 8.0)]);
     let limits = json!({ "fx": 3, "fy": 5, "torque": 2 });
@@ -99,8 +101,8 @@ fn held() -> Scene {
     scene(&file)
 }
 
-/// Every corner of the area is a carried force, and every vertex of the set is such a corner, in one scale. The tails of
-/// the forces are at the point, unless the area is drawn apart.
+/// Every corner of the area is a carried force, and every vertex of the set is a corner of the area, in one scale.
+/// The force 0 is at the point of application, unless the area is drawn apart from it.
 #[test]
 fn the_area_is_the_set_of_the_result_in_one_scale() {
     let thick = scene(&arch(9, 0.4, 0.7));
@@ -144,11 +146,11 @@ fn small_pictures_belong_to_the_longest_edges() {
         let arrow = paths(group).pop().expect("an arrow");
         let p: Vec<PagePoint> = arrow.outline.points().collect();
         let tail = PagePoint::new(0.5 * (p[0].x + p[6].x), 0.5 * (p[0].y + p[6].y));
-        let way = shown(tail, p[3]).normalize();
+        let direction = shown(tail, p[3]).normalize();
         let normal = found.edges[*edge].normal;
         assert!(
-            (way - normal).norm() < 1e-9,
-            "{way:?} instead of {normal:?}"
+            (direction - normal).norm() < 1e-9,
+            "{direction:?} instead of {normal:?}"
         );
     }
 }

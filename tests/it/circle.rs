@@ -1,5 +1,5 @@
-//! No files of one folder import each other, directly or through others. Source files are read as text, without comments,
-//! strings and tests.
+//! No files of one folder import each other, directly or through other files. Source files are read as text, without
+//! comments, strings and tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 
 use crate::source::{bare, collect, names_after, without_groups};
 
-/// Folders whose files still import each other. The test fails when one of them no longer does, so that the list shrinks.
+/// Folders whose files still import each other. The test fails when one of them no longer does, so that the list
+/// shrinks.
 const KNOWN_CYCLES: &[&str] = &[];
 
-/// Which modules of a folder each of its modules uses, by their names. A subfolder counts as one module; `mod.rs` is left
-/// out, because it declares the others.
+/// For each module of a folder, the other modules of this folder that it uses. A subfolder counts as one module.
+/// `mod.rs` is left out, because it declares the others.
 fn uses_within(root: &Path, folder: &Path) -> BTreeMap<String, BTreeSet<String>> {
     let mut files = Vec::new();
     collect(folder, &mut files);
@@ -46,7 +47,8 @@ fn uses_within(root: &Path, folder: &Path) -> BTreeMap<String, BTreeSet<String>>
     uses
 }
 
-/// The path by which code names a folder: `crate::scene::` for `src/mechanics/scene`; `None` for a group of modules.
+/// The path of a folder's module in code, such as `crate::scene::` for `src/mechanics/scene`. `None` for a folder
+/// that is only a group of modules.
 fn crate_path(root: &Path, folder: &Path) -> Option<String> {
     let file = folder.strip_prefix(root).ok()?.join("mod.rs");
     let file = file.to_string_lossy().replace('\\', "/");
@@ -54,7 +56,7 @@ fn crate_path(root: &Path, folder: &Path) -> Option<String> {
     Some(format!("crate::{}::", path.replace('/', "::")))
 }
 
-/// All folders below `folder`.
+/// Adds all folders below `folder` to `found`.
 fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable") {
         let path = entry.expect("readable").path();
@@ -80,15 +82,15 @@ fn cycle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
         }
         left.retain(|name, _| !done.contains(name));
     }
-    let mut way = vec![left.keys().next()?.clone()];
+    let mut chain = vec![left.keys().next()?.clone()];
     loop {
-        let next = left[&way[way.len() - 1]]
+        let next = left[&chain[chain.len() - 1]]
             .iter()
             .find(|u| left.contains_key(*u))?;
-        if let Some(at) = way.iter().position(|w| w == next) {
-            return Some(way.split_off(at));
+        if let Some(at) = chain.iter().position(|name| name == next) {
+            return Some(chain.split_off(at));
         }
-        way.push(next.clone());
+        chain.push(next.clone());
     }
 }
 
@@ -105,8 +107,8 @@ fn no_files_of_a_folder_import_each_other() {
             cycle(&uses_within(&root, folder)),
             KNOWN_CYCLES.contains(&&name[..]),
         ) {
-            (Some(way), false) => {
-                faults.push(format!("{name}: {} import each other", way.join(" → ")))
+            (Some(chain), false) => {
+                faults.push(format!("{name}: {} import each other", chain.join(" → ")))
             }
             (None, true) => faults.push(format!(
                 "{name} has no cycle any more: remove it from KNOWN_CYCLES"
@@ -126,11 +128,11 @@ fn files_that_import_each_other_through_a_third_are_caught() {
     uses.entry("edge".into())
         .or_default()
         .insert("polygon".into());
-    assert!(cycle(&uses).is_some_and(|way| way.len() == 2 || way.len() == 3));
+    assert!(cycle(&uses).is_some_and(|chain| chain.len() == 2 || chain.len() == 3));
 }
 
 #[test]
-fn the_parts_of_a_figure_know_no_kind() {
+fn shared_parts_of_figures_do_not_import_a_kind_of_figure() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let uses = uses_within(&root, &root.join("products/figure"));
     assert!(uses.len() > 30, "{}", uses.len());

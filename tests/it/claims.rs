@@ -1,8 +1,9 @@
-//! The statements of results and captions are compared with other known values: sums with the listed amounts, shares
-//! with forces and limits, motions with contacts, margins with verdicts. `src/doc/claims.md` is the list.
+//! The statements of results and captions are compared with other known values: sums with the listed forces, used
+//! fractions with forces and limits, motions with contacts, margins with verdicts. `src/doc/claims.md` lists all
+//! statements.
 //!
-//! These tests read the JSON that other programs read, and use geometry of their own. So they also find a number that
-//! is correct inside the program but written incorrectly.
+//! These tests read the JSON that other programs read, and compute their geometry separately. So they also find a
+//! number that is correct inside the program but written incorrectly.
 
 mod balance;
 mod beyond;
@@ -24,27 +25,27 @@ use serde_json::{Value, json};
 use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
-/// A scene file, its result from `check --json`, and L.
-struct Told {
+/// A scene file, its result in the JSON of `check --json`, and the unit of length L, m.
+struct Checked {
     file: Value,
     json: Value,
     length: f64,
 }
 
-fn told_with(file: &Value, options: &Options) -> Told {
+fn check_with(file: &Value, options: &Options) -> Checked {
     let scene = scene(file);
     let analysis = Analysis::with(&scene, options);
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     let json: Value = serde_json::from_str(&json).expect("JSON");
-    Told {
+    Checked {
         file: file.clone(),
         length: number(&json["frames"][0]["length"]),
         json,
     }
 }
 
-fn told(file: &Value) -> Told {
-    told_with(file, &Options::default())
+fn check(file: &Value) -> Checked {
+    check_with(file, &Options::default())
 }
 
 fn number(value: &Value) -> f64 {
@@ -73,8 +74,9 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// Structures that stand, slide, topple, are held with limits, carry loads or have no friction; and random ones.
-fn structures() -> Vec<Told> {
+/// The results of structures that stand, slide or topple, are held by robots with limits or carry loads, and of
+/// random scenes.
+fn structures() -> Vec<Checked> {
     let mut files = vec![
         arch(11, 0.3, 0.7),
         arch(9, 0.05, 0.7),
@@ -96,14 +98,14 @@ fn structures() -> Vec<Told> {
     files.push(pushed);
     files.extend((0..90).map(|number| random::scene(number).1));
     let sound = |file: &Value| drystone::Scene::from_json(&file.to_string()).is_ok();
-    files.iter().filter(|file| sound(file)).map(told).collect()
+    files.iter().filter(|file| sound(file)).map(check).collect()
 }
 
-/// The verdict and the amounts of a caption are those of the result.
+/// A caption states the verdict of the result and its largest missing force.
 #[test]
 fn captions_say_what_the_result_says() {
-    for told in structures() {
-        let scene = scene(&told.file);
+    for checked in structures() {
+        let scene = scene(&checked.file);
         let analysis = Analysis::new(&scene);
         let caption = figure::caption(&analysis);
         let frame = &analysis.frames[0];
@@ -118,8 +120,8 @@ fn captions_say_what_the_result_says() {
             assert!(!caption.contains("would have to"), "{caption}");
             continue;
         }
-        // The caption contains the largest missing force, with the digits it is written with.
-        let largest = list(&told.json["frames"][0]["failures"])
+        // The caption contains the largest missing force, rounded.
+        let largest = list(&checked.json["frames"][0]["failures"])
             .iter()
             .filter(|f| f["torque"].is_null())
             .map(|f| dot(pair(&f["force"]), pair(&f["force"])).sqrt())

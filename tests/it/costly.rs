@@ -19,12 +19,12 @@ fn fan(count: usize) -> Value {
 }
 
 #[test]
-fn corner_contacts_of_too_many_blocks_in_one_point_are_refused() {
+fn corner_contacts_of_too_many_blocks_at_one_point_are_refused() {
     let refused = Scene::from_json(&fan(400).to_string()).expect_err("refused");
     assert_eq!(refused.list[0].code, Code::TooManyTips);
     let words = refused.to_string();
     assert!(
-        words.contains("corners of 400 blocks meet at (0, 0)"),
+        words.contains("corners of 400 bodies meet at (0, 0)"),
         "{words}"
     );
     // 400 · 399 / 2.

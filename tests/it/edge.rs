@@ -1,4 +1,4 @@
-//! Cases close to the limit between standing and falling: verdicts are right and decided up to the tolerance, and
+//! Cases close to the limit between standing and falling. Outside the tolerance, verdicts are decided and right, and
 //! every fall is proved.
 
 use drystone::analysis::{FrameAnalysis, Proof, Verdict};
@@ -11,7 +11,7 @@ use crate::structure::{arch, block, first, on_floor, rectangle, scene, verdict, 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
-/// The scene with an additional horizontal gravity of `share` times the vertical one.
+/// The scene with an additional horizontal load on every block: `share` times its weight.
 fn pushed(mut file: Value, share: f64) -> Value {
     file["gravity"] = json!([10.0 * share, -10.0]);
     for block in file["blocks"].as_array_mut().expect("a list") {
@@ -21,16 +21,17 @@ fn pushed(mut file: Value, share: f64) -> Value {
     file
 }
 
+/// The sum of forces below which the proof excludes a balance, relative to the loads. The frame must fall.
 fn rules_out(frame: &FrameAnalysis) -> f64 {
     assert_eq!(frame.verdict, FALLS, "{}", frame.doubt());
     frame.proof.excluded_force_sum()
 }
 
-/// A wall of 410 bricks that falls from a share of 0.481616 on. Near this limit, programs that must decide between
-/// "balanced" and "no balance" end without an answer, and motions that violate contacts by a ten-thousandth of their
-/// speed look like a fall.
+/// A wall of 410 bricks that falls if the horizontal load exceeds 0.481616 of the weights. Near this limit, programs
+/// that must decide between "balanced" and "no balance" end without an answer. Motions that violate contacts by a
+/// ten-thousandth of their speed look like a fall.
 #[test]
-fn a_large_wall_is_decided_on_either_side_of_its_edge() {
+fn a_large_wall_is_decided_on_both_sides_of_its_limit() {
     for share in [0.4815, 0.4816157] {
         let frame = first(&pushed(wall(20, 20), share));
         assert_eq!(frame.verdict, STANDS, "{share}: {:?}", frame.proof);
@@ -46,8 +47,8 @@ fn a_large_wall_is_decided_on_either_side_of_its_edge() {
     }
 }
 
-/// The smallest thickness at which a certified reference stands, found by bisection. Verdicts are checked a millionth
-/// to either side.
+/// `THINNEST` was found by bisection with a certified reference. Verdicts are checked at a thickness smaller and
+/// larger by a millionth of the radius.
 #[test]
 fn an_arch_is_decided_a_millionth_from_its_minimum_thickness() {
     for (voussoirs, least) in THINNEST {
@@ -63,11 +64,11 @@ fn an_arch_is_decided_a_millionth_from_its_minimum_thickness() {
     }
 }
 
-/// Minimum thickness over radius of semicircular arches, by number of voussoirs.
+/// Numbers of voussoirs, and the ratio of the minimum thickness to the radius of such a semicircular arch.
 const THINNEST: [(usize, f64); 2] = [(27, 0.106_720_9), (181, 0.107_462_3)];
 
-/// An inverted wedge opens its contacts by as little as a ten-millionth of the distance it falls: no more than a
-/// solver's error.
+/// When an inverted wedge falls, its contacts open by as little as a ten-millionth of the distance. This is no more
+/// than the error of a solver.
 #[test]
 fn a_flat_wedge_that_falls_is_proved_to_fall() {
     for exponent in 2..=7 {
@@ -78,7 +79,7 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
             "1e-{exponent}: {:?}",
             frame.proof
         );
-        // The wedge that stands, lifted by a force a little larger than its weight.
+        // The upright wedge stands. Here a force that is slightly larger than its weight lifts it.
         let mut file = wedge(half_angle);
         file["loads"] = json!([{ "block": "wedge", "force": [0, 6.0 * (1.0 + 1e-5)] }]);
         let frame = first(&file);
@@ -90,10 +91,10 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
     }
 }
 
-/// Such a wedge stands, but 16 digits are too few to balance its thrust. A motion into its notch violates the
-/// contacts by less than a solver's error, and must not be taken for a fall.
+/// A very flat wedge stands in its notch, but 16 digits are too few to balance its thrust. A motion into the notch
+/// violates the contacts by less than the error of a solver, and must not be reported as a fall.
 #[test]
-fn a_wedge_too_flat_for_sixteen_digits_never_falls() {
+fn a_wedge_too_flat_for_sixteen_digits_is_not_reported_as_unstable() {
     for exponent in 8..=13 {
         let frame = first(&wedge(libm::exp10(-f64::from(exponent))));
         assert_ne!(frame.verdict, FALLS, "1e-{exponent}: {:?}", frame.proof);
@@ -102,7 +103,7 @@ fn a_wedge_too_flat_for_sixteen_digits_never_falls() {
 
 /// Several blocks locked between two walls: their thrust is unbounded, and no motion opens every contact.
 #[test]
-fn a_row_of_blocks_locked_between_walls() {
+fn a_row_of_blocks_between_walls_stands_only_with_friction() {
     let row = |friction: f64| {
         let blocks: Vec<Value> = (0..5)
             .map(|k| block(&format!("{k}"), rectangle(f64::from(k), 0.0, 1.0, 1.0), 6.0))
@@ -136,9 +137,9 @@ fn a_row_of_blocks_locked_between_walls() {
     assert_eq!(verdict(&wedge(1e-3)), STANDS);
 }
 
-/// A proof by a motion states which forces it excludes: smaller ones than its power divided by its worst violation.
+/// A proof by a motion excludes every balance whose forces sum to less than its power divided by its worst violation.
 #[test]
-fn a_motion_states_which_forces_it_excludes() {
+fn a_motion_excludes_balances_with_small_forces() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)]);
     assert!(rules_out(&first(&file)).is_infinite(), "nothing touches it");
     let doubtful = Proof::Mechanism {

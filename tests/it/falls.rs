@@ -1,5 +1,5 @@
-//! Structures that fall, under gravity in many directions: their failures are listed, and together with these every
-//! block is in balance.
+//! Structures that fall under gravity in several directions. Their failures are listed, and the missing forces of
+//! these failures balance every block.
 
 use drystone::Analysis;
 use drystone::analysis::{
@@ -18,9 +18,9 @@ use serde_json::{Value, json};
 
 use crate::structure::{arch, block, first, on_floor, rectangle, scene, tilted, wall};
 
-/// The largest force, or moment divided by 1 m, that weights, contacts and adhesion leave unbalanced on a block, in
-/// newtons.
-fn left(scene: &Scene, frame: &FrameAnalysis) -> f64 {
+/// The largest unbalanced force on a block, N, or unbalanced moment divided by 1 m. Weights, contact forces and
+/// adhesion are summed.
+fn unbalanced(scene: &Scene, frame: &FrameAnalysis) -> f64 {
     let mut sums: Vec<(Vector, f64)> = Vec::new();
     for block in scene.blocks() {
         sums.push((scene.down() * block.weight, 0.0));
@@ -62,26 +62,27 @@ fn amount(failure: &Failure) -> f64 {
     }
 }
 
-fn named(file: Value, degrees: f64) {
+/// Asserts that a tilted structure falls, and that its failures balance every block and sum to the total adhesion.
+fn assert_failures_are_listed(file: Value, degrees: f64) {
     let scene = scene(&tilted(file, degrees));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable, "{degrees}°");
     assert!(
         !frame.failures.is_empty(),
-        "{degrees}°: no failure is named"
+        "{degrees}°: no failure is listed"
     );
-    let off = left(&scene, &frame);
+    let off = unbalanced(&scene, &frame);
     assert!(
         off < 1e-4,
-        "{degrees}°: a block is left with {off} N of its 6 N"
+        "{degrees}°: a block of 6 N has an unbalanced force of {off} N"
     );
     let sum: f64 = frame.failures.iter().map(amount).sum();
     assert!(
         (sum - frame.total_sticking).abs() < 1e-9 * frame.total_sticking,
-        "{degrees}°: the failures come to {sum} N of {}",
+        "{degrees}°: the failures sum to {sum} N instead of {}",
         frame.total_sticking
     );
-    // Less than a millionth of a block's weight would be the solver's rounding.
+    // A force of less than a millionth of a block's weight would be a rounding error of the solver.
     let lightest = scene.blocks().iter().map(|block| block.weight);
     let lightest = lightest.fold(f64::INFINITY, f64::min);
     let least = frame.failures.iter().map(amount);
@@ -94,21 +95,21 @@ fn named(file: Value, degrees: f64) {
 
 /// A wall of 20 courses falls beyond 25.7°. At 26° the least adhesion is half of a brick's weight.
 #[test]
-fn turned_walls_name_their_failures() {
+fn tilted_walls_list_their_failures() {
     for degrees in [26.0_f64, 30.0, 40.0, 60.0] {
-        named(wall(10, 10), degrees.max(30.0));
-        named(wall(20, 20), degrees);
+        assert_failures_are_listed(wall(10, 10), degrees.max(30.0));
+        assert_failures_are_listed(wall(20, 20), degrees);
     }
 }
 
 #[test]
-fn turned_arches_name_their_failures() {
+fn tilted_arches_list_their_failures() {
     for degrees in [26.0, 40.0, 60.0] {
-        named(arch(101, 0.3, 0.7), degrees);
+        assert_failures_are_listed(arch(101, 0.3, 0.7), degrees);
     }
 }
 
-/// For long arches too, the forces of least squares are unique: they do not depend on the order of the blocks.
+/// The least-squares forces of a long arch are unique: they do not depend on the order of the blocks.
 #[test]
 fn the_forces_of_a_long_arch_do_not_depend_on_the_order_of_its_blocks() {
     let mut file = arch(1001, 0.3, 0.7);
@@ -125,11 +126,11 @@ fn the_forces_of_a_long_arch_do_not_depend_on_the_order_of_its_blocks() {
     assert!((worst(&before) - worst(&after)).abs() < 1e-6 * worst(&before));
 }
 
-/// With `verdict_only` the verdict and its proof are reported, the program for the least adhesion is not solved, and
-/// the result says so.
+/// With `verdict_only`, the result contains the verdict and its proof. The program for the least adhesion is not
+/// solved, and a notice states this.
 #[test]
-fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
-    let asked = Options::default().verdict_only(true);
+fn the_verdict_alone_is_proved_and_a_notice_states_what_is_missing() {
+    let verdict_only = Options::default().verdict_only(true);
     let files = [
         (wall(10, 10), 0.0, Verdict::Stable),
         (wall(10, 10), 28.0, Verdict::Stable),
@@ -140,7 +141,7 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     ];
     for (file, degrees, verdict) in files {
         let scene = scene(&tilted(file, degrees));
-        let frame = Analysis::with(&scene, &asked).frames.remove(0);
+        let frame = Analysis::with(&scene, &verdict_only).frames.remove(0);
         let whole = Analysis::new(&scene).frames.remove(0);
         assert_eq!(
             (frame.verdict, whole.verdict),
@@ -180,41 +181,41 @@ fn the_verdict_alone_is_proved_and_says_what_it_leaves_out() {
     }
 }
 
-/// A motion of very many blocks does little work. If it violates no contact, this is no reason for doubt. A second
-/// case has a brick beside the lowest one, so that the forces are not unique: one program is enough.
+/// A motion of very many blocks has little power. If it violates no contact, it still proves the fall. In the second
+/// case, another brick touches the lowest one, so the forces are not unique. Then one program is enough.
 #[test]
-fn a_high_turned_stack_takes_no_program() {
+fn the_verdict_of_a_high_tilted_stack_needs_at_most_one_program() {
     let at = |k: i32| rectangle(0.0, 0.5 * f64::from(k), 1.0, 0.5);
     let mut bricks: Vec<Value> = (0..2_000)
         .map(|k| block(&k.to_string(), at(k), 6.0))
         .collect();
-    let asked = Options::default().verdict_only(true);
+    let verdict_only = Options::default().verdict_only(true);
     for programs in [0, 1] {
         let scene = scene(&tilted(on_floor(0.7, bricks.clone()), 26.0));
-        let frame = Analysis::with(&scene, &asked).frames.remove(0);
+        let frame = Analysis::with(&scene, &verdict_only).frames.remove(0);
         assert_eq!(frame.verdict, Verdict::Unstable);
         assert!(frame.proof.holds());
         assert_eq!(frame.solve.programs, programs);
-        bricks.push(block("beside", rectangle(-1.0, 0.0, 1.0, 0.5), 6.0));
+        bricks.push(block("neighbour", rectangle(-1.0, 0.0, 1.0, 0.5), 6.0));
     }
 }
 
-/// A stack that leans by nine tenths of what it can, alone and with a brick beside the lowest one, so that the forces
-/// are not unique. An arbitrary balance may lack a proof here, but the balance of least forces has one. The program of
-/// the least residual would end without a status after 200 iterations.
+/// A stack that leans by nine tenths of its limit, alone and with another brick that touches the lowest one. With
+/// that brick the forces are not unique: an arbitrary balance may have no proof, but the balance of least forces has
+/// one. The program of the least residual would end without a status after 200 iterations.
 #[test]
-fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_takes_few_programs() {
+fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_needs_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);
-    let beside = block("beside", rectangle(-1.0, 0.0, 1.0, 0.25), 1.0);
+    let neighbour = block("neighbour", rectangle(-1.0, 0.0, 1.0, 0.25), 1.0);
     let alone: Vec<_> = (0..10_000)
         .map(|k| block(&k.to_string(), at(k), 1.0))
         .collect();
-    let with_it = alone.iter().cloned().chain([beside]).collect();
-    let asked = Options::default().verdict_only(true);
-    for (bricks, most) in [(alone, 0), (with_it, 8)] {
+    let with_neighbour = alone.iter().cloned().chain([neighbour]).collect();
+    let verdict_only = Options::default().verdict_only(true);
+    for (bricks, most) in [(alone, 0), (with_neighbour, 8)] {
         for (degrees, verdict) in [(0.0, Verdict::Stable), (40.0, Verdict::Unstable)] {
             let scene = scene(&tilted(on_floor(0.7, bricks.clone()), degrees));
-            let frame = Analysis::with(&scene, &asked).frames.remove(0);
+            let frame = Analysis::with(&scene, &verdict_only).frames.remove(0);
             assert_eq!(frame.verdict, verdict, "{degrees}°");
             let solve = &frame.solve;
             assert!(
@@ -225,9 +226,9 @@ fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_takes_few_programs() {
     }
 }
 
-/// The m bricks above a joint have their centre half a brick and (m − 1)/2 shifts from one end of the joint. Where
-/// this lies beyond the other end of the face, the first end needs a tension: the distance times the weight of these
-/// bricks, divided by the length of the face.
+/// The centre of gravity of the m bricks above a joint lies half a brick and (m − 1)/2 shifts to the right of the
+/// joint's left end. If it lies beyond the right end, the left end needs a tension: the weight of these bricks times
+/// the distance beyond the right end, divided by the length of the joint.
 #[test]
 fn the_adhesion_of_a_falling_stack_follows_from_the_balance_above_each_joint() {
     let (bricks, shift) = (10_000, 1.1e-4);
@@ -270,25 +271,26 @@ pub fn program(scene: &Scene) -> Program {
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }
 
-/// With this many blocks, plain conditioning uses the normal equations and full conditioning uses clarabel.
+/// With about a thousand blocks, plain conditioning uses the normal equations and full conditioning uses clarabel.
 #[test]
-fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
+fn two_solvers_agree_on_a_thousand_bricks_that_stand_or_fall() {
     let file = wall(30, 30);
     for (degrees, stands) in [(0.0, true), (40.0, false)] {
         let program = program(&scene(&tilted(file.clone(), degrees)));
         let (loads, all) = (&program.loads, columns(&program));
-        let hard = kinematic_dual(loads, &all, |c| c.cost).0;
-        let any = force_primal(loads, &all, |_| 0.0, None);
-        let residual = least_residual_dual(loads, &all).0;
-        let wanted = match stands {
+        let least_force = kinematic_dual(loads, &all, |c| c.cost).0;
+        let any_balance = force_primal(loads, &all, |_| 0.0, None);
+        let least_residual = least_residual_dual(loads, &all).0;
+        let expected = match stands {
             true => [Status::Solved; 3],
             false => [Status::Unbounded, Status::Infeasible, Status::Solved],
         };
-        for (problem, status) in [hard, any, residual].iter().zip(wanted) {
+        let problems = [least_force, any_balance, least_residual];
+        for (problem, status) in problems.iter().zip(expected) {
             let [ours, theirs] = [Conditioning::Plain, Conditioning::Full]
                 .map(|conditioning| solve(problem, TOLERANCE, conditioning));
             assert_eq!((ours.status, theirs.status), (status, status));
-            assert_ne!(ours.x, theirs.x, "one of two solvers");
+            assert_ne!(ours.x, theirs.x, "the same solver was used twice");
             if status == Status::Solved {
                 let costs = [&ours, &theirs].map(|answer| {
                     let terms = problem.linear.iter().zip(&answer.x);
@@ -301,12 +303,12 @@ fn two_solvers_find_the_same_of_a_thousand_bricks_standing_and_falling() {
     }
 }
 
-/// This close to the limit a step of the normal equations leaves 10⁻⁶ of the loads unbalanced, but the program still
+/// So close to the limit, a step of the normal equations leaves 10⁻⁶ of the loads unbalanced. But the program still
 /// ends within 60 iterations.
 #[test]
 fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
-    let edge = 24.299_095;
-    let program = program(&scene(&tilted(wall(30, 30), edge * (1.0 - 1e-5))));
+    let limit = 24.299_095;
+    let program = program(&scene(&tilted(wall(30, 30), limit * (1.0 - 1e-5))));
     let all = columns(&program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
@@ -320,9 +322,9 @@ fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
     }
 }
 
-/// A ten-thousandth of a degree beyond its limit a wall needs almost no adhesion. Velocities that violate no column
-/// give a lower bound of the least adhesion: the power of the loads along them (weak duality). The reported value is
-/// that bound.
+/// A ten-thousandth of a degree beyond its limit, a wall needs almost no adhesion. For velocities that violate no
+/// column, the power of the loads is a lower bound of the least adhesion (weak duality). The reported adhesion equals
+/// this bound.
 #[test]
 fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let file = wall(16, 16);
@@ -330,9 +332,9 @@ fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
-    let tilt = upright.margins.expect("asked for").tilt;
-    let edge = tilt.right.at().expect("it falls");
-    let scene = scene(&tilted(file, edge + 1e-4));
+    let tilt = upright.margins.expect("margins were requested").tilt;
+    let limit = tilt.right.at().expect("the tilt has a limit");
+    let scene = scene(&tilted(file, limit + 1e-4));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable);
 
@@ -348,14 +350,18 @@ fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let bound = power * program.scale.force;
     assert!(bound > 0.0 && bound < 1e-5 * frame.total_force, "{bound} N");
     let off = frame.total_sticking / bound - 1.0;
-    assert!(off.abs() < 1e-6, "{} N of {bound} N", frame.total_sticking);
+    assert!(
+        off.abs() < 1e-6,
+        "{} N instead of {bound} N",
+        frame.total_sticking
+    );
 }
 
-/// A joint ends where the brick below it ends. The centre of gravity of all bricks above the lowest one lies a
-/// thousandth of a brick beyond that end; for all other joints and for the ground it lies inside. So all bricks but
-/// the lowest tip about that end as one body.
+/// The centre of gravity of all bricks above the lowest one lies a thousandth of a brick beyond the right end of the
+/// lowest joint. For all other joints and for the ground, the centre of gravity of the bricks above lies inside. So
+/// all bricks but the lowest tip about that end as one body.
 #[test]
-fn a_tall_leaning_stack_tips_as_one() {
+fn a_tall_leaning_stack_tips_as_one_body() {
     let (count, high) = (300_u32, 0.25);
     let shift = 1.002 / f64::from(count);
     let bricks = (0..count).map(|k| {

@@ -1,5 +1,5 @@
-//! Force flow: bands are as wide as their forces, true lines of action run through the resultants, and amounts are
-//! printed.
+//! Figures of the force flow: the width of a band is proportional to its force, true lines of action pass through the
+//! resultants, and the magnitudes of forces are printed.
 
 use drystone::drawing::{Drawing, Group, Item, PagePoint, Path};
 use drystone::figure::{self, Kind, Options};
@@ -53,15 +53,16 @@ fn band(group: &Group) -> Vec<(PagePoint, f64)> {
         .collect()
 }
 
-fn strand<'a>(drawing: &'a Drawing, begins: &str) -> &'a Group {
+/// The strand whose title begins with a text.
+fn strand<'a>(drawing: &'a Drawing, start: &str) -> &'a Group {
     let all = groups(&drawing.items, "strand");
     let titles: Vec<&str> = all.iter().map(|g| g.title.as_str()).collect();
-    let own = all.iter().find(|g| g.title.starts_with(begins));
-    own.unwrap_or_else(|| panic!("no {begins:?} among {titles:#?}"))
+    let own = all.iter().find(|g| g.title.starts_with(start));
+    own.unwrap_or_else(|| panic!("no {start:?} among {titles:#?}"))
 }
 
 #[test]
-fn bands_are_as_wide_as_their_forces() {
+fn the_width_of_a_band_is_proportional_to_its_force() {
     let square =
         |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
     let blocks = vec![
@@ -82,8 +83,9 @@ fn bands_are_as_wide_as_their_forces() {
 }
 
 #[test]
-fn strands_of_one_force_are_together_as_wide_as_the_force() {
-    // A lintel on two posts carries a block: two forces leave it, and each block's load and weight are shared.
+fn the_widths_of_the_strands_of_a_block_sum_to_those_of_its_forces() {
+    // A lintel on two posts carries a block. Two forces leave the lintel. They share the force of the block and the
+    // lintel's weight.
     let blocks = vec![
         structure::block("left", structure::rectangle(0.0, 0.0, 1.0, 2.0), 4.0),
         structure::block("right", structure::rectangle(5.0, 0.0, 1.0, 2.0), 4.0),
@@ -108,7 +110,7 @@ fn strands_of_one_force_are_together_as_wide_as_the_force() {
 }
 
 #[test]
-fn in_a_voussoir_the_lines_are_true_lines_of_action() {
+fn lines_in_a_voussoir_are_true_lines_of_action() {
     let analysis = analysed(&structure::arch(11, 0.2, 0.7));
     let drawing = drawn(&analysis);
     let picture = groups(&drawing.items, "picture")[0];
@@ -117,8 +119,8 @@ fn in_a_voussoir_the_lines_are_true_lines_of_action() {
     let mut checked = 0;
     for group in groups(&drawing.items, "strand") {
         let axis: Vec<Point> = band(group).iter().map(|p| camera.back(p.0)).collect();
-        // At a corner there are two points, before and after the change of width: such a band follows true lines of
-        // action.
+        // A band that follows true lines of action has four points: at its ends, and at its corner before and after
+        // the change of width.
         if axis.len() != 4 || (axis[1] - axis[2]).norm() > 1e-9 {
             continue;
         }
@@ -128,8 +130,8 @@ fn in_a_voussoir_the_lines_are_true_lines_of_action() {
                 .iter()
                 .find(at)
                 .expect("a joint at the end of the band");
-            let (force, way): (Vector, Vector) = (contact.resultant.force, next - end);
-            let sine = cross(force, way) / (force.norm() * way.norm());
+            let (force, direction): (Vector, Vector) = (contact.resultant.force, next - end);
+            let sine = cross(force, direction) / (force.norm() * direction.norm());
             assert!(sine.abs() < 1e-3, "{}: {sine}", group.title);
             checked += 1;
         }
@@ -155,7 +157,7 @@ fn the_largest_force_and_every_load_are_written() {
 }
 
 #[test]
-fn missing_forces_are_red_and_have_their_amounts() {
+fn missing_forces_are_drawn_with_their_magnitudes() {
     // A block whose centroid lies a quarter of a metre beyond its support.
     let blocks = vec![
         structure::block("low", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0),
@@ -170,11 +172,14 @@ fn missing_forces_are_red_and_have_their_amounts() {
     assert!(text.contains("from a missing force"), "{text}");
     assert!(text.contains("force that cannot be carried"));
     let amounts = groups(&drawing.items, "amount");
-    assert!(amounts.len() >= 2, "the largest force and what is missing");
+    assert!(
+        amounts.len() >= 2,
+        "the largest force and a missing force have magnitudes"
+    );
 }
 
 #[test]
-fn of_four_hundred_blocks_the_lines_are_few_paths_without_dots() {
+fn the_flow_of_four_hundred_blocks_has_few_paths_and_no_dots() {
     let path = format!("{}/assets/study/wall-400.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the scene is there");
     let scene = Scene::from_json(&text).expect("a scene");

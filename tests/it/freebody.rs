@@ -1,4 +1,4 @@
-//! Free bodies: every force is listed, and the list balances.
+//! Figures of free bodies: every force is listed, and the listed forces balance.
 
 use drystone::Analysis;
 use drystone::analysis::Verdict;
@@ -7,7 +7,7 @@ use drystone::figure::{self, Corners, Options};
 use drystone::scene::BlockId;
 
 use crate::labels::{COLUMN, hidden, ink, texts};
-use crate::lines::brought;
+use crate::lines::contributed;
 use crate::pictures::{gallery, scene};
 
 /// A row of the list: its name, and x, y and moment as printed.
@@ -42,13 +42,15 @@ fn number(printed: &str) -> f64 {
         .unwrap_or_else(|_| panic!("{printed}"))
 }
 
-/// Half a unit of the last digit.
+/// Half a unit of the last digit of a printed number.
 fn rounding(printed: &str) -> f64 {
     let decimals = printed.split_once('.').map_or(0, |(_, d)| d.len());
     0.5 * libm::pow(10.0, -(decimals as f64))
 }
 
-fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
+/// Asserts that the forces listed for a block sum to the listed sum, and to zero if the structure balances. Returns
+/// the number of listed forces.
+fn assert_balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
@@ -81,14 +83,14 @@ fn balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize
 }
 
 #[test]
-fn the_forces_and_moments_of_every_block_add_up_to_nothing_as_printed() {
+fn the_printed_forces_and_moments_of_every_block_sum_to_zero() {
     let mut listed = 0;
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         for frame in 0..analysis.frames.len() {
             // A wall has many similar blocks, so the first 24 are enough.
             for id in scene.frames()[frame].placed.iter().take(24) {
-                listed += balances(&name, &analysis, frame, *id);
+                listed += assert_balances(&name, &analysis, frame, *id);
             }
         }
     }
@@ -101,12 +103,15 @@ fn loads_missing_forces_and_the_step_are_listed() {
     let beam = BlockId(2);
     let options = Options::default();
     let drawing = figure::freebody(&Analysis::new(&loaded), 0, beam, &options).expect("placed");
-    let told = &drawing.description;
+    let description = &drawing.description;
     assert!(
-        told.contains("Load Q_1 on block beam: 4 kN at 270°"),
-        "{told}"
+        description.contains("Load Q_1 on block beam: 4 kN at 270°"),
+        "{description}"
     );
-    assert!(told.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"), "{told}");
+    assert!(
+        description.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"),
+        "{description}"
+    );
     let slide = crate::pictures::scene("tests/scenes/slide.json");
     let drawing =
         figure::freebody(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
@@ -127,7 +132,7 @@ fn every_name_of_a_free_body_is_legible() {
     let mut count = 0;
     let column = Options::default().width(COLUMN);
     let corners = Options::default().corners(figure::Corners::All);
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
@@ -160,7 +165,7 @@ fn every_name_of_a_free_body_is_legible() {
             }
         }
     }
-    assert!(count > 2000, "only {count} names were looked at");
+    assert!(count > 2000, "only {count} names were checked");
 }
 
 #[test]
@@ -178,15 +183,15 @@ fn the_free_body_of_the_slope_names_and_lists_every_force() {
         );
     }
     // 6 N on a slope of 20°: friction of 6·sin 20° acts up the slope, to the right of the normal ŝ.
-    for said in [
+    for part in [
         "mg = 6.000 N: (0.000; −6.000) N",
         "F_fl1 = 0.000 N: (0.000; 0.000) N",
         "sum: (0.000; 0.000) N, moment 0.000 N·m",
         "s = (−0.342; 0.94)",
     ] {
         assert!(
-            drawing.description.contains(said),
-            "{said}: {}",
+            drawing.description.contains(part),
+            "{part}: {}",
             drawing.description
         );
     }

@@ -39,7 +39,7 @@ fn same_corners(found: &[drystone::internals::geometry::Point], expected: &Value
 }
 
 #[test]
-fn bodies_lie_where_the_source_has_them() {
+fn bodies_have_the_corners_of_the_source() {
     for (name, panel) in panels() {
         let scene = scene(&panel);
         let frame = frame(&scene, &panel);
@@ -83,7 +83,7 @@ fn bodies_lie_where_the_source_has_them() {
 }
 
 #[test]
-fn robots_hold_what_the_source_has_them_hold() {
+fn robots_hold_the_blocks_of_the_source_with_its_limits() {
     for (name, panel) in panels() {
         let scene = scene(&panel);
         let frame = frame(&scene, &panel);
@@ -155,7 +155,7 @@ fn point(value: &Value) -> Point {
     Point::new(value[0].as_f64().expect("x"), value[1].as_f64().expect("y"))
 }
 
-/// Verdict, totals, robots and every interface of every panel, to the six decimals of the thesis's numbers.
+/// Verdict, totals, robots and interfaces of every panel, compared with the six decimals of the thesis.
 #[test]
 fn forces_are_those_of_the_source() {
     for (name, panel) in panels() {
@@ -170,8 +170,11 @@ fn forces_are_those_of_the_source() {
         };
         assert_eq!(found.verdict, verdict, "{name}");
         assert!(found.proof.holds(), "{name}: {:?}", found.proof);
-        let near = |a: f64, b: f64, what: &str| {
-            assert!((a - b).abs() <= 1e-6, "{name}, {what}: {a} against {b}")
+        let near = |found: f64, expected: f64, what: &str| {
+            assert!(
+                (found - expected).abs() <= 1e-6,
+                "{name}, {what}: {found} instead of {expected}"
+            )
         };
         if let Some(total) = expected["total_force"].as_f64() {
             near(found.total_force, total, "total force");
@@ -200,8 +203,8 @@ fn forces_are_those_of_the_source() {
             .enumerate()
         {
             let value = |k: usize| robot[k].as_f64().expect("a force");
-            let gives = found.robots.iter().find(|r| r.robot.0 == number);
-            let (force, torque) = gives.map_or((Vector::zeros(), 0.0), |r| (r.force, r.torque));
+            let held = found.robots.iter().find(|r| r.robot.0 == number);
+            let (force, torque) = held.map_or((Vector::zeros(), 0.0), |r| (r.force, r.torque));
             near(force.x, value(0) - value(1), "robot force x");
             near(force.y, value(2) - value(3), "robot force y");
             near(torque, value(4) - value(5), "robot torque");
@@ -226,8 +229,8 @@ fn forces_are_those_of_the_source() {
             }
             near(contact.normal_forces[0], normal[0], "N1");
             near(contact.normal_forces[1], normal[1], "N2");
-            // The source does not say on which of two blocks it counts friction; the balance fixes the sign, and the
-            // arrows of the figure are compared with theirs.
+            // The source does not state on which of the two blocks its friction acts, so only magnitudes are
+            // compared.
             near(contact.friction_force.abs(), friction.abs(), "T");
             let sum = normal[0] + normal[1];
             if sum > 1e-3 {
@@ -249,14 +252,14 @@ fn amount(failure: &Failure) -> f64 {
         | Failure::Friction { force, .. }
         | Failure::RobotForce { force, .. } => force.norm(),
         Failure::RobotTorque { torque, .. } => torque.abs(),
-        other => panic!("{other:?} is new here"),
+        other => panic!("an unknown kind of failure: {other:?}"),
     }
 }
 
-/// Figure 9a stands from a least friction on, which depends on corner contacts and the kernel. Figure 9b stands if
-/// its robot may exert a torque.
+/// Figure 9a stands if the friction is at least a value that depends on corner contacts and the kernel. Figure 9b
+/// stands if its robot may exert a torque.
 #[test]
-fn neglected_effects_carry_figure_9() {
+fn effects_that_the_source_neglects_make_figure_9_stand() {
     let read = |name: &str| -> Value {
         let path = format!("{}/assets/thesis/{name}", env!("CARGO_MANIFEST_DIR"));
         serde_json::from_str(&std::fs::read_to_string(path).expect("the scene is there"))

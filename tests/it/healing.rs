@@ -1,5 +1,5 @@
-//! Healing restores the intended structure: rotated, rounded or split at extra vertices, a structure keeps its
-//! verdict, and its forces up to the rounding.
+//! Healing restores the intended structure: a structure that is rotated, rounded or has extra vertices keeps its
+//! verdict. Its forces agree up to the rounding.
 
 mod narrow;
 
@@ -13,7 +13,7 @@ use crate::structure::{corners, first};
 
 type Outline = Vec<[f64; 2]>;
 
-/// Ground and blocks about 1 m large, of 2000 kg/m³.
+/// Ground and blocks with a size of about 1 m and a density of 2000 kg/m³.
 struct Built {
     name: String,
     ground: Vec<Outline>,
@@ -103,7 +103,7 @@ fn arch(count: usize, inner: f64, thickness: f64) -> Built {
     }
 }
 
-/// Inserts a point at a random place into every side.
+/// Inserts a vertex at a random position into every side.
 fn split(outline: &Outline, chance: &mut Random) -> Outline {
     let mut out = Vec::new();
     for (i, a) in outline.iter().enumerate() {
@@ -138,16 +138,17 @@ impl Built {
     }
 }
 
-/// The verdict and the total force of a scene's only frame.
+/// The verdict and the total force of a scene's first frame, and the reason if it is undecided.
 fn judged(file: &Value) -> (Verdict, f64, String) {
     let frame = first(file);
     (frame.verdict, frame.total_force, frame.doubt())
 }
 
-fn same(name: &str, meant: (Verdict, f64), file: &Value, written: Written) {
+/// Asserts that a file has the expected verdict and, if it stands, the expected total force.
+fn assert_same(name: &str, expected: (Verdict, f64), file: &Value, written: Written) {
     let (verdict, total, doubt) = judged(file);
-    assert_eq!(verdict, meant.0, "{name}, {written:?}: {doubt}");
-    let off = (total - meant.1).abs() / meant.1;
+    assert_eq!(verdict, expected.0, "{name}, {written:?}: {doubt}");
+    let off = (total - expected.1).abs() / expected.1;
     assert!(
         verdict != Verdict::Stable || off <= written.error(),
         "{name}, {written:?}: total force off by {off:.2e}"
@@ -155,7 +156,7 @@ fn same(name: &str, meant: (Verdict, f64), file: &Value, written: Written) {
 }
 
 #[test]
-fn walls_and_arches_turned_and_rounded_keep_their_verdict_and_forces() {
+fn rotated_and_rounded_walls_and_arches_keep_their_verdict_and_forces() {
     for seed in 0..12 {
         let mut chance = Random::new(seed);
         let built = if seed % 2 == 0 {
@@ -175,15 +176,15 @@ fn walls_and_arches_turned_and_rounded_keep_their_verdict_and_forces() {
         for written in Written::all() {
             let name = format!("{}, {degrees:.1}°", built.name);
             let plain = built.file(degrees, written, None);
-            same(&name, (verdict, total), &plain, written);
+            assert_same(&name, (verdict, total), &plain, written);
             let extra = built.file(degrees, written, Some(Random::new(seed)));
-            same(&format!("{name}, split"), (verdict, total), &extra, written);
+            assert_same(&format!("{name}, split"), (verdict, total), &extra, written);
         }
     }
 }
 
 /// Courses of stones of unequal length against one upright wall or between two.
-fn stones_beside_walls(chance: &mut Random) -> Built {
+fn stones_between_walls(chance: &mut Random) -> Built {
     let (width, courses) = (chance.whole(3, 5) as usize, chance.whole(2, 4) as usize);
     let length = width as f64;
     let (mut y, mut blocks) = (0.0, Vec::new());
@@ -210,20 +211,20 @@ fn stones_beside_walls(chance: &mut Random) -> Built {
         ground.push(corners(-2.0, 0.0, 2.0, y * chance.between(0.4, 0.9)));
     }
     Built {
-        name: format!("{} stones beside a wall", blocks.len()),
+        name: format!("{} stones next to a wall", blocks.len()),
         ground,
         blocks,
     }
 }
 
-/// Between upright faces that are parallel except for rounding, a stone is a wedge of 10⁻⁶. Its least forces are
-/// those of a stone between parallel faces.
+/// Rounding turns a stone between parallel upright faces into a wedge with an angle of about 10⁻⁶. Its forces of
+/// least sum must be those of a stone between parallel faces.
 #[test]
-fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
+fn stones_between_upright_walls_keep_their_verdict_and_forces() {
     let (mut stand, mut fall) = (0, 0);
     for seed in 0..25 {
         let mut chance = Random::new(seed);
-        let built = stones_beside_walls(&mut chance);
+        let built = stones_between_walls(&mut chance);
         let degrees = chance.between(-12.0, 12.0);
         let (verdict, total, doubt) = judged(&built.file(0.0, Written::InFull, None));
         assert_ne!(verdict, Verdict::Undecided, "{}: {doubt}", built.name);
@@ -234,7 +235,7 @@ fn stones_beside_upright_walls_keep_their_verdict_and_forces() {
         for written in Written::all() {
             let name = format!("{seed}: {}, {degrees:.1}°", built.name);
             let plain = built.file(degrees, written, None);
-            same(&name, (verdict, total), &plain, written);
+            assert_same(&name, (verdict, total), &plain, written);
         }
     }
     assert!(stand > 5 && fall > 3, "{stand} stand, {fall} fall");
@@ -265,7 +266,7 @@ fn structures_that_fall_are_not_healed_into_standing() {
     }
 }
 
-/// One frame of a scene as a scene of its own, in metres and rotated together with gravity.
+/// One frame of a scene as a separate scene, in metres and rotated together with gravity.
 fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value {
     let (sin, cos) = libm::sincos(degrees.to_radians());
     let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
@@ -325,9 +326,9 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
     let mut count = 0;
     for path in paths {
         let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let meant = Analysis::new(&scene);
-        for (number, (frame, meant)) in scene.frames().iter().zip(&meant.frames).enumerate() {
-            // Its centre of gravity lies exactly above a corner, and rounding moves it to either side.
+        let expected = Analysis::new(&scene);
+        for (number, (frame, expected)) in scene.frames().iter().zip(&expected.frames).enumerate() {
+            // The centre of gravity lies exactly above a corner, and rounding can move it to either side.
             if path.ends_with("figure-6-kernel-0.json") && number == 0 {
                 continue;
             }
@@ -335,13 +336,18 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
                 for written in Written::all() {
                     let file = frozen(&scene, frame, degrees, written);
                     let name = format!("{} {number}, {degrees}°", path.display());
-                    if meant.robots.is_empty() {
-                        same(&name, (meant.verdict, meant.total_force), &file, written);
+                    if expected.robots.is_empty() {
+                        assert_same(
+                            &name,
+                            (expected.verdict, expected.total_force),
+                            &file,
+                            written,
+                        );
                     } else {
                         // The cost of a robot's force depends on its components, so the total force changes with the
                         // rotation.
                         let (verdict, _, doubt) = judged(&file);
-                        assert_eq!(verdict, meant.verdict, "{name}, {written:?}: {doubt}");
+                        assert_eq!(verdict, expected.verdict, "{name}, {written:?}: {doubt}");
                     }
                     count += 1;
                 }
@@ -377,15 +383,15 @@ fn the_source_of_the_tolerance_is_reported() {
     );
     let (from, _, healed) = source(Written::InFull);
     assert_eq!((from, healed.corners), (ToleranceSource::Size, 0));
-    // Upright, all corners already fit.
+    // Without rotation, all corners already fit.
     let scene = Scene::from_json(&wall.file(0.0, Written::Decimals(3), None).to_string()).unwrap();
     assert_eq!(scene.healed().corners, 0);
 }
 
-/// Three stones whose corners a wide tolerance would push into each other. They stay as written and are analysed as
-/// such, and the first of them is reported with its place.
+/// Three stones that would overlap if healing moved their corners within a wide tolerance. They stay as written, and
+/// the first of them is reported with its position.
 #[test]
-fn what_cannot_be_healed_stays_as_written_and_is_named_with_its_place() {
+fn bodies_that_cannot_be_healed_stay_as_written_and_the_first_is_named() {
     let file = json!({ "drystone": 1, "contact_tolerance": 0.05,
         "ground": [{ "polygon": corners(-3.0, -3.0, 8.0, 1.0) }],
         "blocks": [

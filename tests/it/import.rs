@@ -1,4 +1,4 @@
-//! Drawings as other programs write them, from the file to a verdict; and figures of this crate, read back.
+//! Imports drawings of other programs and figures of this crate, and checks the scenes that result.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ fn verdict(file: &SceneFile) -> Verdict {
     Analysis::new(&scene).frames[0].verdict
 }
 
-/// Pairs of bodies with an interface.
+/// The number of pairs of bodies with an interface.
 fn touching(file: &SceneFile) -> usize {
     let scene = Scene::from_json(&file.to_json()).expect("sound");
     let analysis = Analysis::new(&scene);
@@ -87,7 +87,7 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
         (crane.id.as_deref(), crane.holds.as_deref()),
         (Some("crane"), Some("load"))
     );
-    // Every brick of the left pier was drawn some thousandths of a millimetre off its place.
+    // Every brick of the left pier was drawn some thousandths of a millimetre off its intended position.
     assert!(imported.snapped.len() >= 7, "{:?}", imported.snapped);
     assert!(
         imported
@@ -103,7 +103,7 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
     let text = fs::read_to_string(asset("import/doorway.svg")).expect("an asset");
     assert!(
         import(&text, Format::Svg, &unsnapped).is_err(),
-        "as drawn its blocks lie in each other"
+        "as drawn, the blocks overlap"
     );
 }
 
@@ -126,7 +126,7 @@ fn an_arch_from_illustrator_stands_on_its_curves() {
 }
 
 #[test]
-fn a_drum_fills_the_hole_it_was_drawn_for() {
+fn a_drum_touches_the_hole_that_contains_it() {
     let imported = read("window.svg", Format::Svg, &Options::default());
     assert_eq!(
         ids(&imported),
@@ -242,7 +242,7 @@ fn a_scene_exported_to_dxf_and_imported_again_gives_the_same_verdict() {
 }
 
 #[test]
-fn our_own_figures_read_back_give_the_same_verdicts() {
+fn imported_figures_of_this_crate_have_the_same_verdicts() {
     let mut frames = 0;
     for entry in fs::read_dir(asset("thesis")).expect("scenes") {
         let path = entry.expect("readable").path();
@@ -266,26 +266,26 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
                     .gravity([0.0, -1.0])
                     .density(first.weight / first.body.polygon.area()),
             );
-            let told = format!("{} frame {number}", path.display());
+            let name = format!("{} frame {number}", path.display());
             let mut imported =
-                import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{told}: {r:?}"));
-            assert_eq!(imported.remarks, [], "{told}");
+                import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{name}: {r:?}"));
+            assert_eq!(imported.remarks, [], "{name}");
             let names: Vec<&str> = frame
                 .placed
                 .iter()
                 .map(|id| scene.blocks()[id.0].id.as_str())
                 .collect();
-            assert_eq!(ids(&imported), names, "{told}");
-            assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{told}");
-            assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{told}");
+            assert_eq!(ids(&imported), names, "{name}");
+            assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{name}");
+            assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{name}");
             // A drawing contains no limits and no weights, so those of the scene are added.
             for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
                 let own = &scene.robots()[hold.robot.0];
-                assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{told}");
+                assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{name}");
                 assert_eq!(
                     robot.holds.as_deref(),
                     Some(scene.blocks()[hold.block.0].id.as_str()),
-                    "{told}"
+                    "{name}"
                 );
                 robot.limits = limits[hold.robot.0].clone();
             }
@@ -297,14 +297,14 @@ fn our_own_figures_read_back_give_the_same_verdicts() {
             for (block, id) in read.blocks().iter().zip(&frame.placed) {
                 let drawn = &scene.blocks()[id.0].body.polygon;
                 let off = (block.body.polygon.centroid() - drawn.centroid()).norm();
-                assert!(off < 1e-3, "{told}: {} is off by {off} m", block.id);
+                assert!(off < 1e-3, "{name}: {} is off by {off} m", block.id);
             }
             let again = Analysis::new(&read);
-            assert_eq!(again.frames[0].verdict, found.verdict, "{told}");
+            assert_eq!(again.frames[0].verdict, found.verdict, "{name}");
             assert_eq!(
                 again.frames[0].contacts.len(),
                 found.contacts.len(),
-                "{told}"
+                "{name}"
             );
             frames += 1;
         }
@@ -363,7 +363,7 @@ fn damaged_drawings_are_reported_and_never_panic() {
 }
 
 #[test]
-fn a_figure_of_very_many_blocks_is_read_back_too() {
+fn a_figure_of_very_many_blocks_is_imported_completely() {
     let mut blocks = Vec::new();
     for row in 0..35 {
         for column in 0..30 {

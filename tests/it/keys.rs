@@ -1,4 +1,4 @@
-//! Keys, pages and switches: the text next to the pictures, and the parts that can be left out.
+//! The keys of figures, their size on a page, and the options that leave out parts of a figure.
 
 use drystone::analysis::Analysis;
 use drystone::drawing::{Group, Text};
@@ -8,7 +8,7 @@ use crate::labels::{COLUMN, classes, texts};
 use crate::pictures::scene;
 
 #[test]
-fn a_load_states_its_amount_and_the_key_explains_it() {
+fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
     let scene = scene("tests/scenes/loaded.json");
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let amounts: Vec<String> = classes(&drawing.items, &["amount"])
@@ -31,7 +31,7 @@ fn a_load_states_its_amount_and_the_key_explains_it() {
 }
 
 #[test]
-fn robots_beyond_the_key_are_counted_in_it() {
+fn every_robot_is_named_in_the_key() {
     let scene = scene("tests/scenes/robots10.json");
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     let key: Vec<Text> = classes(&drawing.items, &["key"])
@@ -66,10 +66,10 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
 }
 
 #[test]
-fn each_switch_leaves_out_only_the_part_that_it_names() {
+fn each_option_leaves_out_only_the_part_that_it_names() {
     let scene = scene("tests/scenes/lintel.json");
     let analysis = Analysis::new(&scene);
-    let said = |options: &Options| {
+    let words_of = |options: &Options| {
         let drawing = figure::forces(&analysis, options);
         let page = Group {
             items: drawing.items,
@@ -80,8 +80,8 @@ fn each_switch_leaves_out_only_the_part_that_it_names() {
             .map(|t| t.words)
             .collect::<Vec<String>>()
     };
-    let full = said(&Options::default());
-    let has = |said: &[String], words: &str| said.iter().any(|s| s.contains(words));
+    let full = words_of(&Options::default());
+    let has = |all: &[String], words: &str| all.iter().any(|s| s.contains(words));
     let signs = ["A lintel, and", "(b) The crane", "stands", "robot crane"];
     assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
     let less = [
@@ -91,13 +91,13 @@ fn each_switch_leaves_out_only_the_part_that_it_names() {
         Options::default().keys(false),
     ];
     for (number, options) in less.iter().enumerate() {
-        let left = said(options);
+        let left = words_of(options);
         for (other, words) in signs.iter().enumerate() {
             assert_eq!(has(&left, words), other != number, "{words}: {left:?}");
         }
     }
     let more = Options::default().scale_bar(true).dimensions(true);
-    let more = said(&more);
-    let metres = |said: &[String]| said.iter().filter(|s| s.ends_with(" m")).count();
+    let more = words_of(&more);
+    let metres = |all: &[String]| all.iter().filter(|s| s.ends_with(" m")).count();
     assert_eq!((metres(&full), metres(&more)), (0, 7), "{more:?}");
 }

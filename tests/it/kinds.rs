@@ -113,7 +113,7 @@ fn stable_frames_have_no_mechanism_and_unstable_ones_show_every_moving_block() {
 }
 
 #[test]
-fn a_safe_stretch_is_as_long_as_the_kernel_leaves_it() {
+fn the_safe_fraction_of_an_interface_is_one_minus_the_kernel() {
     for (name, kernel) in [
         ("thesis/figure-6-kernel-0.json", 0.0),
         ("thesis/figure-6-kernel-02.json", 0.2),
@@ -145,7 +145,7 @@ fn a_safe_stretch_is_as_long_as_the_kernel_leaves_it() {
 }
 
 #[test]
-fn a_kernel_of_one_leaves_a_point() {
+fn with_a_kernel_of_one_the_safe_part_is_a_point() {
     let file = json!({ "drystone": 1, "friction": 0.7, "kernel": 1.0,
         "ground": [{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }],
         "blocks": [structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0)] });
@@ -169,7 +169,7 @@ fn interfaces_that_use_all_friction_are_marked_and_no_others() {
         let scene = scene(name);
         let analysis = Analysis::new(&scene);
         let drawing = draw(&analysis, Kind::Utilisation);
-        // A rim, a line, and a bar across where the friction is fully used.
+        // An interface that uses all its friction has three paths: a rim, a line, and a bar across the line.
         let bars = all(&drawing, "interface")
             .into_iter()
             .filter(|group| paths(group).count() == 3);
@@ -191,8 +191,8 @@ fn interfaces_that_use_all_friction_are_marked_and_no_others() {
 }
 
 #[test]
-fn a_thousand_blocks_and_more_are_few_paths() {
-    // Shelves of single blocks: there are many, but their analysis is quick.
+fn a_figure_of_more_than_a_thousand_blocks_has_few_paths() {
+    // Single blocks on separate shelves, so that their analysis is quick.
     let blocks: Vec<_> = (0..1100)
         .map(|i| {
             let (x, y) = (2.0 * f64::from(i % 40), 3.0 * f64::from(i / 40));
@@ -214,7 +214,7 @@ fn a_thousand_blocks_and_more_are_few_paths() {
 }
 
 #[test]
-fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
+fn every_kind_of_figure_of_the_same_scene_has_the_same_bytes() {
     for kind in KINDS {
         let text = || {
             let scene = scene("thesis/figure-4.json");
@@ -225,7 +225,7 @@ fn the_same_scene_gives_the_same_bytes_whatever_the_kind() {
 }
 
 #[test]
-fn what_changed_from_frame_to_frame_is_marked_and_what_did_not_is_not() {
+fn only_changes_from_frame_to_frame_are_marked() {
     // A second block is placed on the first: the ground carries more, and nothing else changes.
     let ground = json!([{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }]);
     let blocks = json!([
@@ -260,10 +260,10 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
     let scene = scene("study/arch-27.json");
     let plain = Analysis::new(&scene);
     let kinds = Kind::Thrust.stated_margins(&plain).expect("the kernel");
-    let asked = drystone::analysis::Options::default()
+    let margin_options = drystone::analysis::Options::default()
         .margins(true)
         .margin_kinds(kinds);
-    let analysis = Analysis::with(&scene, &asked);
+    let analysis = Analysis::with(&scene, &margin_options);
     let family = analysis.thrust_states(0);
     let [least, central, greatest] = [&family.least, &family.central, &family.greatest]
         .map(|state| state.as_ref().expect("it is an arch").thrust);
@@ -314,7 +314,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     let drawing = figure::draw(&analysis, Kind::Thrust, &options);
     let rays = all(&drawing, "ray");
     let blocks = scene.frames()[0].placed.len();
-    assert_eq!(rays.len(), blocks + 1, "a joint more than blocks");
+    assert_eq!(rays.len(), blocks + 1, "one joint more than blocks");
     let mut scale = None;
     for (k, ray) in rays.iter().enumerate() {
         let words = ray.title.strip_prefix(&format!("Ray {}: ", k + 1));
@@ -334,7 +334,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
             ray.title
         );
     }
-    // Weights and loads lead from the end of the first ray to the end of the last one.
+    // The weights and loads form a polyline from the tip of the first ray to the tip of the last ray.
     let loads = all(&drawing, "load");
     let loads: Vec<&Group> = loads
         .into_iter()

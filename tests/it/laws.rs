@@ -8,16 +8,22 @@ use serde_json::{Value, json};
 
 use crate::structure::{arch, first, harmonic, on_slope, wall};
 
-/// A map of the plane: mirrored or not, rotated, scaled, moved; forces are multiplied by `force`.
+/// A change of a scene. Points are mirrored, rotated, scaled and moved, in this order.
 #[derive(Clone, Copy, Debug)]
 struct Change {
+    /// The angle of the rotation about the origin.
     degrees: f64,
+    /// Whether x changes its sign.
     mirrored: bool,
+    /// The factor on all lengths.
     stretch: f64,
+    /// The displacement, m.
     by: [f64; 2],
+    /// The factor on all weights.
     force: f64,
 }
 
+/// The change that leaves a scene as it is.
 const SAME: Change = Change {
     degrees: 0.0,
     mirrored: false,
@@ -163,8 +169,8 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
     (a - b).abs() <= 2e-6 * scale
 }
 
-/// Compares the result of the changed scene with the correspondingly changed result.
-fn same(
+/// Compares the result of the changed scene with the correspondingly changed result. `block` maps block numbers.
+fn assert_same(
     name: &str,
     before: &FrameAnalysis,
     after: &FrameAnalysis,
@@ -181,7 +187,7 @@ fn same(
         after.proof,
         after.doubt()
     );
-    // In a random pile the verdict may depend on a narrow gap; then it does so in every position.
+    // In a random pile the verdict may depend on a narrow gap. Then it must also do so in the changed pile.
     if before.doubt().contains("narrow gaps") {
         assert!(
             after.doubt().contains("narrow gaps"),
@@ -255,7 +261,7 @@ fn same(
 fn check(change: Change) {
     for (name, file) in structures() {
         let (before, after) = (first(&file), first(&change.file(&file)));
-        same(name, &before, &after, &change, |k| k);
+        assert_same(name, &before, &after, &change, |k| k);
     }
 }
 
@@ -292,12 +298,12 @@ fn with_very_small_and_very_large_forces() {
     for force in [1e-6, 1e9] {
         let change = Change { force, ..SAME };
         for (name, mut file) in structures() {
-            // The limits of robots are forces, too.
+            // The limits of robots are forces, so they change too.
             let before = first(&file);
             if let Some(limit) = file.pointer_mut("/robots/0/limits/force") {
                 *limit = json!(2.0 * force);
             }
-            same(name, &before, &first(&change.file(&file)), &change, |k| k);
+            assert_same(name, &before, &first(&change.file(&file)), &change, |k| k);
         }
     }
 }
@@ -311,9 +317,9 @@ fn mirrored() {
 }
 
 #[test]
-fn turned_together_with_gravity() {
-    // The limits of robots hold for each component, so only quarter turns keep them: scenes with robots are rotated
-    // by those alone.
+fn rotated_together_with_gravity() {
+    // The limits of robots apply to each component, so only quarter turns preserve them. Scenes with robots are not
+    // rotated by other angles.
     for degrees in [90.0, 180.0, 270.0] {
         check(Change { degrees, ..SAME });
     }
@@ -323,7 +329,7 @@ fn turned_together_with_gravity() {
             .into_iter()
             .filter(|(_, f)| f.get("robots").is_none())
         {
-            same(
+            assert_same(
                 name,
                 &first(&file),
                 &first(&change.file(&file)),
@@ -335,7 +341,7 @@ fn turned_together_with_gravity() {
 }
 
 #[test]
-fn blocks_and_corners_renumbered() {
+fn with_blocks_and_corners_in_another_order() {
     for (name, file) in structures() {
         let mut other = file.clone();
         let blocks = other["blocks"].as_array_mut().expect("blocks");
@@ -346,7 +352,7 @@ fn blocks_and_corners_renumbered() {
             corners.rotate_left(2);
             corners.reverse();
         }
-        same(name, &first(&file), &first(&other), &SAME, |k| {
+        assert_same(name, &first(&file), &first(&other), &SAME, |k| {
             count - 1 - k
         });
     }
@@ -392,7 +398,7 @@ fn more_friction_never_makes_a_structure_fall() {
             let stands = first(&file).verdict == Verdict::Stable;
             assert!(
                 stands || !stood,
-                "{name} falls at μ = {friction} and stood at less"
+                "{name} falls at μ = {friction}, but stands at a smaller μ"
             );
             stood = stands;
         }
@@ -414,8 +420,8 @@ proptest! {
             degrees: 0.0, mirrored, stretch: libm::exp10(stretch), by: [by[0], by[1]], force: libm::exp10(force),
         };
         let file = pile(seed);
-        // The shift grows with the size of the pile: farther from the origin its coordinates would lose digits.
+        // The shift is proportional to the size of the pile. With a larger shift, the coordinates would lose digits.
         let change = Change { by: [change.by[0] * change.stretch, change.by[1] * change.stretch], ..change };
-        same("pile", &first(&file), &first(&change.file(&file)), &change, |k| k);
+        assert_same("pile", &first(&file), &first(&change.file(&file)), &change, |k| k);
     }
 }

@@ -1,5 +1,5 @@
-//! The layers of the crate: each module uses only the modules that its layer may use, and each foreign crate is used
-//! only in its own places.
+//! The layers of the crate: each module uses only the modules that its layer may use, and each foreign crate is named
+//! only in the files listed for it.
 //!
 //! The order of the layers follows from the order of the modules in each group's `mod.rs` and from [`GROUP_RULES`].
 //! Source files, including their tests, are read as text without comments and strings.
@@ -102,8 +102,8 @@ fn members_of(root: &Path, group: &str) -> Vec<String> {
         .collect()
 }
 
-/// Where a foreign crate may be named: files, or a module with all its files if the path ends in a slash.
-const DOORS: &[(&str, &[&str])] = &[
+/// The files in which a foreign crate may be named. A path that ends in a slash stands for all files below it.
+const CRATE_FILES: &[(&str, &[&str])] = &[
     (
         "serde",
         &[
@@ -198,7 +198,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("arrow_schema", &["python/table.rs"]),
 ];
 
-/// Foreign crates that may be named in one file only; the owning module chooses the file.
+/// Foreign crates that may be named in one file only, which may be any of their listed files.
 const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa"];
 
 /// File names that do not say what the file contains.
@@ -207,13 +207,13 @@ const EMPTY_NAMES: &[&str] = &[
 ];
 
 #[test]
-fn modules_use_only_allowed_modules_and_foreign_crates_only_in_their_places() {
+fn modules_use_only_allowed_modules_and_name_foreign_crates_only_in_listed_files() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     collect(&root, &mut files);
     assert!(
         files.len() > 20,
-        "the walk found only {} files",
+        "only {} source files were found",
         files.len()
     );
     let layers = Layers::from_source(&root);
@@ -233,16 +233,16 @@ fn modules_use_only_allowed_modules_and_foreign_crates_only_in_their_places() {
         sources.push((path.to_owned(), bare(&text)));
     }
     for name in SINGLE {
-        let doors: Vec<&str> = sources
+        let users: Vec<&str> = sources
             .iter()
             .filter(|s| names_crate(&s.1, name))
             .map(|s| s.0.as_str())
             .collect();
-        if doors.len() > 1 {
+        if users.len() > 1 {
             faults.push(format!(
-                "{name} has {} doors: {}",
-                doors.len(),
-                doors.join(", ")
+                "{name} is named in {} files: {}",
+                users.len(),
+                users.join(", ")
             ));
         }
     }
@@ -266,7 +266,9 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
         .unwrap_or_default()
         .trim_end_matches(".rs");
     if EMPTY_NAMES.contains(&stem) || EMPTY_NAMES.contains(&own) {
-        faults.push(format!("{path}: the name says nothing about what it makes"));
+        faults.push(format!(
+            "{path}: the name does not say what the file contains"
+        ));
     }
     if !matches!(own, "lib" | "main" | "internals") {
         match layers.allowed.get(own) {
@@ -280,7 +282,7 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
             }
         }
     }
-    // In a module's `mod.rs`, `super` is the crate itself, and two of them leave every module of this crate.
+    // In the `mod.rs` of a top-level module, `super` is the crate root. In its other files, `super::super` is.
     let climbs = code.matches("super::super::").count();
     let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs"))
         - 1.min(path.matches('/').count());
@@ -307,16 +309,16 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
         faults.push(format!("{path}: use super::* outside tests"));
     }
     if path != "clock.rs" && names_after(&code, "std::time::").contains(&"Instant".into()) {
-        faults.push(format!("{path}: the time comes in through clock.rs only"));
+        faults.push(format!("{path}: only clock.rs may use std::time::Instant"));
     }
-    for (name, doors) in DOORS {
-        let open = doors
+    for (name, permitted) in CRATE_FILES {
+        let is_permitted = permitted
             .iter()
             .any(|d| *d == path || (d.ends_with('/') && path.starts_with(d)));
-        if !open && names_crate(&code, name) {
+        if !is_permitted && names_crate(&code, name) {
             faults.push(format!(
-                "{path}: {name} comes in through {} only",
-                doors.join(" and ")
+                "{path}: {name} may only be named in {}",
+                permitted.join(", ")
             ));
         }
     }
@@ -330,7 +332,7 @@ fn faults(path: &str, text: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_module_uses_what_is_listed_before_it_and_groups_below_its_own() {
+fn a_module_may_use_earlier_modules_of_its_group_and_lower_groups() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let layers = Layers::from_source(&root);
     let may = |one: &str, other: &str| layers.allowed[one].contains(&other.to_owned());
@@ -369,7 +371,7 @@ fn uses_in_braces_and_in_code_are_found() {
 }
 
 #[test]
-fn a_foreign_crate_used_in_a_second_place_is_a_fault() {
+fn a_foreign_crate_in_another_file_is_a_fault() {
     let sources = [
         "use serde::Serialize;",
         "#[derive(serde::Serialize)] struct A;",

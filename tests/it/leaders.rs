@@ -1,4 +1,4 @@
-//! Names next to the blocks that they name, and names in several lines: measured on the drawings.
+//! Names next to their blocks, with and without a leader line, and names in several lines, measured on the drawings.
 
 use drystone::Analysis;
 use drystone::drawing::{Drawing, Group, Item, PagePoint};
@@ -6,7 +6,7 @@ use drystone::figure::{self, Kind, Options};
 use drystone::scene::{BlockId, Scene};
 
 use crate::labels::{Box4, COLUMN, classes, ink, pieces, texts, through};
-use crate::lines::brought;
+use crate::lines::contributed;
 use crate::pictures::{gallery, scene};
 
 const NAMES: [&str; 3] = ["name", "robot-name", "amount"];
@@ -31,16 +31,18 @@ fn crosses([a, b]: [PagePoint; 2], [c, d]: [PagePoint; 2]) -> bool {
     side(a, b, c) * side(a, b, d) < -1e-6 && side(c, d, a) * side(c, d, b) < -1e-6
 }
 
-/// A leader is drawn twice; the first path is its seam.
+/// The ends of a label's leader line, or `None` without a leader. It is drawn twice: first as a wider line in the
+/// colour of the page, then as the visible line, which is the last path of the label.
 fn leader(label: &Group) -> Option<[PagePoint; 2]> {
     pieces(label).last().copied()
 }
 
-/// If there is no other place, a leader may cross something. Few do in a crowded scene, and none elsewhere.
+/// In the crowded scene `steps30`, at most one leader in twenty may cross a label or another leader. In all other
+/// scenes, none may.
 #[test]
 fn leaders_cross_neither_each_other_nor_a_label() {
     let (mut count, mut complaints) = (0, Vec::new());
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         for (kind, width) in [
             (Kind::Forces, COLUMN),
             (Kind::Forces, 658.0),
@@ -65,7 +67,7 @@ fn leaders_cross_neither_each_other_nor_a_label() {
             }
         }
     }
-    assert!(count > 100, "only {count} leaders were looked at");
+    assert!(count > 100, "only {count} leaders were checked");
     let crowded = |complaint: &&String| complaint.starts_with("steps30");
     let (crowded, others): (Vec<_>, Vec<_>) = complaints.iter().partition(crowded);
     assert!(others.is_empty(), "{others:?}");
@@ -78,9 +80,9 @@ fn leaders_cross_neither_each_other_nor_a_label() {
 
 /// A name next to a block is either much nearer to it than to others, or has a leader to it.
 #[test]
-fn a_name_that_could_be_another_blocks_has_a_leader() {
-    let (mut beside, mut led) = (0, 0);
-    for (name, scene) in brought() {
+fn a_name_that_another_block_could_have_has_a_leader() {
+    let (mut outside, mut with_leader) = (0, 0);
+    for (name, scene) in contributed() {
         let drawing = drawn(&scene, Kind::Kernel, COLUMN);
         for (panel, frame) in classes(&drawing.items, &["picture"])
             .iter()
@@ -105,9 +107,9 @@ fn a_name_that_could_be_another_blocks_has_a_leader() {
                 {
                     continue;
                 }
-                beside += 1;
+                outside += 1;
                 if leader(label).is_some() {
-                    led += 1;
+                    with_leader += 1;
                     continue;
                 }
                 let far = |id: &BlockId| {
@@ -117,8 +119,7 @@ fn a_name_that_could_be_another_blocks_has_a_leader() {
                 };
                 let others = frame.placed.iter().filter(|id| *id != own);
                 let nearest = others.map(far).fold(f64::INFINITY, f64::min);
-                // These boxes are those of the ink, which are a little smaller than the areas that the placement
-                // keeps free.
+                // The boxes of the ink are slightly smaller than the areas that the placement keeps free.
                 assert!(
                     nearest > 1.35 * far(own),
                     "{name}: {words} could be another block's: {nearest} and {}",
@@ -128,8 +129,8 @@ fn a_name_that_could_be_another_blocks_has_a_leader() {
         }
     }
     assert!(
-        beside > 40 && led > 10,
-        "{beside} beside, {led} of them with a leader"
+        outside > 40 && with_leader > 10,
+        "{outside} names outside their blocks, {with_leader} of them with a leader"
     );
 }
 
@@ -165,16 +166,16 @@ fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
     );
     let scene = Scene::from_json(&text).expect("sound");
     let drawing = drawn(&scene, Kind::Kernel, COLUMN);
-    // Lines break between code points, which stand for characters that no font has, but not at a no-break space of
-    // the author.
+    // The code points stand for characters that no font has, and lines break between them. Lines do not break at a
+    // no-break space of the author.
     let lines = lines_of(&drawing, &spelled.replace('\u{a0}', ""));
     assert!(lines.len() > 1, "{lines:?}");
     assert_eq!(lines_of(&drawing, "one\u{a0}name"), ["one\u{a0}name"]);
 }
 
-/// The names were once off the ground line, which the picture cuts off.
+/// The picture cuts off the ground line on which both points lie. Their names once had no room.
 #[test]
-fn both_names_of_points_at_equal_height_are_at_the_edge_of_the_picture() {
+fn both_points_at_equal_height_have_a_name_in_a_free_body() {
     let found = Analysis::new(scene("tests/scenes/one.json"));
     for width in [COLUMN, 658.0] {
         let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));
@@ -205,10 +206,10 @@ fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
     let list = classes(&drawing.items, &["list"]);
     let texts: Vec<_> = list.iter().flat_map(|group| texts(group)).collect();
     let words: Vec<&str> = texts.iter().map(|t| t.words.as_str()).collect();
-    let told = words.join(" ");
+    let list_text = words.join(" ");
     assert!(
-        !told.contains('…') && told.contains("wall of names"),
-        "{told}"
+        !list_text.contains('…') && list_text.contains("wall of names"),
+        "{list_text}"
     );
     for text in &texts {
         let [left, top, right, bottom] = ink(text);
@@ -219,7 +220,7 @@ fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
 }
 
 #[test]
-fn the_key_does_not_call_a_robot_a_robot_twice() {
+fn the_key_does_not_repeat_the_word_robot() {
     let text = |id: &str| {
         format!(
             r#"{{ "drystone": 1, "blocks": [{{ "id": "a", "polygon": [[0,0],[1,0],[1,1],[0,1]] }}],

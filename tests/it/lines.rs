@@ -1,4 +1,4 @@
-//! Lines and arrows are true: they are measured on the drawings and compared with the computed forces.
+//! Lines and arrows are measured on the drawings and compared with the computed forces.
 
 use drystone::Analysis;
 use drystone::analysis::FrameAnalysis;
@@ -10,10 +10,10 @@ use drystone::scene::{BlockId, BodyId, Scene};
 use crate::pictures::{gallery, scene};
 
 /// Structures by other authors, from `tests/scenes`.
-pub(crate) fn brought() -> Vec<(String, Scene)> {
+pub(crate) fn contributed() -> Vec<(String, Scene)> {
     let folder = format!("{}/tests/scenes", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(folder)
-        .expect("scenes that were brought")
+        .expect("the folder of scenes")
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .filter(|name| name.ends_with(".json"))
         .collect();
@@ -55,7 +55,7 @@ struct Acting {
     moment: f64,
 }
 
-/// The forces of bodies and robots on a block, and its weight and loads.
+/// The forces of bodies and robots on a block, and separately its weight and loads.
 fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2] {
     let block = &scene.blocks()[id.0];
     let at = |p: Point, force: Vector, torque: f64| Acting {
@@ -69,7 +69,7 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
             [_, BodyId::Block(b)] if b == id => -1.0,
             _ => continue,
         };
-        // From the forces at the two points, not from the resultant from which the picture is drawn.
+        // The force is computed from the forces at the two points, because the picture is drawn from the resultant.
         let normal = contact.interface.normal;
         let [p, q] = contact.application_points;
         let [n, m] = contact.normal_forces;
@@ -97,8 +97,8 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
     [pressing, loads]
 }
 
-/// All forces that may run through a block on one line: each by itself, and the force of each joint with some of the
-/// loads.
+/// All forces whose line of action may be drawn in a block: each load, each force of a body or robot, and the latter
+/// combined with any of the loads.
 fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
     let sum = |a: Acting, b: &Acting| Acting {
         force: a.force + b.force,
@@ -106,7 +106,7 @@ fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
     };
     let mut lines: Vec<Acting> = loads.clone();
     for one in pressing {
-        // With three or more forces it is not determined to which of them a load belongs.
+        // With three or more forces, it is not determined with which of them a load is combined.
         let subsets = if pressing.len() <= 2 {
             1 << loads.len()
         } else {
@@ -126,7 +126,7 @@ fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
 #[test]
 fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
     let (mut checked, mut scenes) = (0, 0);
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default());
         for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
@@ -135,17 +135,24 @@ fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
             for line in all(&picture.items, "thrust") {
                 for force in all(&line.items, "force") {
                     checked += 1;
-                    on_a_line(&name, &scene, found, force, &camera);
+                    assert_on_a_line(&name, &scene, found, force, &camera);
                 }
             }
         }
         scenes += 1;
     }
-    // All other pieces are schematic and have a class of their own.
+    // All other pieces are schematic and have another class.
     assert!(checked > 150 && scenes > 20, "{checked} pieces of {scenes}");
 }
 
-fn on_a_line(name: &str, scene: &Scene, found: &FrameAnalysis, drawn: &Group, camera: &Camera) {
+/// Asserts that a drawn line lies on the line of action of a force on its block.
+fn assert_on_a_line(
+    name: &str,
+    scene: &Scene,
+    found: &FrameAnalysis,
+    drawn: &Group,
+    camera: &Camera,
+) {
     let title = &drawn.title;
     let on = title.strip_prefix("Force on block ").expect("it is titled");
     let on = on.split(" from ").next().expect("the block");
@@ -198,7 +205,7 @@ fn a_loaded_beam_has_no_line_along_its_soffit_and_shows_its_loads() {
     );
 }
 
-/// A printed amount with its unit, converted to newtons.
+/// A printed force with its unit, converted to newtons. `None` if the text is not a force.
 fn newtons(words: &str) -> Option<f64> {
     let words = words.replace('\u{a0}', " ").replace('−', "-");
     let mut parts = words.split(' ');
@@ -217,7 +224,7 @@ fn newtons(words: &str) -> Option<f64> {
 
 /// The length of an arrow from tail to tip, in pixels. Its outline begins and ends at its tail; the fourth corner is
 /// the tip.
-fn long(outline: &Outline) -> f64 {
+fn arrow_length(outline: &Outline) -> f64 {
     let points: Vec<PagePoint> = outline.points().collect();
     assert_eq!(points.len(), 7);
     let tail = PagePoint::new(
@@ -232,18 +239,18 @@ fn long(outline: &Outline) -> f64 {
     tip
 }
 
-/// The scale arrow of a panel: its length and the amount that it stands for.
+/// The scale arrow of a panel: its length in pixels and its force in newtons.
 fn scale(frame: &Group) -> Option<(f64, f64)> {
     frame.items.windows(2).find_map(|pair| match pair {
         [Item::Path(path), Item::Text(text)] if path.outline.points().count() == 7 => {
-            Some((long(&path.outline), newtons(&text.words)?))
+            Some((arrow_length(&path.outline), newtons(&text.words)?))
         }
         _ => None,
     })
 }
 
 #[test]
-fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
+fn every_arrow_has_the_length_of_its_force_in_the_scale_of_its_panel() {
     let (mut checked, mut shortest, mut left_out) = (0, f64::INFINITY, 0);
     let options = [
         Options::default(),
@@ -251,7 +258,7 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
         Options::default().normalisation(Normalisation::Source),
         Options::default().width(396.0),
     ];
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         for (options, kind) in options
             .iter()
@@ -270,29 +277,30 @@ fn from_tail_to_tip_every_arrow_is_as_long_as_its_force_and_so_is_the_scale() {
                     }
                 }
                 for arrow in arrows {
-                    let (_, told) = arrow.title.rsplit_once(": ").expect("a force");
-                    let force = newtons(told).unwrap_or_else(|| panic!("{}", arrow.title));
-                    let long = long(outline(arrow));
+                    let (_, written) = arrow.title.rsplit_once(": ").expect("a force");
+                    let force = newtons(written).unwrap_or_else(|| panic!("{}", arrow.title));
+                    let found = arrow_length(outline(arrow));
                     let expected = force * per_newton;
-                    // Three digits are printed. Small missing forces may have a scale of their own.
-                    let own = arrow.title.starts_with("Missing");
-                    // Loads whose arrows would be too short have a scale of their own and are drawn longer.
-                    let own = own || (arrow.title.starts_with("Load") && long > expected);
+                    // Three digits are printed. Small missing forces may have a separate scale.
+                    let has_own_scale = arrow.title.starts_with("Missing");
+                    // Loads whose arrows would be too short have a separate scale and are drawn longer.
+                    let has_own_scale =
+                        has_own_scale || (arrow.title.starts_with("Load") && found > expected);
                     assert!(
-                        own || (long - expected).abs() <= 0.006 * expected,
-                        "{name}: {} is {long} px instead of {expected}",
+                        has_own_scale || (found - expected).abs() <= 0.006 * expected,
+                        "{name}: {} is {found} px instead of {expected}",
                         arrow.title
                     );
-                    shortest = shortest.min(long);
+                    shortest = shortest.min(found);
                     checked += 1;
                 }
-                let said = all_text(frame).iter().any(|t| t.contains("not drawn"));
-                left_out += usize::from(said);
+                let is_stated = all_text(frame).iter().any(|t| t.contains("not drawn"));
+                left_out += usize::from(is_stated);
             }
         }
     }
     assert!(checked > 2000 && shortest < 4.0, "{checked}, {shortest}");
-    assert!(left_out > 4, "{left_out} panels leave something out");
+    assert!(left_out > 4, "{left_out} panels leave out forces");
 }
 
 fn all_text(group: &Group) -> Vec<&str> {
@@ -309,7 +317,7 @@ fn all_text(group: &Group) -> Vec<&str> {
 
 #[test]
 fn forces_too_small_to_be_drawn_are_counted() {
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         let options = Options::default();
         let drawing = figure::forces(&analysis, &options);
@@ -323,8 +331,8 @@ fn forces_too_small_to_be_drawn_are_counted() {
             let frames = 0..scene.frames().len();
             let all = frames.flat_map(|frame| figure::arrows(&analysis, frame, &options));
             let count = all.filter(|arrow| !arrow.kind.is_failure()).count();
-            let said = before.rsplit(' ').nth(1).and_then(|n| n.parse().ok());
-            assert_eq!(said, Some(count), "{name}: {key}");
+            let stated = before.rsplit(' ').nth(1).and_then(|n| n.parse().ok());
+            assert_eq!(stated, Some(count), "{name}: {key}");
             continue;
         }
         for (number, frame) in all(&drawing.items, "frame").into_iter().enumerate() {
@@ -350,9 +358,9 @@ fn forces_too_small_to_be_drawn_are_counted() {
 }
 
 #[test]
-fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
+fn the_arrows_of_a_force_polygon_join_tip_to_tail_and_close_if_the_structure_stands() {
     let (mut closed, mut joined) = (0, 0);
-    for (name, scene) in gallery().into_iter().chain(brought()) {
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         let drawing = figure::draw(&analysis, Kind::Polygon, &Options::default());
         for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
@@ -369,7 +377,7 @@ fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
             let size = drawing.width;
             let near =
                 |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
-            // Where reactions would cover actions, the two are drawn apart and lines join their positions.
+            // If reactions would cover actions, the two are drawn apart and lines join the corresponding points.
             let joins: Vec<[(f64, f64); 2]> = all(&polygon.items, "join")
                 .iter()
                 .map(|join| {
@@ -377,19 +385,22 @@ fn a_force_polygon_is_closed_where_the_structure_stands_and_tip_to_tail() {
                     [(p[0].x, p[0].y), (p[1].x, p[1].y)]
                 })
                 .collect();
-            let one = |a: (f64, f64), b: (f64, f64)| {
+            let is_joined = |a: (f64, f64), b: (f64, f64)| {
                 near(a, b)
                     || joins
                         .iter()
                         .any(|[p, q]| (near(a, *p) && near(b, *q)) || (near(a, *q) && near(b, *p)))
             };
-            assert!(arrows.windows(2).all(|w| one(w[0][1], w[1][0])), "{name}");
+            assert!(
+                arrows.windows(2).all(|w| is_joined(w[0][1], w[1][0])),
+                "{name}"
+            );
             joined += usize::from(!joins.is_empty());
             let (Some(first), Some(last)) = (arrows.first(), arrows.last()) else {
                 continue;
             };
             if found.verdict == drystone::analysis::Verdict::Stable {
-                assert!(one(last[1], first[0]), "{name}: {first:?} {last:?}");
+                assert!(is_joined(last[1], first[0]), "{name}: {first:?} {last:?}");
                 assert!(all(&polygon.items, "gap").is_empty());
                 closed += 1;
             }

@@ -1,9 +1,9 @@
-//! All integration tests in one program: what a person or another program sees of drystone.
+//! All integration tests in one program. They test what a person or another program sees of drystone.
 
 #![allow(
     clippy::panic,
     clippy::unwrap_used,
-    reason = "a test that panics says what it found; helpers are no #[test]"
+    reason = "a test fails by a panic; the exceptions of these lints for #[test] do not include helper functions"
 )]
 
 mod accuracy;

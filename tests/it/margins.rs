@@ -1,4 +1,7 @@
-//! Margins: values known by hand or from the literature, and properties that every margin must have.
+//! Margins are compared with values computed by hand or known from the literature, and with verdicts of changed
+//! scenes.
+
+mod robots;
 
 use drystone::analysis::{
     EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
@@ -9,15 +12,15 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
-    let asked = Options::default().margins(true);
-    Analysis::with(scene, &asked).frames
+    let options = Options::default().margins(true);
+    Analysis::with(scene, &options).frames
 }
 
 fn margins(file: &Value) -> Margins {
     frames(&scene(file))
         .remove(0)
         .margins
-        .expect("margins were asked for")
+        .expect("margins were requested")
 }
 
 fn thesis(name: &str) -> Vec<FrameAnalysis> {
@@ -27,7 +30,8 @@ fn thesis(name: &str) -> Vec<FrameAnalysis> {
 }
 
 fn step(name: &str, number: usize) -> Margins {
-    thesis(name).remove(number).margins.expect("asked for")
+    let frame = thesis(name).remove(number);
+    frame.margins.expect("margins were requested")
 }
 
 #[track_caller]
@@ -36,7 +40,7 @@ fn near(margin: &Margin, expected: f64, within: f64) {
         Margin::Value { at, mechanism } => {
             assert!(
                 (at - expected).abs() <= within,
-                "{at} against {expected}, off by {:e}",
+                "{at} instead of {expected}, off by {:e}",
                 at - expected
             );
             assert!(
@@ -44,7 +48,7 @@ fn near(margin: &Margin, expected: f64, within: f64) {
                 "{at} has no mechanism"
             );
         }
-        other => panic!("{other:?} against {expected}"),
+        other => panic!("{other:?} instead of {expected}"),
     }
 }
 
@@ -78,19 +82,20 @@ fn a_block_on_a_slope_slides_down_or_up() {
     // The slope rises to the right, so the block slides down to the left.
     near(&found.tilt.left, angle - 30.0, 1e-6);
     near(&found.tilt.right, angle + 30.0, 1e-6);
-    let share = |degrees: f64| libm::tan(degrees.to_radians());
-    near(&found.horizontal_load.left, share(angle - 30.0), 1e-7);
-    near(&found.horizontal_load.right, share(angle + 30.0), 1e-5);
-    near(&found.friction, share(30.0), 1e-6);
+    let tan = |degrees: f64| libm::tan(degrees.to_radians());
+    near(&found.horizontal_load.left, tan(angle - 30.0), 1e-7);
+    near(&found.horizontal_load.right, tan(angle + 30.0), 1e-5);
+    near(&found.friction, tan(30.0), 1e-6);
     // The line of action of the weight meets the contact, 4 m long, at 2 − 0.25·tan 30° from its nearer end.
-    near(&found.kernel, 1.0 - 0.25 * share(30.0) / 2.0, 1e-6);
+    near(&found.kernel, 1.0 - 0.25 * tan(30.0) / 2.0, 1e-6);
 }
 
 #[test]
 fn figure_6_stands_up_to_a_kernel_of_a_quarter() {
     near(&step("figure-6-kernel-0", 1).kernel, 0.25, 1e-6);
     near(&step("figure-6-kernel-02", 1).friction, 0.3464, 5e-5);
-    // The upright link has its centre of gravity above a corner: it stands, but has no reserve towards that side.
+    // In the first frame, the centre of gravity lies above a corner: the link stands, but its tilt margin to that
+    // side is 0.
     let upright = step("figure-6-kernel-0", 0);
     let least = [&upright.tilt.left, &upright.tilt.right]
         .map(|m| m.at().expect("a tilt at which it falls"));
@@ -104,12 +109,12 @@ fn figure_3b_needs_little_friction() {
 }
 
 #[test]
-fn a_thick_arch_needs_a_third_of_friction() {
+fn a_thick_arch_needs_a_friction_of_about_a_third() {
     near(&margins(&arch(181, 0.3, 0.7)).friction, 0.3092, 0.002);
 }
 
 #[test]
-fn the_thinnest_arch() {
+fn the_minimum_thickness_of_an_arch_is_found_by_bisection() {
     let (mut falls, mut stands) = (0.1, 0.12);
     while stands - falls > 1e-5 {
         let middle = 0.5 * (stands + falls);
@@ -132,7 +137,7 @@ fn a_load_grows_until_the_block_topples() {
     // To the left 6·1 + 0.5·2 − 1·3 = h·6·1.5. To the right, about the lower right corner, 6·1 + 1·3 = h·6·1.5.
     near(&found.horizontal_load.left, 4.0 / 9.0, 1e-7);
     near(&found.horizontal_load.right, 1.0, 1e-7);
-    // Moments about the left foot: the turned weight gives 6 cos θ − 9 sin θ, and the loads need 1·3 − 0.5·2 = 2.
+    // Moments about the left foot: the tilted weight exerts 6 cos θ − 9 sin θ, and the loads exert 1·3 − 0.5·2 = 2.
     let left = found.tilt.left.at().expect("it topples").to_radians();
     let moment = 6.0 * libm::cos(left) - 9.0 * libm::sin(left);
     assert!((moment - 2.0).abs() < 1e-5, "{moment}");
@@ -154,113 +159,6 @@ fn structures_that_fall_at_any_value_have_no_margin() {
         assert_eq!(*margin, Margin::None);
     }
     assert_eq!(flying.load_factor, Margin::NotApplicable);
-}
-
-#[test]
-fn a_robot_needs_only_the_force_and_torque_of_its_block() {
-    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    // Held 0.25 m to the left of its centroid, the block needs 8 N and 2 N·m.
-    file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5], "limits": { "force": 20, "torque": 5 } }]);
-    let found = margins(&file);
-    let [robot] = &found.robots[..] else {
-        panic!("one robot holds")
-    };
-    near(&robot.fx, 0.0, 0.0);
-    near(&robot.fy, 8.0, 1e-6);
-    near(&robot.torque, 2.0, 1e-6);
-    // The robot can take 20 N sideways, 2.5 times the weight of 8 N.
-    near(&found.horizontal_load.left, 2.5, 1e-6);
-    file["robots"][0]["limits"] = json!({ "force": 4, "torque": 5 });
-    let [robot] = &margins(&file).robots[..] else {
-        panic!("one robot holds")
-    };
-    assert_eq!(robot.fx, Margin::None, "the other limit is too small");
-    assert_eq!(robot.torque, Margin::None, "the other limit is too small");
-    near(&robot.fy, 8.0, 1e-6);
-}
-
-/// Forty robots hold a block of 8 N in the air, each with up to 2 N. Four of them suffice, so no single limit is
-/// needed, and each margin is 0. The robots are split into two halves; each half holds the block without the other.
-/// So three verdicts settle all 120 limits.
-#[test]
-fn robot_limits_that_may_be_zero_are_found_in_groups() {
-    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    let robot = |limit: f64| json!({ "holds": "a", "at": [0.5, 3.5], "limits": { "force": limit, "torque": 1 } });
-    let asked = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
-    let judged = |file: &Value| {
-        let frame = Analysis::with(scene(file), &asked).frames.remove(0);
-        let mut effects = frame.effects.iter();
-        let report = effects.find(|e| e.effect == EffectName::Margins);
-        let reason = report.expect("always reported").why.clone();
-        let count: Option<usize> = reason.split(' ').find_map(|word| word.parse().ok());
-        (frame.margins.expect("asked for").robots, count)
-    };
-    file["robots"] = vec![robot(2.0); 40].into();
-    let (robots, count) = judged(&file);
-    assert_eq!((robots.len(), count), (40, Some(3)));
-    for found in &robots {
-        for margin in [&found.fx, &found.fy, &found.torque] {
-            near(margin, 0.0, 0.0);
-        }
-    }
-    // With one robot of 7.9 N and 39 of 0.1 N, the strong robot must give the rest: 8 N − 0.1 N · 39.
-    file["robots"] = vec![robot(0.1); 40].into();
-    file["robots"][25]["limits"]["force"] = 7.9.into();
-    let (robots, count) = judged(&file);
-    near(&robots[25].fy, 4.1, 1e-6);
-    near(&robots[25].fx, 0.0, 0.0);
-    near(&robots[3].fy, 0.0, 0.0);
-    assert!(count.is_some_and(|count| count < 60), "{count:?}");
-    // Together they lack 4 N. Any one of them could give these in addition to its own 0.1 N.
-    file["robots"] = vec![robot(0.1); 40].into();
-    let (robots, _) = judged(&file);
-    near(&robots[7].fy, 4.1, 1e-6);
-    assert_eq!(
-        (&robots[7].fx, &robots[7].torque),
-        (&Margin::None, &Margin::None)
-    );
-}
-
-/// A robot that can give 4 N sideways holds a block of 8 N up to a tilt of 30°. With 8 N it holds the block at every
-/// tilt.
-#[test]
-fn a_limited_robot_holds_up_to_the_tilt_of_its_first_limit() {
-    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    file["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
-    // 8 sin θ = 4.
-    near(&margins(&file).tilt.right, 30.0, 1e-5);
-    near(&margins(&file).tilt.left, 30.0, 1e-5);
-    file["robots"][0]["limits"] = json!({ "force": 8 });
-    assert_eq!(margins(&file).tilt.right, Margin::Unbounded);
-}
-
-/// A block that a robot presses onto the floor and pushes with its full limit f: W sin θ = f + μ (W cos θ + f).
-#[test]
-fn a_limited_robot_that_pushes_and_presses_holds_up_to_the_tilt_of_sliding() {
-    let friction = 0.7;
-    for weight in [9.81, 10.0, 3.0] {
-        for share in [0.1, 0.2, 0.3, 0.4, 0.5, 0.51, 0.55, 0.6] {
-            let limit = share * weight;
-            for limits in [
-                json!({ "force": limit }),
-                json!({ "force": limit, "torque": 1 }),
-            ] {
-                let mut file = on_floor(
-                    friction,
-                    vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), weight)],
-                );
-                file["robots"] = json!([{ "id": "r", "holds": "a", "limits": limits }]);
-                let found = margins(&file);
-                let pushed = (limit + friction * limit) / (weight * libm::hypot(1.0, friction));
-                let expected = (libm::atan(friction) + libm::asin(pushed)).to_degrees();
-                near(&found.tilt.left, expected, 5e-5);
-                near(&found.tilt.right, expected, 5e-5);
-            }
-        }
-    }
 }
 
 #[test]
@@ -294,7 +192,7 @@ fn the_margin_of_a_frame_is_that_of_its_worst_group() {
 fn margins_are_an_effect_on_request() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)]);
     let scene = scene(&file);
-    let told = |frame: &FrameAnalysis| {
+    let report = |frame: &FrameAnalysis| {
         let effect = frame
             .effects
             .iter()
@@ -303,11 +201,12 @@ fn margins_are_an_effect_on_request() {
         (effect.simulated, effect.why.clone())
     };
     let plain = Analysis::new(&scene).frames.remove(0);
-    assert_eq!(told(&plain), (false, "not asked for".to_string()));
+    assert_eq!(report(&plain), (false, "not requested".to_string()));
     assert_eq!(plain.margins, None);
-    let asked = frames(&scene).remove(0);
-    assert!(told(&asked).0 && told(&asked).1.starts_with("asked for"));
-    assert_eq!(asked.verdict, plain.verdict);
+    let with_margins = frames(&scene).remove(0);
+    let (simulated, why) = report(&with_margins);
+    assert!(simulated && why.starts_with("requested"), "{why}");
+    assert_eq!(with_margins.verdict, plain.verdict);
 }
 
 #[test]
@@ -334,8 +233,7 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
     assert!(why(2).contains(" 0 changed"), "{}", why(2));
 }
 
-/// On a slope steeper than its friction angle the block falls as it is. With gravity turned towards the slope it
-/// would stand.
+/// On a slope steeper than its friction angle, a block falls. With gravity tilted towards the slope, it would stand.
 #[test]
 fn a_block_that_falls_has_no_tilt_margin_even_if_it_would_stand_tilted() {
     let file = on_slope(30.0, 4.0, 0.5, 0.3, 0.0);
@@ -352,7 +250,7 @@ fn a_block_that_falls_has_no_tilt_margin_even_if_it_would_stand_tilted() {
 #[test]
 fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
-    let mut asked = 0;
+    let mut compared = 0;
     for name in [
         "figure-3b",
         "figure-5",
@@ -362,7 +260,7 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
         let text = std::fs::read_to_string(format!("{folder}/{name}.json")).expect("a scene");
         let file: Value = serde_json::from_str(&text).expect("JSON");
         for (number, frame) in thesis(name).iter().enumerate() {
-            let found = frame.margins.as_ref().expect("asked for");
+            let found = frame.margins.as_ref().expect("margins were requested");
             let mut agrees = |margin: &Margin,
                               more_is_worse: bool,
                               change: &dyn Fn(f64) -> Value| {
@@ -381,7 +279,7 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
                         verdict, expected,
                         "{name}, frame {number}: {at} times {share}"
                     );
-                    asked += 1;
+                    compared += 1;
                 }
             };
             let with = |key: &str, value: Value| {
@@ -403,11 +301,11 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
             }
         }
     }
-    assert_eq!(asked, 30);
+    assert_eq!(compared, 30);
 }
 
 /// The number of changed frames that were analysed for the margins.
-fn judged(frame: &FrameAnalysis) -> usize {
+fn changed_frames(frame: &FrameAnalysis) -> usize {
     let effect = frame
         .effects
         .iter()
@@ -415,18 +313,18 @@ fn judged(frame: &FrameAnalysis) -> usize {
     let why = &effect.expect("every effect is listed").why;
     let mut words = why.split_whitespace();
     let number = words.find_map(|word| word.parse().ok());
-    number.unwrap_or_else(|| panic!("{why} counts the changed frames"))
+    number.unwrap_or_else(|| panic!("no number of changed frames in {why:?}"))
 }
 
-/// A result of one program is confirmed by its own forces and motion, and a search takes about one step for each one
-/// or two digits. So few changed frames are analysed.
+/// A margin that one program computes is confirmed by the forces and the motion of this program. A search needs about
+/// one step for each one or two digits. So few changed frames are analysed.
 #[test]
 fn a_margin_needs_few_verdicts_of_changed_frames() {
     for (file, most) in [(wall(8, 8), 6), (arch(31, 0.3, 0.7), 60)] {
         let frame = frames(&scene(&file)).remove(0);
-        let judged = judged(&frame);
-        assert!(judged <= most, "{judged} changed frames were judged");
-        let found = frame.margins.expect("asked for");
+        let count = changed_frames(&frame);
+        assert!(count <= most, "{count} changed frames were analysed");
+        let found = frame.margins.expect("margins were requested");
         for margin in [&found.horizontal_load.left, &found.tilt.right] {
             assert!(matches!(margin, Margin::Value { .. }), "{margin:?}");
         }
@@ -437,14 +335,14 @@ fn a_margin_needs_few_verdicts_of_changed_frames() {
 fn a_margin_requested_alone_has_the_same_value() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
-    let asked = Options::default()
+    let options = Options::default()
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
-    let alone = Analysis::with(&file, &asked).frames.remove(0);
-    assert!(judged(&alone) < judged(&all));
+    let alone = Analysis::with(&file, &options).frames.remove(0);
+    assert!(changed_frames(&alone) < changed_frames(&all));
     let (all, alone) = (
-        all.margins.expect("asked for"),
-        alone.margins.expect("asked for"),
+        all.margins.expect("margins were requested"),
+        alone.margins.expect("margins were requested"),
     );
     let [a, b] = [&all, &alone].map(|found| found.friction.at().expect("it slides"));
     assert!((a - b).abs() < 1e-7, "{a} and {b}");

@@ -1,4 +1,4 @@
-//! Elementary mechanisms: the bodies do not penetrate each other and slide along their joints.
+//! Figures of elementary mechanisms: the bodies do not penetrate each other, and they slide along their joints.
 
 use drystone::Analysis;
 use drystone::analysis::{FrameAnalysis, Motion, Verdict};
@@ -7,7 +7,7 @@ use drystone::figure::{self, Kind, Options};
 use drystone::internals::geometry::{ConvexPieces, Point, Polygon, Vector, cross, overlap};
 use drystone::scene::{BodyId, Scene};
 
-use crate::lines::{all, brought};
+use crate::lines::{all, contributed};
 use crate::pictures::scene;
 
 fn speed(scene: &Scene, motions: &[Motion], body: BodyId, at: Point) -> Vector {
@@ -21,7 +21,7 @@ fn speed(scene: &Scene, motions: &[Motion], body: BodyId, at: Point) -> Vector {
     })
 }
 
-/// The power of the loads along a motion, and the fastest closing of a contact.
+/// The power of the loads in a motion, and the largest speed at which a contact closes.
 fn power_and_closing(scene: &Scene, found: &FrameAnalysis, motions: &[Motion]) -> (f64, f64) {
     let power = motions.iter().map(|m| {
         let block = &scene.blocks()[m.block.0];
@@ -47,7 +47,7 @@ fn power_and_closing(scene: &Scene, found: &FrameAnalysis, motions: &[Motion]) -
 #[test]
 fn elementary_mechanisms_do_work_and_close_no_contact() {
     let mut falling = 0;
-    for (name, scene) in crate::pictures::gallery().into_iter().chain(brought()) {
+    for (name, scene) in crate::pictures::gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
         let elementary = analysis.elementary();
         for (found, drawn) in analysis.frames.iter().zip(&elementary.frames) {
@@ -90,7 +90,7 @@ fn polygon(group: &Group, camera: &Camera) -> Polygon {
 #[test]
 fn bodies_do_not_penetrate_at_the_drawn_amplitude() {
     let mut compared = 0;
-    for (name, scene) in brought() {
+    for (name, scene) in contributed() {
         let analysis = Analysis::new(&scene);
         if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel() > 0.0 {
             continue;
@@ -109,7 +109,7 @@ fn bodies_do_not_penetrate_at_the_drawn_amplitude() {
                 let shared = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0)
                     .map_or(0.0, |o| o.area);
                 let share = shared / a.area().min(b.area());
-                assert!(share < 0.005, "{name}: {share} of the smaller");
+                assert!(share < 0.005, "{name}: {share} of the smaller body");
                 compared += 1;
             }
         }
@@ -138,14 +138,14 @@ fn sliding_bodies_stay_on_their_joints() {
 }
 
 #[test]
-fn an_animated_mechanism_moves_and_its_pages_are_alike() {
+fn an_animated_mechanism_moves_and_all_its_pages_have_the_same_size() {
     let scene = scene("tests/scenes/arch13thin.json");
     let analysis = Analysis::new(&scene);
     let film = figure::film(&analysis, Kind::Mechanism, &Options::default(), 2.0);
     assert_eq!(
         film.last().map(|(_, seconds)| *seconds),
         Some(1.0),
-        "it rests"
+        "the last picture is shown for a second"
     );
     let moving: f64 = film[..film.len() - 1]
         .iter()
@@ -159,24 +159,30 @@ fn an_animated_mechanism_moves_and_its_pages_are_alike() {
         let camera = picture.camera.expect("it shows the scene");
         polygon(all(&picture.items, "displaced")[3], &camera).centroid()
     };
-    let ways: Vec<f64> = (0..pages.len())
+    let distances: Vec<f64> = (0..pages.len())
         .map(|n| (first(n) - first(0)).norm())
         .collect();
-    assert!(ways.windows(2).all(|w| w[1] > w[0]), "{ways:?}");
-    let (first_step, middle) = (ways[1], ways[ways.len() / 2 + 1] - ways[ways.len() / 2]);
-    assert!(middle > 3.0 * first_step, "it begins slowly: {ways:?}");
+    assert!(distances.windows(2).all(|w| w[1] > w[0]), "{distances:?}");
+    let (first_step, middle) = (
+        distances[1],
+        distances[distances.len() / 2 + 1] - distances[distances.len() / 2],
+    );
+    assert!(
+        middle > 3.0 * first_step,
+        "the motion does not begin slowly: {distances:?}"
+    );
     let size = |n: usize| (pages[n].width, pages[n].height);
     assert!((1..pages.len()).all(|n| size(n) == size(0)));
 }
 
 #[test]
-fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
+fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     // A block 1 m wide and 4 m high, too rough to slide, topples at atan(1/4) = 14.04°.
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
         "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,4],[0,4]], "weight": 8 } ] }"#;
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-    let asked = drystone::analysis::Options::default().margins(true);
-    let analysis = Analysis::with(&scene, &asked);
+    let options = drystone::analysis::Options::default().margins(true);
+    let analysis = Analysis::with(&scene, &options);
     let (turn, motions) = analysis
         .edge(0, drystone::analysis::Toward::Tilt)
         .expect("it topples");
@@ -184,11 +190,11 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
     let [motion] = &motions[..] else {
         panic!("{motions:?}")
     };
-    // About the lower corner on the side towards which gravity turns.
+    // The block turns about the lower corner on the side towards which gravity tilts, so this corner is at rest.
     let corner = Point::new(if turn > 0.0 { 1.0 } else { 0.0 }, 0.0);
     let arm = corner - scene.blocks()[0].centroid;
-    let there = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
-    assert!(there.norm() < 1e-5, "{there}");
+    let velocity = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
+    assert!(velocity.norm() < 1e-5, "{velocity}");
     let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
     assert_eq!(all(&drawing.items, "ghosts").len(), 1);
     assert_eq!(all(&drawing.items, "gravity").len(), 1);
@@ -197,7 +203,7 @@ fn a_margin_shows_the_structure_and_the_ghost_of_its_fall() {
         svg.contains("falls once gravity is turned by 14° to "),
         "{svg}"
     );
-    // Without margins there is nothing to show, and the figure says so.
+    // Without margins, the figure states that they were not computed.
     let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
     assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
 }
@@ -223,7 +229,7 @@ fn corbelled_vault() -> Scene {
     Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The largest common area of two bodies in a picture, as a share of the smaller one.
+/// The largest common area of two bodies in a picture, as a fraction of the area of the smaller body.
 fn worst_overlap(scene: &Scene, drawing: &drystone::drawing::Drawing) -> f64 {
     let picture = all(&drawing.items, "picture")[0];
     let camera = picture.camera.expect("it shows the scene");
@@ -245,20 +251,20 @@ fn worst_overlap(scene: &Scene, drawing: &drystone::drawing::Drawing) -> f64 {
 }
 
 #[test]
-fn parts_that_did_not_touch_stop_before_they_meet() {
+fn the_motion_stops_before_bodies_that_did_not_touch_overlap() {
     let scene = corbelled_vault();
     let analysis = Analysis::new(&scene);
     assert_eq!(analysis.frames[0].verdict, Verdict::Unstable);
     let film = figure::film(&analysis, Kind::Mechanism, &Options::default(), 1.0);
     for (page, _) in &film {
         let worst = worst_overlap(&scene, page);
-        assert!(worst < 0.005, "{worst} of the smaller");
+        assert!(worst < 0.005, "{worst} of the smaller body");
     }
 }
 
 #[test]
 fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
-    for (name, scene) in brought() {
+    for (name, scene) in contributed() {
         let analysis = Analysis::new(&scene);
         if analysis.frames[0].verdict != Verdict::Unstable || scene.kernel() > 0.0 {
             continue;
@@ -299,21 +305,24 @@ fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
                 far.fold(f64::INFINITY, f64::min) * camera.length(1.0) < 1.5
             };
             let touching = bodies.iter().filter(near).count();
-            assert!(touching >= 2, "{name}: the hinge between {pair} floats");
+            assert!(
+                touching >= 2,
+                "{name}: the hinge between {pair} lies on fewer than two bodies"
+            );
         }
     }
 }
 
 #[test]
-fn the_headline_says_what_is_missing() {
+fn the_headline_states_the_friction_or_the_load_at_which_it_would_stand() {
     let slide = scene("tests/scenes/slide.json");
     let kinds = Kind::Mechanism.stated_margins(&Analysis::new(&slide));
     let kinds = kinds.expect("it has a headline");
-    let asked = drystone::analysis::Options::default()
+    let options = drystone::analysis::Options::default()
         .margins(true)
         .margin_kinds(kinds);
     let svg = |scene: &Scene| {
-        let analysis = Analysis::with(scene, &asked);
+        let analysis = Analysis::with(scene, &options);
         let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
         drystone::output::svg::write(&drawing)
     };

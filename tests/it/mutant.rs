@@ -1,9 +1,8 @@
-//! Scenes changed at sensitive places: huge, tiny and subnormal numbers, hostile ids, steps that contradict each
-//! other.
+//! Randomly changed scenes: with huge, tiny and subnormal numbers, hostile ids, and steps that contradict each other.
 //!
 //! Every small scene of the assets is changed several times by a generator with a seed. The result must be either a
-//! list of problems with messages and places, or a scene with verdicts, finite numbers and figures that can be read
-//! back. It must never be a panic.
+//! list of problems with messages and positions, or a scene with verdicts, finite numbers and figures that can be
+//! parsed. It must never be a panic.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -72,7 +71,7 @@ fn count(value: &Value) -> usize {
     }
 }
 
-/// The value with a number, counted from 0 in the order of the file.
+/// The JSON value with this number, counted from 0 in the order of the file. `None` if there are fewer values.
 fn at<'v>(value: &'v mut Value, number: &mut usize) -> Option<&'v mut Value> {
     if *number == 0 {
         return Some(value);
@@ -126,7 +125,8 @@ fn change(value: &mut Value, random: &mut Random) {
     }
 }
 
-/// Steps that place blocks that already stand, remove blocks that are held, and hold everything at once.
+/// Replaces the steps by random ones that may place a block twice, remove held blocks, or hold a block that is not
+/// placed.
 fn contradict(scene: &mut Map<String, Value>, random: &mut Random) {
     let ids = |key: &str| -> Vec<String> {
         let list = scene.get(key).and_then(Value::as_array);
@@ -172,7 +172,7 @@ fn mutant(original: &Value, seed: u64) -> Value {
     scene
 }
 
-/// Whether a text is a valid scene. The error says what is wrong with the problems or the results.
+/// Whether a text is a valid scene. An error states what is wrong with the listed problems or with the results.
 fn examine(text: &str) -> Result<bool, String> {
     let scene = match Scene::from_json(text) {
         Ok(scene) => scene,
@@ -180,16 +180,18 @@ fn examine(text: &str) -> Result<bool, String> {
             for problem in &problems.list {
                 if problem.message.is_empty() || problem.message.contains('\n') {
                     return Err(format!(
-                        "a problem without words, or of two lines: {problem:?}"
+                        "a problem without a message or with two lines: {problem:?}"
                     ));
                 }
                 let span = problem.span.clone().unwrap_or(0..0);
                 if text.get(span.clone()).is_none() {
-                    return Err(format!("a problem outside the text: {span:?}"));
+                    return Err(format!(
+                        "the position of a problem is outside the text: {span:?}"
+                    ));
                 }
             }
             return if problems.list.is_empty() {
-                Err("refused without a word".into())
+                Err("refused without a problem".into())
             } else {
                 Ok(false)
             };
@@ -215,7 +217,7 @@ fn examine(text: &str) -> Result<bool, String> {
     let svg = output::svg::write(&drawing);
     roxmltree::Document::parse(&svg).map_err(|e| format!("no XML: {e}"))?;
     if svg.contains("NaN") || svg.contains("inf ") {
-        return Err("a picture of numbers that are none".into());
+        return Err("a figure with a coordinate that is not a number".into());
     }
     Ok(true)
 }
@@ -232,7 +234,7 @@ fn originals() -> Vec<(String, Value)> {
         paths.sort();
         for path in paths {
             let text = fs::read_to_string(&path).expect("readable");
-            // Large scenes take long and contain nothing that small ones do not.
+            // Large scenes take longer and contain no other keys than small ones.
             if text.len() < 4_000 {
                 let value = serde_json::from_str(&text).expect("JSON");
                 scenes.push((path.display().to_string(), value));
@@ -264,12 +266,12 @@ fn mutants_are_refused_with_messages_or_analysed() {
     }
     assert!(
         sound * 10 > all && sound < all,
-        "{sound} of {all} are sound: too few or too many to say much"
+        "{sound} of {all} mutants are valid: too few or too many for a meaningful test"
     );
 }
 
-/// Found by a mutant: weights or areas outside the range of f64 made numbers of the program infinite, or let a block
-/// weigh nothing.
+/// A mutant showed that weights or areas outside the range of f64 make numbers of the program infinite, or the weight
+/// of a block 0.
 #[test]
 fn numbers_whose_products_overflow_or_vanish_are_refused() {
     let scene = |size: f64, weight: f64| {

@@ -11,7 +11,7 @@ fn notes(text: &str) -> Vec<Note> {
     Analysis::new(&scene).notes
 }
 
-/// A scene that causes a note, the code and path of the note, and its line.
+/// Scenes that cause one note each, with the code, path and line of the note.
 fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
     let square = r#""polygon": [[0, 0], [1, 0], [1, 1], [0, 1]]"#;
     let scene = |rest: &str| format!("{{ \"drystone\": 1, {GROUND},\n{rest} }}");
@@ -117,7 +117,7 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
 }
 
 #[test]
-fn every_note_occurs_where_it_belongs_and_can_be_silenced() {
+fn every_note_has_its_path_and_line_and_can_be_silenced() {
     let mut missing = NoteCode::ALL.to_vec();
     for (text, code, path, line) in cases() {
         let found = notes(&text);
@@ -180,7 +180,7 @@ fn a_note_changes_no_verdict_and_an_unknown_code_is_a_problem() {
 }
 
 #[test]
-fn many_near_misses_are_few_notes() {
+fn of_many_near_misses_at_most_ten_are_noted() {
     let blocks: Vec<String> = (0..30)
         .map(|i| {
             let (left, right) = (1.004 * f64::from(i), 1.004 * f64::from(i) + 1.0);

@@ -1,6 +1,7 @@
 //! The pages that describe every key of the formats, compared with the types and with real results.
 //!
-//! Tables stand between marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them again.
+//! The tables are enclosed by marks in `src/doc/format.md` and `src/doc/result.md`. `UPDATE_SNAPSHOTS=1` writes them
+//! again.
 
 mod format;
 mod result;
@@ -146,14 +147,15 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
             ),
         };
         // The default in the description must be that of the schema.
-        if let (Some(said), false) = (
+        if let (Some(stated), false) = (
             meaning.split(" Default ").nth(1),
             value["default"].is_null(),
         ) {
-            let said: Value =
-                serde_json::from_str(said.trim_end_matches('.')).unwrap_or(Value::Null);
-            let (said, meant) = (said.to_string(), value["default"].to_string());
-            assert_eq!(said.replace(".0", ""), meant.replace(".0", ""), "{key}");
+            let stated: Value =
+                serde_json::from_str(stated.trim_end_matches('.')).unwrap_or(Value::Null);
+            let (stated, expected) = (stated.to_string(), value["default"].to_string());
+            let [stated, expected] = [stated, expected].map(|text| text.replace(".0", ""));
+            assert_eq!(stated, expected, "{key}");
         }
         if words(value, definitions) == "number" {
             let units = [
@@ -205,11 +207,11 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
         text += &format!("\n## {}\n\n{about}\n\n{rows}", title(name));
     }
     let objects = definitions.as_object().expect("definitions").iter();
-    let told: BTreeSet<&str> = order.into_iter().collect();
+    let listed: BTreeSet<&str> = order.into_iter().collect();
     let all: BTreeSet<&str> = (objects.filter(|d| d.1["type"] == "object"))
         .map(|d| d.0.as_str())
         .collect();
-    assert_eq!(told, all, "every object has its table");
+    assert_eq!(listed, all, "every object has a table");
     table("src/doc/format.md", "keys", &text);
 }
 
@@ -299,11 +301,11 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
     let entries = object.as_object().expect("an object");
     for (name, value) in entries {
         let here = format!("{path}{name}");
-        let key =
-            (keys.iter().find(|k| k.path == here)).unwrap_or_else(|| panic!("{here} is not told"));
+        let key = (keys.iter().find(|k| k.path == here))
+            .unwrap_or_else(|| panic!("{here} is not described"));
         assert!(
             fits(key.kind, value),
-            "{here}: {value} is no {:?}",
+            "{here}: {value} is not a {:?}",
             key.kind
         );
         seen.insert(key.path);
@@ -331,7 +333,7 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
         let last = key.path.rsplit('.').next().unwrap_or_default();
         assert!(
             entries.contains_key(last),
-            "{} is always there, but not in {object}",
+            "{} is always present, but not in {object}",
             key.path
         );
     }
@@ -354,7 +356,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             .to_owned(),
     ];
     let mut texts: Vec<String> = extra.into();
-    // A bar between two walls that press it only if it was put in too tightly.
+    // A bar between two walls, which stands only by wedging.
     texts.push(
         r#"{ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": [[-1, 0], [0, 0], [0, 1], [-1, 1]] },
             { "polygon": [[3, 0], [4, 0], [4, 1], [3, 1]] }],
@@ -396,7 +398,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             .margins(true)
             .wedging(true)
             .sensitivity(MarginKind::LoadFactor);
-        // The forces that the first block can carry, in a few scenes.
+        // For a few scenes, the forces that the first block can carry are requested too.
         if number < 6 {
             let first = scene.block_named(&scene.blocks()[0].id);
             options.capacity = first.map(CapacityRequest::of_block);

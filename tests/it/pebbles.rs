@@ -1,7 +1,7 @@
 //! Round stones: bodies with many corners, whose edges are as short as the contact tolerance or shorter.
 //!
-//! `DRYSTONE_PEBBLES=6000` checks more random pebbles than the usual 300; `DRYSTONE_PEBBLES_FIRST` is the number of
-//! the first one.
+//! `DRYSTONE_PEBBLES=6000` checks more random pebbles than the usual 300. `DRYSTONE_PEBBLES_FIRST` is the number of
+//! the first pebble.
 
 use drystone::analysis::Verdict;
 use drystone::{Analysis, Scene};
@@ -27,7 +27,7 @@ fn rounded(outline: &Outline, decimals: Option<usize>) -> Outline {
         .collect()
 }
 
-/// A scene of one stone on flat ground, which reaches `reach` to each side of the origin.
+/// A scene of one stone on flat ground, which extends from −`reach` to `reach`.
 fn on_ground(stone: &Outline, reach: f64, tolerance: Option<f64>) -> Value {
     let mut file = json!({
         "drystone": 1,
@@ -52,7 +52,7 @@ fn circle(radius: f64, corners: usize) -> Outline {
     (0..corners).map(corner).collect()
 }
 
-/// The outline without repeated corners.
+/// The outline without corners that equal the previous corner.
 fn without_repeats(outline: Outline) -> Outline {
     let mut out: Outline = Vec::with_capacity(outline.len());
     for p in outline {
@@ -115,30 +115,29 @@ fn a_circle_of_any_size_and_any_number_of_corners_stands_on_its_lowest_edge() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A contact tolerance from a thousandth of the radius to a thousand times the radius changes nothing within one
-/// outline.
+/// A contact tolerance from a thousandth of the radius to a thousand times the radius does not change an outline.
 #[test]
 fn a_tolerance_larger_than_the_block_does_not_change_its_outline() {
     let mut cases = Vec::new();
     for corners in [3, 4, 5, 20, 77, 200, 1000] {
-        for share in [0.001, 0.01, 0.1, 1.0, 10.0, 1000.0] {
-            cases.push((corners, share));
+        for ratio in [0.001, 0.01, 0.1, 1.0, 10.0, 1000.0] {
+            cases.push((corners, ratio));
         }
     }
     let wrong: Vec<String> = cases
         .par_iter()
-        .filter_map(|(corners, share)| {
-            let file = on_ground(&circle(0.1, *corners), 1.0, Some(0.1 * share));
+        .filter_map(|(corners, ratio)| {
+            let file = on_ground(&circle(0.1, *corners), 1.0, Some(0.1 * ratio));
             match verdict(&file) {
                 Ok((Verdict::Stable, _)) => None,
-                other => Some(format!("{corners} {share}: {other:?}")),
+                other => Some(format!("{corners} {ratio}: {other:?}")),
             }
         })
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The corners of the convex hull, anticlockwise, from the leftmost one.
+/// The corners of the convex hull, anticlockwise, beginning with the leftmost corner.
 fn hull(mut points: Outline) -> Outline {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
@@ -194,8 +193,8 @@ fn pebble(chance: &mut Random, radius: f64, corners: usize, rough: f64) -> Outli
         .collect()
 }
 
-/// The stone, rotated and moved so that an edge of its hull lies on y = 0: an edge below its centre of gravity, or
-/// any edge.
+/// The stone, rotated and moved so that an edge of its hull lies on y = 0. With a probability of 70 %, the centre of
+/// gravity lies above this edge; otherwise it is any edge.
 fn laid_down(chance: &mut Random, stone: &Outline) -> Outline {
     let around = hull(stone.clone());
     let centre = centroid(stone);
@@ -234,15 +233,15 @@ fn dropped(chance: &mut Random, stone: &Outline) -> Outline {
     turned.iter().map(|p| [p[0], p[1] - lowest]).collect()
 }
 
-/// A random pebble: its scene file, its outline as written, and how far rounding may have lifted corners off the
-/// ground.
+/// A random pebble: its scene file, its outline as written, and by how many metres rounding may have lifted its
+/// corners off the ground.
 fn random(number: u64) -> (Value, Outline, f64) {
     let mut chance = Random::new(number);
     let radius = chance.one_of(&[0.01, 0.05, 0.1, 0.5, 1.0, 5.0, 100.0]);
     let corners = chance.whole(20, 80) as usize;
     let rough = chance.one_of(&[0.0, 0.0, 0.02, 0.1]);
     let stone = pebble(&mut chance, radius, corners, rough);
-    // A rough stone lying on an edge of its hull would rest on two corners, which carry nothing.
+    // A rough stone on an edge of its hull would touch the ground only at two corners, and corners carry no force.
     let stone = match rough == 0.0 && chance.percent(50) {
         true => laid_down(&mut chance, &stone),
         false => dropped(&mut chance, &stone),
@@ -273,8 +272,8 @@ fn stands(stone: &Outline, slack: f64) -> bool {
     rests.0 <= centre && centre <= rests.1
 }
 
-/// The number of a pebble, its verdict with the doubt or its problems, and whether it should stand: exactly, and with
-/// rounding.
+/// The number of a pebble, its verdict and doubt or its problems, and whether it should stand: exactly, and if
+/// corners within rounding of the ground count as on it.
 type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
 
 #[test]
@@ -307,7 +306,7 @@ fn few_random_pebbles_are_undecided() {
             (Ok((Verdict::Undecided, doubt)), _) => undecided.push(format!("{number}: {doubt}")),
             (Ok((Verdict::Stable, _)), true) => standing += 1,
             (Ok((Verdict::Unstable, _)), false) => {}
-            // The file does not show which of the two was meant.
+            // The two expected answers differ, so either verdict is permitted.
             (Ok(_), _) if exactly != within_rounding => {}
             (Ok((verdict, _)), _) => wrong.push(format!("{number}: {verdict:?}")),
         }
@@ -328,10 +327,10 @@ fn few_random_pebbles_are_undecided() {
     assert!(refused.len() as u64 <= count / 10, "{}", few(&refused));
 }
 
-/// Circles and pebbles with all digits keep their verdict when they are rotated with gravity, mirrored, or made a
-/// million times larger or smaller, and are decided as before.
+/// Circles and pebbles with all digits keep their verdict if they are rotated with gravity, mirrored, or made a
+/// million times larger or smaller.
 #[test]
-fn a_stone_turned_mirrored_or_scaled_keeps_its_verdict() {
+fn a_stone_keeps_its_verdict_if_it_is_rotated_mirrored_or_scaled() {
     let mut stones: Vec<(String, Outline)> = [20, 200, 2000]
         .into_iter()
         .map(|corners| (format!("circle of {corners}"), circle(0.1, corners)))

@@ -19,23 +19,23 @@ fn rows() -> Vec<Row> {
 
 fn row(line: &str) -> Row {
     let parts: Vec<&str> = line.split('"').collect();
-    let [before, program, behind] = parts[..] else {
+    let [before, program, after] = parts[..] else {
         panic!("a name in quotes: {line}");
     };
     let before: Vec<&str> = before.split(',').collect();
-    let behind: Vec<&str> = behind.split(',').collect();
+    let after: Vec<&str> = after.split(',').collect();
     let number = |cell: &str| cell.parse::<f64>().expect(line);
     (
         before[0].to_owned(),
         number(before[1]),
         before[2] == "yes",
         program.to_owned(),
-        behind[1].to_owned(),
-        number(behind[2]),
+        after[1].to_owned(),
+        number(after[2]),
     )
 }
 
-/// The label of a picture's line for a program's name in the table; `None` if the program is left out.
+/// The label of a program's line in the picture: the name in the table without the version.
 fn name(program: &str) -> Option<String> {
     match program {
         "drystone" => return Some("drystone, everything found out".to_owned()),
@@ -49,7 +49,7 @@ fn name(program: &str) -> Option<String> {
 
 const MANY: &str = "drystone, one of many scenes";
 
-/// For standing walls: every program by its name without version, in the order of the table.
+/// The lines of all programs for walls that stand, in the order of the table.
 fn walls() -> Vec<GrowthLine> {
     let mut lines: Vec<GrowthLine> = Vec::new();
     for (structure, blocks, stands, program, answer, milliseconds) in rows() {
@@ -99,7 +99,7 @@ fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
     let kept = fs::read_to_string(&shown).expect("in the repository");
     assert!(
         kept == drawn,
-        "look at it, and run once with UPDATE_SNAPSHOTS=1"
+        "the picture differs from the table: inspect it, and run once with UPDATE_SNAPSHOTS=1"
     );
 }
 

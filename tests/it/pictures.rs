@@ -1,4 +1,4 @@
-//! Pictures: the arrows and fills of the thesis in numbers, and rules that every figure must keep.
+//! Figures: arrows and fills are compared with the numbers of the thesis, and every figure must obey general rules.
 
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, Fill, ForceStyle, Normalisation, Options};
@@ -54,7 +54,7 @@ fn arrows_are_those_of_the_thesis() {
         let frame = panel["frame"].as_u64().expect("a frame") as usize;
         let mut ours = figure::arrows(&analysis, frame, &source());
         let expected = panel["expected"]["arrows"].as_array().expect("arrows");
-        // The corner at which an interface has its red friction arrow is arbitrary: here the arrow is in the middle.
+        // The thesis draws the red friction arrow of an interface at an arbitrary corner, drystone in the middle.
         let anywhere = |a: &figure::ForceArrow| matches!(a.kind, ArrowKind::MissingFriction(_));
         for arrow in expected {
             let (at, vector) = (pair(&arrow["at"]), pair(&arrow["vector"]));
@@ -68,17 +68,17 @@ fn arrows_are_those_of_the_thesis() {
                     && (a.width - width).abs() < 1e-3
             });
             let Some(found) = found else {
-                panic!("{name} lacks {arrow}, has left {ours:#?}")
+                panic!("{name} has no arrow {arrow}; the remaining arrows are {ours:#?}")
             };
             ours.remove(found);
             compared += 1;
         }
-        assert!(ours.is_empty(), "{name} has more: {ours:#?}");
+        assert!(ours.is_empty(), "{name} has additional arrows: {ours:#?}");
     }
     assert!(compared > 250, "{compared}");
 }
 
-/// The fill of every block of a frame, by the block's title.
+/// The title and the fill of every block of a frame.
 fn fills(drawing: &Drawing, frame: usize) -> Vec<(String, Colour)> {
     let mut found = Vec::new();
     groups(&drawing.items, &mut |group| {
@@ -127,13 +127,13 @@ fn fills_are_those_of_the_thesis() {
     }
 }
 
-/// Every point of a drawing.
+/// Visits the outline of every path of a drawing, except in clipped groups.
 fn points(items: &[Item], visit: &mut dyn FnMut(&Outline)) {
     for item in items {
         match item {
             Item::Path(path) => visit(&path.outline),
             Item::Text(_) => {}
-            // Clipped parts may reach beyond the page.
+            // Clipped outlines may extend beyond the page.
             Item::Group(group) if group.clip.is_some() => {}
             Item::Group(group) => points(&group.items, visit),
         }
@@ -188,7 +188,7 @@ fn nothing_lies_beyond_the_page_and_words_fit() {
 fn a_figure_has_its_verdicts_and_numbers_as_text_for_screen_readers() {
     let scene = scene("assets/thesis/figure-4.json");
     let svg = svg::write(&figure::forces(&Analysis::new(&scene), &Options::default()));
-    for said in [
+    for part in [
         "<title>(a): Initial situation: stands</title>",
         "<title>Force on block 3 from block 2: 6.91 N at 65°</title>",
         "<title>Robot r1 holds block 4</title>",
@@ -197,7 +197,7 @@ fn a_figure_has_its_verdicts_and_numbers_as_text_for_screen_readers() {
         ">falls</text>",
         "missing: a torque of 5.74 N·m from robot r0",
     ] {
-        assert!(svg.contains(said), "the figure does not say {said}");
+        assert!(svg.contains(part), "the figure does not contain {part}");
     }
 }
 
@@ -214,7 +214,7 @@ fn the_largest_arrow_is_one_edge_long_in_each_panel() {
 }
 
 #[test]
-fn between_two_blocks_arrows_are_opposite_and_the_ground_has_none() {
+fn arrows_between_two_blocks_are_opposite_and_the_ground_has_none() {
     let scene = scene("assets/thesis/figure-8-left.json");
     let arrows = figure::arrows(&Analysis::new(&scene), 0, &Options::default());
     let mut pairs = 0;
@@ -245,7 +245,7 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn shapes_come_with_their_names_and_origins() {
+fn shapes_are_drawn_with_their_names() {
     let drawing = figure::shapes(&Theme::default());
     let svg = svg::write(&drawing);
     for name in drystone::scene::shape::BUILT_IN {
@@ -317,7 +317,7 @@ fn heights(drawing: &Drawing, title: &str) -> Vec<f64> {
 }
 
 #[test]
-fn one_scale_for_a_strip_makes_equal_weights_equal() {
+fn with_one_scale_for_a_strip_equal_weights_have_equal_arrows() {
     let scene = scene("assets/thesis/figure-5.json");
     let analysis = Analysis::new(&scene);
     let weights = |scale| {
@@ -334,7 +334,7 @@ fn one_scale_for_a_strip_makes_equal_weights_equal() {
 }
 
 #[test]
-fn without_a_limit_the_key_says_what_the_colours_stand_for() {
+fn without_a_limit_the_key_states_what_the_colours_mean() {
     let two = r#"{ "drystone": 1, "ground": [ { "polygon": [[-1,-1],[9,-1],[9,0],[-1,0]] } ], "blocks": [
         { "id": "low", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 6 },
         { "id": "high", "polygon": [[0,1],[2,1],[2,2],[0,2]], "weight": 2 } ] }"#;
@@ -350,7 +350,7 @@ fn without_a_limit_the_key_says_what_the_colours_stand_for() {
         "\"ground\"",
         r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#,
     );
-    // A robot that holds nothing changes no colour, except under the rule of the thesis, which has its own key.
+    // A robot that holds nothing changes no colour, except with the fills of the thesis, which have a different key.
     let of_blocks = |text: &str, fill: &str| text.matches(&format!("fill=\"{fill}\"")).count();
     let with_robot = drawn(&from_json(&limited));
     assert!(!with_robot.contains("limit of"));

@@ -1,6 +1,6 @@
 //! Missing forces and loads in figures: the figure of a structure that falls must not look like a balance.
 
-use drystone::analysis::{Analysis, Options as Asked, Toward, Verdict};
+use drystone::analysis::{Analysis, Options as AnalysisOptions, Toward, Verdict};
 use drystone::drawing::{Drawing, Group, Item};
 use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
@@ -22,8 +22,8 @@ fn block(left: f64, push: f64) -> Scene {
     ))
 }
 
-/// All words of a drawing, and whether a path of its force polygon is dashed.
-fn said(drawing: &Drawing) -> (String, bool) {
+/// All words of a drawing, and whether its force polygon has a dashed path.
+fn words_and_dashes(drawing: &Drawing) -> (String, bool) {
     let page = Group {
         items: drawing.items.clone(),
         ..Group::default()
@@ -39,9 +39,9 @@ fn said(drawing: &Drawing) -> (String, bool) {
 }
 
 #[test]
-fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() {
+fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
     let drawn = |scene: &Scene| {
-        said(&figure::draw(
+        words_and_dashes(&figure::draw(
             &Analysis::new(scene),
             Kind::Polygon,
             &Options::default(),
@@ -59,7 +59,7 @@ fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() 
         "{falls}"
     );
     assert!(!falls.contains("is closed"), "{falls}");
-    // A missing force inside is not a side of the polygon, but the words name it.
+    // A missing force inside the structure is not a side of the polygon, but the text mentions it.
     let thin = scene(include_str!("../scenes/archri4.55.json"));
     let (inside, _) = drawn(&thin);
     assert!(
@@ -69,13 +69,13 @@ fn a_force_polygon_closes_only_with_missing_forces_where_it_falls_and_says_so() 
 }
 
 #[test]
-fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
-    let asked = Asked::default().margins(true);
+fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
+    let analysis_options = AnalysisOptions::default().margins(true);
     let options = Options::default().toward(Toward::LoadFactor);
     let pushed = block(1.0, 2.0);
-    let analysis = Analysis::with(&pushed, &asked);
+    let analysis = Analysis::with(&pushed, &analysis_options);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
-    let (words, _) = said(&drawing);
+    let (words, _) = words_and_dashes(&drawing);
     // The block slides at 3 N, half of its weight.
     assert!(
         words.contains("falls once its loads are 1.5 times as large"),
@@ -89,12 +89,12 @@ fn a_margin_of_loads_is_drawn_where_the_verdict_changes() {
         1,
         "the load is shown"
     );
-    // A structure that falls as it is has no ghost. The words state the loads at which it would stand: up to 3 of its
-    // 4 N.
+    // A structure that falls with its loads is drawn without its motion. The text states the loads with which it
+    // would stand: up to 3 of the 4 N.
     let falls = block(1.0, 4.0);
-    let analysis = Analysis::with(&falls, &asked);
+    let analysis = Analysis::with(&falls, &analysis_options);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
-    let (words, _) = said(&drawing);
+    let (words, _) = words_and_dashes(&drawing);
     let would_stand = "falls as it is; stands with its loads times at most 0.75";
     assert!(words.contains(would_stand), "{words}");
     assert!(classes(&drawing.items, &["ghosts"]).is_empty());
@@ -122,7 +122,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
         _ => None,
     });
     assert!(across.is_some_and(|wide| wide > 10.0), "{across:?}");
-    let (words, _) = said(&drawing);
+    let (words, _) = words_and_dashes(&drawing);
     assert!(
         words.contains("0.5") && words.contains("small ones drawn larger"),
         "{words}"

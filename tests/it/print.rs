@@ -1,4 +1,5 @@
-//! Output files: valid SVG in every form, PDF in millimetres with searchable words, PNG that states its size.
+//! Output files: SVG is valid in every form, PDF has its size in millimetres and searchable text, and PNG states its
+//! size.
 
 use drystone::drawing::{Colour, Drawing};
 use drystone::output::svg::{Options, Words};
@@ -28,7 +29,7 @@ fn figure(name: &str) -> Drawing {
     drawn(&read(name))
 }
 
-/// Names that try to break out of the place where they are written.
+/// A drawing of a scene whose names contain XML markup and characters that XML forbids.
 fn hostile() -> Drawing {
     let nasty = "a]]>&amp;\"'</text><!-- \u{7}石\u{fffe} x";
     let file = serde_json::json!({ "drystone": 1, "title": nasty, "blocks": [
@@ -47,7 +48,7 @@ fn sound(svg: &str, what: &str) {
     let mut names = std::collections::BTreeSet::new();
     for node in document.descendants() {
         if let Some(name) = node.attribute("id") {
-            assert!(names.insert(name), "{what} has the name {name} twice");
+            assert!(names.insert(name), "{what} has the id {name} twice");
         }
     }
     for node in document.descendants().filter(|n| n.is_element()) {
@@ -56,7 +57,10 @@ fn sound(svg: &str, what: &str) {
             .attribute("clip-path")
             .map(|c| c.trim_start_matches("url(#").trim_end_matches(')'));
         for name in labels.split_whitespace().chain(clip) {
-            assert!(names.contains(name), "{what} has no {name}");
+            assert!(
+                names.contains(name),
+                "{what} has no element with the id {name}"
+            );
         }
     }
 }
@@ -97,7 +101,7 @@ fn several_forms_of_a_figure_can_share_a_page() {
     sound(&format!("<div>{}</div>", all.concat()), "a page");
 }
 
-/// The pixels as bytes, and the number of bytes per pixel.
+/// The pixels of a PNG file as bytes, and the number of bytes per pixel.
 fn pixels(bytes: &[u8]) -> (Vec<u8>, usize) {
     let mut decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(::png::Transformations::EXPAND);
@@ -124,8 +128,7 @@ fn text_as_outlines_is_at_the_position_of_the_text() {
         let mean = apart.iter().map(|a| f64::from(*a)).sum::<f64>() / names.len() as f64;
         assert!(mean < 0.1, "{name}: {mean} of 255 on average");
         let most = apart.iter().copied().max();
-        // The edges of letters are smoothed differently: by up to a quarter of the range at single pixels, and little
-        // on average.
+        // The edges of letters are smoothed differently: single pixels differ by less than 80 of 255.
         assert!(most < Some(80), "{name}: {most:?}");
     }
 }
@@ -204,7 +207,7 @@ fn streams(pdf: &[u8]) -> Vec<Vec<u8>> {
 }
 
 #[test]
-fn a_pdf_has_its_size_its_fonts_and_its_words_and_no_clock() {
+fn a_pdf_has_its_size_its_fonts_and_its_text_and_no_dates() {
     let drawing = figure("thesis/figure-4");
     let pdf = pdf::write(&drawing, Some(84.0)).expect("a page");
     assert_eq!(pdf, pdf::write(&drawing, Some(84.0)).expect("again"));
@@ -227,7 +230,7 @@ fn a_pdf_has_its_size_its_fonts_and_its_words_and_no_clock() {
     for (number, expected) in numbers.iter().zip(expected) {
         assert!((number - expected).abs() < 0.01, "{numbers:?}");
     }
-    for said in [
+    for entry in [
         "/FontFile",
         "Libertinus",
         "Inter",
@@ -235,13 +238,13 @@ fn a_pdf_has_its_size_its_fonts_and_its_words_and_no_clock() {
         "/Figure",
         "/Alt",
     ] {
-        assert!(text.contains(said), "no {said}");
+        assert!(text.contains(entry), "no {entry}");
     }
-    for clock in ["CreationDate", "ModDate", "CreateDate", "ModifyDate"] {
-        assert!(!text.contains(clock), "it has a {clock}");
+    for date in ["CreationDate", "ModDate", "CreateDate", "ModifyDate"] {
+        assert!(!text.contains(date), "it has a {date}");
     }
     assert!(text.contains(&drawing.title), "no title");
-    // Every letter of these words belongs to some glyph.
+    // Every letter of this text is assigned to a glyph.
     let unicode: String = streams(&pdf)
         .iter()
         .map(|s| String::from_utf8_lossy(s).into_owned())
@@ -286,7 +289,7 @@ fn unusual_drawings_become_pdf() {
 }
 
 #[test]
-fn a_png_for_print_says_its_size_and_a_clear_page_stays_clear() {
+fn a_png_for_print_states_its_size_and_a_transparent_page_stays_transparent() {
     let drawing = figure("thesis/figure-8-left");
     let print = png::Size::Print {
         width_mm: 84.0,

@@ -1,7 +1,7 @@
 //! Every kind of error in a scene, and its message.
 //!
-//! `tests/reference/problems.txt` contains the cases: a title, a scene, and all its messages. `UPDATE_SNAPSHOTS=1`
-//! replaces them by the present messages.
+//! `tests/reference/problems.txt` contains the cases: each has a title, a scene, and all messages for this scene.
+//! `UPDATE_SNAPSHOTS=1` replaces the messages by the present ones.
 
 use drystone::scene::{Code, Scene, SceneError, starter};
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ const REFERENCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/pr
 struct Case {
     title: String,
     scene: String,
-    said: String,
+    messages: String,
 }
 
 fn cases() -> Vec<Case> {
@@ -22,13 +22,11 @@ fn cases() -> Vec<Case> {
     parts
         .map(|part| {
             let (title, rest) = part.split_once('\n').expect("a title");
-            let (scene, said) = rest
-                .split_once("\n--\n")
-                .expect("a scene, and what is said of it");
+            let (scene, messages) = rest.split_once("\n--\n").expect("a scene and its messages");
             Case {
                 title: title.into(),
                 scene: scene.into(),
-                said: said.trim().into(),
+                messages: messages.trim().into(),
             }
         })
         .collect()
@@ -47,7 +45,7 @@ fn refused(text: &str) -> SceneError {
         let read = problems.text.as_deref().expect("the text is kept");
         assert!(
             read.get(span).is_some(),
-            "the span of {problem} lies in the text"
+            "the span of {problem} does not lie in the text"
         );
     }
     problems
@@ -60,15 +58,15 @@ fn every_case_has_its_agreed_messages() {
     let mut updated = String::new();
     let mut wrong = Vec::new();
     for case in &cases {
-        let said = refused(&case.scene).to_string();
-        if said != case.said {
+        let found = refused(&case.scene).to_string();
+        if found != case.messages {
             wrong.push(format!(
                 "{}:\n{}\n  instead of\n{}",
-                case.title, said, case.said
+                case.title, found, case.messages
             ));
         }
         updated.push_str(&format!(
-            "## {}\n{}\n--\n{said}\n\n",
+            "## {}\n{}\n--\n{found}\n\n",
             case.title, case.scene
         ));
     }
@@ -86,8 +84,8 @@ fn every_code_of_a_problem_occurs() {
         let found = refused(&case.scene);
         missing.retain(|code| !found.list.iter().any(|p| p.code == *code));
     }
-    // Errors that no text can show: a number that only code can hold, bytes, a mistake of this crate, errors of the
-    // command line (tests/it/program/check.rs); and lists too long for a case.
+    // Errors that cannot occur in a case: numbers that only code can contain, invalid bytes, internal faults, errors
+    // of the command line (tests/it/program/check.rs), and scenes that are too large for a case.
     let elsewhere = [
         Code::NotReadable,
         Code::InternalFault,
@@ -173,7 +171,7 @@ fn a_file_with_one_byte_changed_never_panics() {
     }
 }
 
-/// All ways to replace one value of a scene by `other`.
+/// All scenes in which one value is replaced by `other`.
 fn with_one_replaced(value: &Value, other: &Value) -> Vec<Value> {
     let mut all = vec![other.clone()];
     match value {
@@ -248,7 +246,7 @@ fn very_deep_nesting_is_refused() {
 }
 
 #[test]
-fn bytes_that_are_not_text_are_refused_with_their_place() {
+fn bytes_that_are_not_text_are_refused_with_their_position() {
     let problems =
         Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
     assert_eq!(

@@ -36,7 +36,7 @@ struct Ran {
     err: String,
 }
 
-/// A folder of scenes that is removed at the end of the test.
+/// A temporary folder in which commands run. It is removed at the end of the test.
 struct Bench {
     folder: TempDir,
 }
@@ -48,6 +48,7 @@ impl Bench {
         }
     }
 
+    /// A folder with the scenes `stands.json`, `falls.json` and the invalid `wrong.json`.
     fn new() -> Bench {
         let bench = Bench::empty();
         for (name, text) in [
@@ -64,6 +65,7 @@ impl Bench {
         self.folder.path().join(name)
     }
 
+    /// The command `drystone` with the words of a line as its arguments.
     fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
         command
@@ -91,13 +93,14 @@ impl Bench {
             .spawn()
             .expect("starts");
         let mut pipe = child.stdin.take().expect("piped");
-        // A rejected command line ends before it reads its input; then writing fails, but the test does not.
+        // If the command line is refused, the program ends before it reads its input. Then writing fails, which is no
+        // error.
         let _ = pipe.write_all(input);
         drop(pipe);
         of(child.wait_with_output().expect("ends"))
     }
 
-    /// Everything in the folder except the three scenes.
+    /// The sorted names of all files in the folder except the three scenes.
     fn made(&self) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.folder.path())
             .expect("readable")

@@ -1,4 +1,4 @@
-//! Pseudo-random numbers for tests, the same on every machine and in every run.
+//! Pseudo-random numbers for tests. They are the same on every machine and in every run.
 
 /// The SplitMix64 generator (Steele, Lea and Flood 2014).
 pub struct Random(u64);
@@ -40,12 +40,12 @@ impl Random {
         self.whole(1, 100) <= likely
     }
 
-    /// An entry of a list.
+    /// A random entry of a list.
     pub fn one_of<T: Copy>(&mut self, list: &[T]) -> T {
         *self.choose(list)
     }
 
-    /// A reference to an entry of a list.
+    /// A reference to a random entry of a list.
     pub fn choose<'a, T>(&mut self, list: &'a [T]) -> &'a T {
         &list[self.below(list.len())]
     }

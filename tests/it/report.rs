@@ -1,4 +1,5 @@
-//! `report`: one page for a reader, in four forms; its content, and its behaviour in a real browser.
+//! The command `report`: the content of a report in its four formats, and the behaviour of the HTML page in a
+//! browser.
 
 mod balance;
 mod browser;
@@ -13,7 +14,7 @@ use tempfile::TempDir;
 
 use crate::structure::{HALF_LINTEL as FALLS, LINTEL as STANDS};
 
-/// Text that would have an effect if it were not treated as text.
+/// A scene whose title and name contain HTML markup and invisible control characters.
 const HOSTILE: &str = r#"{ "drystone": 1, "title": "<script>alert(1)</script> 𝔘🧱 שלום \u202egnihton",
   "ground": [{ "polygon": [[-1, -1], [4, -1], [4, 0], [-1, 0]] }],
   "blocks": [{ "id": "</noscript><img src=x onerror=alert(2)>", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]] }] }"#;
@@ -63,15 +64,15 @@ impl Folder {
             .stdin(Stdio::null())
             .output()
             .expect("starts");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(!said.contains("panicked"), "{said}");
-        Ran(output.status.code().expect("no signal"), said)
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!errors.contains("panicked"), "{errors}");
+        Ran(output.status.code().expect("no signal"), errors)
     }
 
-    /// Runs a command line that must succeed.
+    /// Runs a command line, and asserts that it succeeds.
     fn done(&self, line: &str) {
-        let Ran(code, said) = self.run(line);
-        assert_eq!(code, 0, "{line}: {said}");
+        let Ran(code, errors) = self.run(line);
+        assert_eq!(code, 0, "{line}: {errors}");
     }
 }
 
@@ -91,10 +92,10 @@ fn a_report_has_the_exit_codes_of_render_and_with_strict_those_of_check() {
         ("report in in/a.json --compare -o r.html", 2),
         ("report in -o missing/r.html", 4),
     ] {
-        let Ran(ended, said) = folder.run(line);
-        assert_eq!(ended, code, "{line}: {said}");
+        let Ran(ended, errors) = folder.run(line);
+        assert_eq!(ended, code, "{line}: {errors}");
     }
-    assert!(!folder.path("n.html").exists(), "nothing was sound");
+    assert!(!folder.path("n.html").exists(), "there was no valid scene");
     assert_eq!(folder.text("in/a.json"), STANDS);
 }
 
@@ -106,11 +107,11 @@ fn an_invalid_scene_is_listed_and_the_others_are_reported() {
         ("in/c.json", FALLS),
     ]);
     for form in ["html", "md", "json", "pdf"] {
-        let Ran(code, said) = folder.run(&format!("report in -o r.{form}"));
-        assert_eq!(code, 2, "{said}");
+        let Ran(code, errors) = folder.run(&format!("report in -o r.{form}"));
+        assert_eq!(code, 2, "{errors}");
         assert!(
-            said.contains("blocks[0].weight") && said.contains("-0.25"),
-            "{said}"
+            errors.contains("blocks[0].weight") && errors.contains("-0.25"),
+            "{errors}"
         );
         assert!(folder.path(&format!("r.{form}")).exists());
     }
@@ -118,7 +119,7 @@ fn an_invalid_scene_is_listed_and_the_others_are_reported() {
     let listed = page.find("in/b.json").expect("listed");
     assert!(
         listed < page.find("A lintel").expect("reported"),
-        "at the top"
+        "it is listed above the reported scenes"
     );
     for words in [
         "blocks[0].weight",
@@ -154,7 +155,7 @@ fn the_same_scenes_give_the_same_bytes_and_times_are_written_only_on_request() {
     assert!(!folder.text("a.json").contains("\"seconds\""));
     folder.done("report in -o t.json --timing");
     assert!(folder.text("t.json").contains("\"seconds\""));
-    // Effects share one program, so time is reported for each stage.
+    // Several effects are solved in one program, so the time is reported for each stage.
     folder.done("report in/a.json -o t.md --timing --margins --full");
     let timed = folder.text("t.md");
     let row = |name: &str| {
@@ -173,7 +174,7 @@ fn the_same_scenes_give_the_same_bytes_and_times_are_written_only_on_request() {
 }
 
 #[test]
-fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
+fn the_largest_force_is_that_of_stable_steps_including_robots() {
     let held = r#"{ "drystone": 1, "title": "Held", "robots": [{ "id": "r", "holds": "a", "limits": { "force": 100 } }],
         "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
     let alone = r#"{ "drystone": 1, "title": "Alone",
@@ -193,7 +194,7 @@ fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
     };
     assert!(row(">Held<").contains(">40 N<"), "{}", row(">Held<"));
     assert_eq!(row(">Alone<").matches("none stands").count(), 2, "{table}");
-    // Its first step falls. The second step, which is held, has forces of its own.
+    // The first step falls. The second step, in which a robot holds the block, has forces.
     let half = row("Half a lintel");
     assert!(
         half.contains(" N<") && !half.contains("none stands"),
@@ -202,7 +203,7 @@ fn the_largest_force_is_that_of_steps_that_stand_and_may_be_a_robots() {
 }
 
 #[test]
-fn every_result_is_the_one_that_check_prints() {
+fn a_report_in_json_contains_the_results_of_check() {
     let folder = Folder::three();
     folder.done("report in/b.json -o r.json --margins");
     let report: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
@@ -213,6 +214,22 @@ fn every_result_is_the_one_that_check_prints() {
         .expect("starts");
     let check: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(report["scenes"][0], check);
+}
+
+/// A scene in millimetres: every column of lengths is in millimetres, and its head says so.
+#[test]
+fn tables_of_a_report_name_the_length_unit_of_the_scene() {
+    let mut scene: serde_json::Value = serde_json::from_str(STANDS).expect("JSON");
+    scene["units"] = serde_json::json!({ "length": "mm" });
+    let folder = Folder::new(&[("a.json", &scene.to_string())]);
+    folder.done("report a.json -o r.md");
+    let text = folder.text("r.md");
+    let head = text.lines().find(|line| line.starts_with("| joint |"));
+    let head = head.expect("the table of joints");
+    for name in ["x, mm", "y, mm", "e, mm"] {
+        assert!(head.contains(&format!("| {name} |")), "{name}: {head}");
+    }
+    assert!(!text.contains(", m |"), "{text}");
 }
 
 #[test]
@@ -227,7 +244,7 @@ fn markdown_has_figures_in_separate_files_and_texts_have_no_effect() {
         assert!(folder.text(name).starts_with("<svg"), "{name}");
         figures += 1;
     }
-    // Each scene has two pictures, or one if no picture shows how it would fall.
+    // Each scene has two figures, or one if no figure shows how it would fall.
     assert!((4..=6).contains(&figures), "{figures}: {text}");
     for event in Parser::new_ext(&text, Options::all()) {
         // The only markup comes from the report: the targets of the names in the table of all scenes.
@@ -242,7 +259,7 @@ fn markdown_has_figures_in_separate_files_and_texts_have_no_effect() {
 }
 
 #[test]
-fn markdown_keeps_names_that_our_fonts_lack_and_spells_them_in_its_figures() {
+fn markdown_keeps_characters_that_no_font_has_and_figures_show_their_code_points() {
     let named = STANDS.replace("\"lintel\"", "\"石\"");
     let folder = Folder::new(&[("in/a.json", &named)]);
     folder.done("report in -o r.md");
@@ -256,7 +273,7 @@ fn markdown_keeps_names_that_our_fonts_lack_and_spells_them_in_its_figures() {
     let name = figure.split(">)").next().expect("closed");
     assert!(
         folder.text(name).contains("U+77F3"),
-        "the figure's own words"
+        "the figure shows the code point"
     );
 }
 
@@ -307,8 +324,11 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
         ("-o b.html --interactive ends.js", "is not the script"),
         ("-o b.html --interactive other.js", "is not the script"),
     ] {
-        let Ran(code, said) = folder.run(&format!("report a.json {line}"));
-        assert!(code == 2 && said.contains(part), "{line}: {code} {said}");
+        let Ran(code, errors) = folder.run(&format!("report a.json {line}"));
+        assert!(
+            code == 2 && errors.contains(part),
+            "{line}: {code} {errors}"
+        );
     }
     assert!(!folder.path("b.html").exists());
 }
@@ -351,7 +371,7 @@ fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
     assert!(
         pair["changes"][0]
             .as_str()
-            .is_some_and(|said| said.contains("right")),
+            .is_some_and(|words| words.contains("right")),
         "{pair}"
     );
 }
@@ -396,7 +416,7 @@ fn a_comparison_lists_loads_robots_and_steps_of_only_one_scene() {
 }
 
 #[test]
-fn a_pdf_holds_the_words_and_a_study_its_chart() {
+fn a_pdf_has_all_pages_and_a_study_has_its_chart() {
     let folder = Folder::three();
     folder.done("report in -o r.pdf --theme paper");
     let pdf = fs::read(folder.path("r.pdf")).expect("there");

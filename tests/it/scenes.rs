@@ -1,4 +1,4 @@
-//! The meaning of a valid scene file: defaults, precedence, places and steps.
+//! The meaning of a valid scene file: defaults, precedence, positions and steps.
 
 use drystone::analysis::{Analysis, Verdict};
 use drystone::internals::geometry::{Point, Vector};
@@ -44,7 +44,7 @@ fn everything_but_version_and_blocks_has_a_default() {
         r#"{ "drystone": 1, "blocks": [], "$schema": "scene.schema.json", "title": null }"#,
     );
     assert!(
-        empty.expect("no blocks are legal").frames()[0]
+        empty.expect("a scene without blocks is valid").frames()[0]
             .placed
             .is_empty()
     );
@@ -78,7 +78,7 @@ fn the_most_specific_weight_has_precedence() {
 }
 
 #[test]
-fn friction_comes_from_the_pair_else_from_the_smoother_body() {
+fn friction_is_that_of_the_pair_or_else_the_smaller_of_both_bodies() {
     let scene = scene(
         r##"{ "drystone": 1, "friction": 0.9,
         "materials": { "oak": { "friction": 0.5, "fill": "#863" }, "ice": { "friction": 0.1 }, "granite": {} },
@@ -95,7 +95,7 @@ fn friction_comes_from_the_pair_else_from_the_smoother_body() {
     assert_eq!(
         scene.friction_between(ground, block(1)),
         0.3,
-        "the pair wins over the body's own"
+        "the pair has precedence over the coefficient of a body"
     );
     assert_eq!(scene.friction_between(block(2), ground), 0.02);
     assert_eq!(scene.friction_between(block(3), ground), 0.1);
@@ -107,7 +107,7 @@ fn friction_comes_from_the_pair_else_from_the_smoother_body() {
 }
 
 #[test]
-fn a_shape_is_turned_about_its_own_origin_and_then_moved() {
+fn a_shape_is_rotated_about_its_origin_and_then_moved() {
     let scene = scene(
         r#"{ "drystone": 1, "shapes": { "bar": { "polygon": [[0, 0], [4, 0], [4, 1], [0, 1]], "holes": [[[1, 0.25], [2, 0.25], [1, 0.5]]] } },
         "blocks": [{ "shape": "bar", "at": [10, 20], "angle": 90 }] }"#,
@@ -155,7 +155,7 @@ fn a_polygon_in_a_lattice_scene_makes_it_inexact_and_may_lie_between_lattice_poi
 }
 
 #[test]
-fn a_square_lattice_turns_by_quarters() {
+fn shapes_on_a_square_lattice_are_rotated_by_right_angles() {
     let scene = scene(
         r#"{ "drystone": 1, "grid": { "kind": "square", "side": 0.5 }, "blocks": [
         { "cells": [[0, 0], [1, 0], [2, 0]], "at": [4, 2], "angle": 450 }] }"#,
@@ -167,7 +167,7 @@ fn a_square_lattice_turns_by_quarters() {
 }
 
 #[test]
-fn limits_are_filled_in() {
+fn missing_limits_have_their_defaults() {
     let limits = |text: &str| {
         let text =
             format!(r#"{{ "drystone": 1, "blocks": [], "robots": [{{ "id": "r"{text} }}] }}"#);
@@ -217,7 +217,7 @@ fn limits_are_filled_in() {
 }
 
 #[test]
-fn steps_play_in_order() {
+fn steps_are_applied_in_order() {
     let scene = scene(
         r#"{ "drystone": 1, "blocks": [
             { "id": "a", "polygon": [[0, 0], [2, 0], [2, 2], [0, 2]] },
@@ -254,7 +254,7 @@ fn steps_play_in_order() {
     assert_eq!(
         (frame.title.as_str(), placed(frame)),
         ("moved", vec![0, 2, 1]),
-        "placed anew, placed last"
+        "a block that is placed again is the last one"
     );
     near(frame.holds[0].at, 1.0, 1.0);
     near(frame.holds[1].at, 4.5, 1.5);
@@ -265,7 +265,7 @@ fn steps_play_in_order() {
 }
 
 #[test]
-fn without_steps_every_robot_holds_its_own() {
+fn without_steps_every_robot_holds_the_block_of_its_key() {
     let scene = scene(
         r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]] }],
         "robots": [{}, { "holds": "a", "at": [0.25, 3] }, { "id": "x", "holds": "a" }] }"#,
@@ -285,7 +285,7 @@ fn without_steps_every_robot_holds_its_own() {
 }
 
 #[test]
-fn bodies_may_touch_and_ground_may_overlap_itself() {
+fn bodies_may_touch_and_parts_of_the_ground_may_overlap() {
     let noisy = scene(
         r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [9, -1], [9, 0], [0, 0]] }, { "polygon": [[1, -1], [5, -1], [5, 0], [1, 0]] }],
         "blocks": [{ "polygon": [[0, -0.0000001], [1, 0], [1, 1], [0, 1]] }, { "polygon": [[0.9999999, 0], [2, 0], [2, 1], [0.9999999, 1]] }] }"#,
@@ -298,12 +298,12 @@ fn bodies_may_touch_and_ground_may_overlap_itself() {
     assert_eq!(
         placed(&exchanged.frames()[1]),
         [1],
-        "what never stands together may share its place"
+        "blocks that are never placed at the same time may overlap"
     );
 }
 
 #[test]
-fn the_starter_scene_uses_what_a_newcomer_needs() {
+fn the_starter_scene_is_short_and_has_robots_materials_loads_and_steps() {
     let scene = scene(starter());
     assert!(starter().lines().count() <= 60);
     assert!(
@@ -338,6 +338,6 @@ fn a_wall_of_ten_thousand_blocks_is_read_quickly() {
     let seconds = began.elapsed().as_secs_f64();
     assert!(
         seconds < 5.0,
-        "{seconds} s: something compares every block with every other"
+        "{seconds} s: reading seems to compare all pairs of blocks"
     );
 }

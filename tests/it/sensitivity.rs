@@ -1,4 +1,4 @@
-//! Compares derivatives of margins with central differences, for which scenes are changed and analysed again.
+//! Compares derivatives of margins with difference quotients, for which scenes are changed and analysed again.
 
 use drystone::analysis::{
     CornerMoves, EndSensitivity, MarginKind, NoSensitivity, Options, Sensitivity, Slope,
@@ -27,7 +27,7 @@ fn end(file: &Value, kind: MarginKind, is_high: bool) -> Result<EndSensitivity, 
     if is_high { found.high } else { found.low }
 }
 
-/// A number in a scene file that is changed. Its methods return `None` if the changed file has no such margin.
+/// A change of one number in a scene file. The methods return `None` if the changed file has no such margin.
 #[derive(Clone, Copy)]
 struct Change<'a> {
     file: &'a Value,
@@ -38,6 +38,7 @@ struct Change<'a> {
 }
 
 impl Change<'_> {
+    /// The end of the margin after the number is changed by `by`.
     fn value(&self, by: f64) -> Option<f64> {
         let mut file = self.file.clone();
         (self.apply)(&mut file, by);
@@ -47,7 +48,7 @@ impl Change<'_> {
         Some(end.ok()?.value)
     }
 
-    /// Backward and forward derivatives: differences of two steps, extrapolated.
+    /// The backward and the forward derivative, each extrapolated from the differences of two steps.
     fn slopes(&self) -> Option<[f64; 2]> {
         let h = self.step;
         let here = self.value(0.0)?;
@@ -80,7 +81,7 @@ fn polygons(file: &Value) -> Vec<(&'static str, usize, Vec<[f64; 2]>)> {
     all
 }
 
-/// Moves the corners at a point, and by iteration the corners that lie on edges which turn with it.
+/// Moves all corners at a point. Corners inside an edge that this rotates are moved with the edge, by iteration.
 fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
     let all = polygons(file);
     let points: Vec<[f64; 2]> = all.iter().flat_map(|p| p.2.clone()).collect();
@@ -149,22 +150,23 @@ pub struct Tally {
     pub skipped: usize,
     /// One of this many derivatives is compared.
     every: usize,
-    asked: usize,
+    /// The number of derivatives so far.
+    count: usize,
     pub worst: f64,
     pub wrong: Vec<String>,
 }
 
 impl Tally {
     fn compare(&mut self, what: &str, slope: Slope, scale: f64, change: &Change) {
-        self.asked += 1;
-        if !self.asked.is_multiple_of(self.every) {
+        self.count += 1;
+        if !self.count.is_multiple_of(self.every) {
             return;
         }
         match slope {
             Slope::Unique(slope) => {
-                // If the margin has a kink nearby, a smaller step stays on this side of it.
-                let errors = [1.0, 1.0 / 64.0].into_iter().filter_map(|share| {
-                    let step = share * change.step;
+                // If the margin has a kink nearby, a smaller step may not reach it.
+                let errors = [1.0, 1.0 / 64.0].into_iter().filter_map(|factor| {
+                    let step = factor * change.step;
                     let difference = Change { step, ..*change }.central()?;
                     Some(((slope - difference).abs() / scale, difference))
                 });
@@ -180,12 +182,12 @@ impl Tally {
                 if error > 1e-6 {
                     let sides = change.slopes();
                     self.wrong.push(format!(
-                        "{what}: {slope:.9} against {difference:.9}, {sides:?}"
+                        "{what}: {slope:.9} instead of {difference:.9}, {sides:?}"
                     ));
                 }
             }
             Slope::OneSided { backward, forward } => {
-                // Very close to a kink, the state at the end may be unavailable.
+                // Very close to a kink, a small step may fail. Then a larger step with a larger tolerance is used.
                 let fine = Change {
                     step: change.step / 16.0,
                     ..*change
@@ -200,7 +202,7 @@ impl Tally {
                 for (own, other) in [backward, forward].into_iter().zip(sides) {
                     if (own - other).abs() > tolerance * scale.max(own.abs()) {
                         self.wrong.push(format!(
-                            "{what}: {backward:.9} {forward:.9} against {sides:?}"
+                            "{what}: {backward:.9} {forward:.9} instead of {sides:?}"
                         ));
                         break;
                     }
@@ -211,7 +213,7 @@ impl Tally {
     }
 }
 
-/// Compares one of `every` derivatives of an end with differences.
+/// Compares one of `every` derivatives of an end with difference quotients. `None` if the margin has no such end.
 pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> Option<Tally> {
     let found = end(file, kind, is_high).ok()?;
     let mut tally = Tally {
@@ -244,17 +246,17 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
             continue;
         }
         done.push(at);
-        let ways = match corner.moves {
+        let directions = match corner.moves {
             CornerMoves::Freely([x, y]) => vec![([1.0, 0.0], x), ([0.0, 1.0], y)],
             CornerMoves::Along { direction, slope } => vec![([direction.x, direction.y], slope)],
             _ => continue,
         };
-        for (way, slope) in ways {
+        for (direction, slope) in directions {
             let apply = |file: &mut Value, by: f64| {
-                move_corner(file, at, [way[0] * by, way[1] * by]);
+                move_corner(file, at, direction.map(|v| v * by));
             };
             let what = format!(
-                "corner {} of {:?} along {way:?}",
+                "corner {} of {:?} along {direction:?}",
                 corner.corner, corner.block
             );
             change(2e-4, &apply, slope, &what, size, &mut tally);
@@ -304,8 +306,9 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
     Some(tally)
 }
 
-/// A semicircular arch with centreline radius 1 on two springers that share its end faces. It has the weight of its
-/// area, and a load of 1 in the middle of the outer side of one voussoir.
+/// A semicircular arch with centreline radius 1 on two springers that share its end faces, with a load of 1 in the
+/// middle of the outer side of one voussoir. `weigh` is an object with the key that sets the weight of each
+/// voussoir, `density` or `weight`.
 fn loaded_arch(count: usize, thickness: f64, friction: f64, loaded: usize, weigh: &Value) -> Value {
     let radii = [1.0 - thickness / 2.0, 1.0 + thickness / 2.0];
     let at = |k: usize, radius: f64| {
@@ -339,8 +342,8 @@ fn loaded_arch(count: usize, thickness: f64, friction: f64, loaded: usize, weigh
         "loads": [{ "block": format!("v{loaded}"), "force": [0, -1], "at": middle }] })
 }
 
-/// An arch of 15 voussoirs, thickness 0.2 and friction 0.6. The load is in the middle of the outer side of voussoir 4
-/// (counted from 0). Its load factor, 0.4692019, was known before this program computed derivatives.
+/// An arch of 15 voussoirs, thickness 0.2 and friction 0.6, with a load on voussoir 4, counted from 0. Its load
+/// factor, 0.4692019, was known before this program computed derivatives.
 #[test]
 fn the_derivatives_of_a_loaded_arch_equal_central_differences() {
     let file = loaded_arch(15, 0.2, 0.6, 4, &json!({ "density": 1 }));
@@ -354,7 +357,7 @@ fn the_derivatives_of_a_loaded_arch_equal_central_differences() {
     assert!(tally.worst < 6e-10, "{}", tally.worst);
 }
 
-/// A random arch, wall, stack or buttress with a load.
+/// A random arch, wall or stack with a load.
 fn random_scene(random: &mut Random) -> Value {
     let load = |block: &str, random: &mut Random| {
         let force = [random.between(-1.0, 1.0), random.between(-1.5, 0.2)];
@@ -403,7 +406,8 @@ fn random_scene(random: &mut Random) -> Value {
     }
 }
 
-/// Compares random scenes from `first` on. Returns the sum of their comparisons, and the number of ends.
+/// Compares `count` random scenes, beginning with number `first`. Returns the sum of their counts, and the number of
+/// ends.
 fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
     let mut sum = Tally::default();
     let mut ends = 0;

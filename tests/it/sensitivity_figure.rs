@@ -1,6 +1,6 @@
-//! The figure of the sensitivity: its arrows show the derivatives, and a text says why a frame has none.
+//! The figure of the sensitivity: its arrows show the derivatives, and a text states why a frame has none.
 
-use drystone::analysis::{MarginKind, Options as Asked};
+use drystone::analysis::{MarginKind, Options as AnalysisOptions};
 use drystone::drawing::{Camera, Drawing, Group, Item, PagePoint};
 use drystone::figure::{self, Kind, Options};
 use drystone::geometry::Vector;
@@ -17,7 +17,7 @@ fn of_assets(path: &str) -> Scene {
 }
 
 fn analysed(scene: &Scene, kind: MarginKind) -> Analysis {
-    Analysis::with(scene, &Asked::default().sensitivity(kind))
+    Analysis::with(scene, &AnalysisOptions::default().sensitivity(kind))
 }
 
 fn draw(analysis: &Analysis) -> Drawing {
@@ -63,7 +63,7 @@ fn distance(a: PagePoint, b: PagePoint) -> f64 {
 }
 
 #[test]
-fn arrows_point_along_the_slopes_and_are_as_long() {
+fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
     for (path, kind) in [
         ("study/arch-27.json", MarginKind::Tilt),
         ("study/arch-27.json", MarginKind::Friction),
@@ -83,7 +83,7 @@ fn arrows_point_along_the_slopes_and_are_as_long() {
                 .corners
                 .iter()
                 .filter(|corner| distance(camera.place(corner.at), *tail) < 1e-6);
-            // Of corners that move together, only the first one has an arrow.
+            // Of several corners that move together, only the first has an arrow.
             let slopes: Vec<Vector> = here.filter_map(|corner| corner.moves.gradient()).collect();
             let shown = Vector::new(tip.x - tail.x, tail.y - tip.y);
             let along = |slope: &Vector| outward * slope.dot(&shown) / shown.norm();
@@ -127,7 +127,7 @@ fn the_most_effective_changes_are_listed_with_their_values() {
     assert!(text.contains("+2 mm → 16.1°"), "{text}");
     let starter = Analysis::with(
         of_assets("starter.json"),
-        &Asked::default().sensitivity(MarginKind::LoadFactor),
+        &AnalysisOptions::default().sensitivity(MarginKind::LoadFactor),
     );
     let text = svg::write(&draw(&starter)).replace("</tspan>", " ");
     assert!(text.contains("load factor 30.5"), "{text}");
@@ -137,7 +137,7 @@ fn outlines(items: &[Item], visit: &mut dyn FnMut(PagePoint)) {
     for item in items {
         match item {
             Item::Path(path) => path.outline.points().for_each(&mut *visit),
-            // Clipped parts may reach beyond the page.
+            // Clipped outlines may extend beyond the page.
             Item::Group(group) if group.clip.is_none() => outlines(&group.items, visit),
             _ => {}
         }
@@ -177,7 +177,7 @@ fn pressed(force: [f64; 2]) -> Value {
 }
 
 #[test]
-fn a_frame_without_slopes_says_why_and_has_no_arrows() {
+fn a_frame_without_derivatives_states_why_and_has_no_arrows() {
     let unloaded = {
         let mut file = pressed([0.0, -1.0]);
         file["loads"] = json!([]);

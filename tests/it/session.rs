@@ -1,5 +1,5 @@
-//! A session gives the same results as a scene file with the same blocks and holds, step by step; and verdicts alone
-//! are those of a complete analysis.
+//! After each step, a session has the same results as a scene file with the same blocks and holds. Verdicts alone are
+//! those of a complete analysis.
 
 use drystone::analysis::{Accuracy, Options, Source, Verdict, verdicts};
 use drystone::scene::format::SceneFile;
@@ -15,12 +15,12 @@ fn file(value: &Value) -> SceneFile {
     serde_json::from_value(value.clone()).unwrap()
 }
 
-/// The state of the session as a scene file, to be read from scratch.
-struct Beside {
+/// The state of the session as a scene file, which is analysed from scratch.
+struct SceneCopy {
     file: Value,
 }
 
-impl Beside {
+impl SceneCopy {
     fn verdict(&self) -> Result<Verdict, String> {
         let scene = Scene::from_json(&self.file.to_string()).map_err(|p| p.to_string())?;
         Ok(Analysis::new(&scene).verdict())
@@ -36,17 +36,17 @@ impl Beside {
     }
 }
 
-/// The counts of a sequence.
+/// The counts of some sequences.
 #[derive(Default, Debug)]
 struct Tally {
     steps: usize,
-    guessed: usize,
+    from_warm_start: usize,
     stable: usize,
     unstable: usize,
     refused: usize,
 }
 
-/// Runs a random sequence in a session and from scratch.
+/// Runs a random sequence in a session, and compares each verdict with an analysis from scratch.
 fn played(
     number: u64,
     base: Value,
@@ -55,13 +55,13 @@ fn played(
 ) {
     let mut chance = Random::new(number);
     let mut session = Session::new(file(&base)).unwrap();
-    let mut beside = Beside { file: base };
+    let mut copy = SceneCopy { file: base };
     let mut standing: Vec<String> = Vec::new();
     let mut held: [Option<String>; 2] = [None, None];
     for step in 0..24 {
         let what = chance.whole(0, 9);
-        let told = match what {
-            // A builder usually takes back a block that does not stand.
+        let verdict = match what {
+            // If the structure falls, the last block is removed again in most cases.
             _ if session.verdict() == Verdict::Unstable
                 && chance.percent(60)
                 && !standing.is_empty() =>
@@ -71,30 +71,30 @@ fn played(
                     if hold.as_deref() == Some(&id) {
                         session.release(&format!("r{k}")).unwrap();
                         *hold = None;
-                        let robot = beside.robot(&format!("r{k}"));
+                        let robot = copy.robot(&format!("r{k}"));
                         robot.as_object_mut().unwrap().remove("holds");
                     }
                 }
-                beside.blocks().retain(|b| b["id"] != id);
+                copy.blocks().retain(|b| b["id"] != id);
                 session.remove(&id)
             }
             0..=5 => {
                 let mut block = candidate(&mut chance, standing.len());
                 let id = format!("b{step}");
                 block["id"] = json!(id);
-                beside.blocks().push(block.clone());
-                let told = session.place(serde_json::from_value(block).unwrap());
-                if told.is_err() {
+                copy.blocks().push(block.clone());
+                let outcome = session.place(serde_json::from_value(block).unwrap());
+                if outcome.is_err() {
                     assert!(
-                        beside.verdict().is_err(),
-                        "only the session refuses: {told:?}"
+                        copy.verdict().is_err(),
+                        "only the session refuses: {outcome:?}"
                     );
-                    beside.blocks().pop();
+                    copy.blocks().pop();
                     tally.refused += 1;
                 } else {
                     standing.push(id);
                 }
-                told
+                outcome
             }
             6 if !standing.is_empty() => {
                 let id = chance.one_of(&(0..standing.len()).collect::<Vec<_>>());
@@ -104,7 +104,7 @@ fn played(
                     continue;
                 }
                 standing.retain(|s| *s != id);
-                beside.blocks().retain(|b| b["id"] != id);
+                copy.blocks().retain(|b| b["id"] != id);
                 session.remove(&id)
             }
             7 | 8 if !standing.is_empty() => {
@@ -115,10 +115,10 @@ fn played(
                     assert!(session.hold(&name, &id, None).is_err(), "it holds another");
                     continue;
                 }
-                beside.robot(&name)["holds"] = json!(id);
-                let told = session.hold(&name, &id, None);
+                copy.robot(&name)["holds"] = json!(id);
+                let outcome = session.hold(&name, &id, None);
                 held[k] = Some(id);
-                told
+                outcome
             }
             9 => {
                 let k = chance.whole(0, 1) as usize;
@@ -127,21 +127,21 @@ fn played(
                     assert!(session.release(&name).is_err(), "it holds nothing");
                     continue;
                 }
-                beside.robot(&name).as_object_mut().unwrap().remove("holds");
+                copy.robot(&name).as_object_mut().unwrap().remove("holds");
                 session.release(&name)
             }
             _ => continue,
         };
-        let Ok(told) = told else { continue };
-        let scratch = beside.verdict().unwrap();
+        let Ok(verdict) = verdict else { continue };
+        let scratch = copy.verdict().unwrap();
         assert_eq!(
-            told, scratch,
+            verdict, scratch,
             "sequence {number}, step {step}: {}",
-            beside.file
+            copy.file
         );
         assert_eq!(session.verdict(), scratch);
         tally.steps += 1;
-        tally.guessed += usize::from(session.source() == Source::WarmStart);
+        tally.from_warm_start += usize::from(session.source() == Source::WarmStart);
         match scratch {
             Verdict::Stable => tally.stable += 1,
             Verdict::Unstable => tally.unstable += 1,
@@ -189,8 +189,8 @@ fn a_session_on_a_lattice_has_the_results_of_a_scene_file() {
         "{tally:?}"
     );
     assert!(
-        10 * tally.guessed > 8 * tally.steps,
-        "hardly a guess served: {tally:?}"
+        10 * tally.from_warm_start > 8 * tally.steps,
+        "few verdicts came from the warm start: {tally:?}"
     );
 }
 
@@ -215,15 +215,15 @@ fn an_invalid_block_is_refused_and_changes_nothing() {
     let base = json!({ "drystone": 1, "grid": { "kind": "square" }, "ground": [{ "cells": [[0, -1]] }],
         "blocks": [{ "id": "a", "cells": [[0, 0]] }] });
     let mut session = Session::new(file(&base)).unwrap();
-    for (wrong, says) in [
+    for (wrong, message) in [
         (json!({ "cells": [[0, 0]] }), "overlap"),
         (json!({ "cells": [[0, 1], [2, 1]] }), "blocks"),
         (json!({ "id": "a", "cells": [[0, 1]] }), "block a"),
         (json!({ "cells": [[0, 1]], "weight": -1 }), "-1"),
     ] {
         let refused = session.place(serde_json::from_value(wrong).unwrap());
-        let refused = refused.expect_err(says).to_string();
-        assert!(refused.contains(says), "{refused}");
+        let refused = refused.expect_err(message).to_string();
+        assert!(refused.contains(message), "{refused}");
         assert_eq!(
             (session.verdict(), session.scene().blocks().len()),
             (Verdict::Stable, 1)

@@ -1,7 +1,8 @@
-//! Text from files stays text: hostile strings are put into every kind of output. There is no output except those
-//! listed here.
+//! Text from files stays text: hostile strings are written to every kind of output. All kinds of output are listed
+//! here.
 //!
-//! Each output is read back by a parser of its format, which must find each text as one text, and nothing else.
+//! Each output is parsed again. The parser of its format must find each string as one text, and no additional
+//! elements.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +52,7 @@ fn scene(hostile: &str) -> String {
     .to_string()
 }
 
-/// Makes a scene of each hostile text and analyses it.
+/// Calls `check` with each hostile text, the scene that contains it, and the analysis of this scene.
 fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
         let scene =
@@ -60,14 +61,17 @@ fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     }
 }
 
-/// Whether a character has an effect on a terminal other than being shown.
+/// Whether a character can have an effect on a terminal other than being displayed.
 fn acts(c: char) -> bool {
     (c.is_control() && c != '\n')
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-fn silent(output: &str, hostile: &str) {
-    assert!(!output.contains(acts), "{hostile:?} acts in {output:?}");
+fn assert_harmless(output: &str, hostile: &str) {
+    assert!(
+        !output.contains(acts),
+        "{hostile:?} has an effect in {output:?}"
+    );
 }
 
 #[test]
@@ -89,14 +93,14 @@ fn a_terminal_has_a_line_for_each_frame_and_no_more() {
     for hostile in HOSTILE {
         fs::write(folder.path().join("a.json"), scene(hostile)).expect("writable");
         let (_, out, err) = run(&["check", "--no-timing", "a.json"]);
-        silent(&(out.clone() + &err), hostile);
+        assert_harmless(&(out.clone() + &err), hostile);
         counts.push(out.lines().count());
-        // Error messages quote an unknown name and its place in the file.
+        // Error messages quote an unknown name and the line of the file that contains it.
         let wrong = scene(hostile).replace("\"place\":[", "\"place\":[\"none\",");
         fs::write(folder.path().join("a.json"), wrong).expect("writable");
         let (code, out, err) = run(&["check", "a.json"]);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{hostile:?}");
-        silent(&err, hostile);
+        assert_harmless(&err, hostile);
         assert!(
             !err.lines().any(|l| l.trim_start().starts_with("all  ")),
             "{err}"
@@ -109,11 +113,11 @@ fn a_terminal_has_a_line_for_each_frame_and_no_more() {
 }
 
 #[test]
-fn svg_has_the_same_elements_whatever_the_words() {
+fn svg_has_the_same_elements_for_all_texts() {
     let mut shapes: Vec<Vec<String>> = Vec::new();
     each(|hostile, _, analysis| {
         let svg = output::svg::write(&figure::forces(analysis, &figure::Options::default()));
-        silent(&svg, hostile);
+        assert_harmless(&svg, hostile);
         let document =
             roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
         let mut names: Vec<String> = document
@@ -138,21 +142,21 @@ fn svg_has_the_same_elements_whatever_the_words() {
 }
 
 #[test]
-fn json_has_the_same_values_and_nothing_that_acts() {
+fn json_has_the_same_values_and_no_control_characters() {
     each(|hostile, scene, analysis| {
         for layout in [Layout::Lines, Layout::OneLine] {
             let text = to_json(analysis, Timing::LeftOut, layout);
-            silent(&text, hostile);
+            assert_harmless(&text, hostile);
             let value: Value = serde_json::from_str(&text).expect("JSON");
             assert_eq!(value["scene"], *hostile);
             assert_eq!(value["frames"][0]["title"], *hostile);
         }
-        assert_eq!(scene.title(), hostile, "nothing is lost on the way in");
+        assert_eq!(scene.title(), hostile, "the scene keeps the complete text");
     });
 }
 
 #[test]
-fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
+fn a_page_a_table_and_markdown_of_a_study_have_the_same_structure_for_all_texts() {
     let mut shapes = Vec::new();
     for hostile in HOSTILE {
         let mut file: Value = serde_json::from_str(&scene(hostile)).expect("JSON");
@@ -160,10 +164,10 @@ fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
         let scene = Scene::from_json(&file.to_string()).expect("sound");
         let study = study(&[scene], &TOLERANCES[..1], &mut |_| {});
         let page = report::accuracy::page(&study).expect("drawn");
-        silent(&page, hostile);
+        assert_harmless(&page, hostile);
         let tags = page.matches('<').count();
         let csv = report::accuracy::csv(&study);
-        silent(&csv, hostile);
+        assert_harmless(&csv, hostile);
         for cell in csv
             .lines()
             .skip(1)
@@ -178,7 +182,7 @@ fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
         }
         let svg = report::accuracy::svg(&study).expect("drawn");
         assert!(roxmltree::Document::parse(&svg).is_ok(), "{hostile:?}");
-        silent(&drystone::result::accuracy_json(&study), hostile);
+        assert_harmless(&drystone::result::accuracy_json(&study), hostile);
         // The number of points in the picture depends on the times, so only the table is compared.
         let table = page
             .split("</svg>")
@@ -201,7 +205,7 @@ fn a_page_a_table_and_markdown_of_a_study_keep_their_shape() {
     );
 }
 
-/// The elements of a Markdown text other than paragraphs and words.
+/// The elements of a Markdown text other than paragraphs and plain text.
 fn begun(markdown: &str) -> Vec<String> {
     Parser::new_ext(markdown, Options::all())
         .filter_map(|event| match event {
@@ -232,7 +236,7 @@ fn hostile_text_stays_text_in_markdown_and_in_a_book() {
         let content = drawn["sections"][0]["Chapter"]["content"]
             .as_str()
             .expect("text");
-        silent(content, hostile);
+        assert_harmless(content, hostile);
         for event in Parser::new_ext(content, Options::all()) {
             assert!(
                 !matches!(
@@ -253,13 +257,13 @@ fn hostile_text_stays_text_in_markdown_and_in_a_book() {
 }
 
 #[test]
-fn reports_of_snapshots_keep_their_shape_whatever_the_names() {
+fn reports_of_snapshots_have_the_same_structure_for_all_names() {
     use drystone::snapshot::fact::{DIGITS, Facts};
     use drystone::snapshot::{CheckOutcome, Finding, Layer, Snapshot, State, ci, review};
     let mut shapes = Vec::new();
     each(|hostile, _, analysis| {
         let facts = Facts::new(analysis, DIGITS);
-        silent(&facts.text(), hostile);
+        assert_harmless(&facts.text(), hostile);
         assert_eq!(Facts::read(&facts.text()), Ok(facts), "{hostile:?}");
         let finding = Finding {
             layer: Layer::Facts,
@@ -281,7 +285,7 @@ fn reports_of_snapshots_keep_their_shape_whatever_the_names() {
             ..CheckOutcome::default()
         };
         let xml = ci::junit(&report);
-        silent(&xml, hostile);
+        assert_harmless(&xml, hostile);
         let document =
             roxmltree::Document::parse(&xml).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
         let elements = document
@@ -290,7 +294,7 @@ fn reports_of_snapshots_keep_their_shape_whatever_the_names() {
             .count();
         let annotations = ci::annotations(&report);
         for annotation in &annotations {
-            silent(annotation, hostile);
+            assert_harmless(annotation, hostile);
             assert_eq!(annotation.lines().count(), 1, "{annotation:?}");
             assert_eq!(
                 annotation.matches("::").count() - hostile.matches("::").count(),
@@ -299,7 +303,7 @@ fn reports_of_snapshots_keep_their_shape_whatever_the_names() {
             );
         }
         let page = review::page(&report, &[hostile.into()]);
-        silent(&page, hostile);
+        assert_harmless(&page, hostile);
         assert!(!page.contains("<script>alert") && !page.contains("\" onload=\""));
         shapes.push((elements, annotations.len(), page.matches("<li>").count()));
     });
@@ -341,7 +345,7 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
             };
             for (name, bytes) in report.files(form, "r").expect("written") {
                 let text = String::from_utf8(bytes).expect("UTF-8");
-                silent(&text, hostile);
+                assert_harmless(&text, hostile);
                 if name.ends_with(".html") {
                     assert_eq!(text.matches("<script").count(), 1, "{hostile:?}: {name}");
                     assert_eq!(
@@ -354,7 +358,7 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
                     );
                 } else if name.ends_with(".md") {
                     for event in Parser::new_ext(&text, Options::all()) {
-                        // The report's own links lead from the names in the table of all scenes to the scenes.
+                        // The only links are those of the report, from the table of all scenes to the scenes.
                         let acts = match &event {
                             Event::Html(html) | Event::InlineHtml(html) => {
                                 !html.starts_with("<a id=\"scene-") && **html != *"</a>"
@@ -387,8 +391,8 @@ fn invisible_characters_are_made_visible() {
     });
 }
 
-/// The files that write each kind of output, found by an expression that only its writers contain. A new file with
-/// such an expression must be added here.
+/// For each kind of output, an expression that its writers contain, and the files that may contain it. A new file
+/// with such an expression must be added here.
 const WRITERS: &[(&str, &[&str])] = &[
     (
         "io::stdout",

@@ -1,4 +1,4 @@
-//! Snapshots: which changes are found and by which layer, which are accepted, and how files change.
+//! Snapshots: which changes are found by which layer, which are accepted, and how files change.
 
 mod assertion;
 mod disk;
@@ -88,7 +88,7 @@ impl Folder {
 fn ran(mut command: Command) -> Ran {
     let output = command.output().expect("starts");
     Ran {
-        code: output.status.code().expect("ends by itself"),
+        code: output.status.code().expect("not ended by a signal"),
         out: String::from_utf8(output.stdout).expect("UTF-8"),
         err: String::from_utf8(output.stderr).expect("UTF-8"),
     }
@@ -106,8 +106,8 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) {
     }
 }
 
-/// The gallery of this crate, checked like the scenes of any user: every scene in `tests/scenes` and every scene of
-/// the thesis's figures, with facts, drawings and pictures in each theme.
+/// Every scene in `tests/scenes`, including those of the thesis's figures, with facts, drawings and pictures in each
+/// theme.
 #[test]
 fn the_gallery_equals_its_references() {
     drystone::snapshot::assert_scenes!("tests/scenes");
@@ -120,7 +120,7 @@ fn the_figures_of_the_program_equal_their_references() {
     for plate in &plates {
         drystone::snapshot::assert_figure!(plate.name, &plate.drawing);
     }
-    // A plate that no longer exists leaves no reference behind.
+    // Every reference belongs to an existing plate.
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots");
     for entry in fs::read_dir(folder).expect("readable") {
         let path = entry.expect("readable").path();

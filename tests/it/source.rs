@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Adds all `.rs` files below the folder to `files`, in order of path.
 pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     let mut entries: Vec<PathBuf> = fs::read_dir(folder)
         .expect("readable")
@@ -82,6 +83,7 @@ pub(crate) fn names_after(code: &str, prefix: &str) -> Vec<String> {
     names
 }
 
+/// The name at the beginning of the text.
 pub(crate) fn word_at(text: &str) -> Option<String> {
     let word: String = text
         .chars()
@@ -90,7 +92,7 @@ pub(crate) fn word_at(text: &str) -> Option<String> {
     (!word.is_empty()).then_some(word)
 }
 
-/// Whether the code names a foreign crate: as the head of a path, or in a `use` of the bare name.
+/// Whether the code uses another crate: at the beginning of a path, or in `use name`.
 ///
 /// A module of drystone may have the name of a crate, as `output::png` does. In a file that imports or declares it,
 /// the name means this module.
@@ -173,6 +175,7 @@ pub(crate) fn bare(text: &str) -> String {
     out
 }
 
+/// Whether the last character may be part of a name.
 pub(crate) fn ends_in_word(text: &str) -> bool {
     text.chars()
         .next_back()

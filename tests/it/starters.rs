@@ -1,4 +1,4 @@
-//! The starter scenes: each is valid, has a title and few decimals, and stands or falls as it states.
+//! The starter scenes: each is valid, has a title and numbers with few decimals, and stands or falls as expected.
 
 use drystone::analysis::{Analysis, Verdict};
 use drystone::scene::Scene;
@@ -15,7 +15,7 @@ fn verdict(file: &SceneFile) -> Verdict {
 }
 
 #[test]
-fn starters_stand_or_fall_as_they_say() {
+fn starters_stand_or_fall_as_expected() {
     // With few voussoirs the least thickness of a semicircular arch is below Milankovitch's value, 0.1075 of the
     // radius of the centreline.
     let arch = |voussoirs, thickness| {

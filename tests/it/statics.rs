@@ -1,4 +1,4 @@
-//! Answers known by hand. They are asymmetric, so that a mirrored or exchanged sign is noticed.
+//! Results that were computed by hand. The structures are asymmetric, so that a wrong sign is noticed.
 
 use drystone::analysis::{Failure, Verdict};
 use serde_json::json;
@@ -11,7 +11,7 @@ const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
 
 #[test]
-fn a_block_slides_where_the_slope_is_steeper_than_friction() {
+fn a_block_slides_if_the_slope_is_steeper_than_the_friction_angle() {
     for friction in [0.1, 0.35, 0.7, 1.2] {
         let limit = libm::atan(friction).to_degrees();
         for sign in [1.0, -1.0] {
@@ -44,20 +44,20 @@ fn the_failure_of_a_sliding_block_is_the_missing_friction() {
     assert!((frame.total_sticking - missing).abs() < 1e-9);
     // In rigid plasticity a sliding contact opens by μ per unit of slip, so the block moves at the angle arctan μ to
     // the slope.
-    let moves = frame.mechanism[0];
+    let motion = frame.mechanism[0];
     let heading = angle - libm::atan(friction);
     assert!(
-        (moves.velocity.x + libm::cos(heading)).abs() < 1e-6 && moves.spin.abs() < 1e-6,
-        "{moves:?}"
+        (motion.velocity.x + libm::cos(heading)).abs() < 1e-6 && motion.spin.abs() < 1e-6,
+        "{motion:?}"
     );
     assert!(
-        (moves.velocity.y + libm::sin(heading)).abs() < 1e-6,
-        "{moves:?}"
+        (motion.velocity.y + libm::sin(heading)).abs() < 1e-6,
+        "{motion:?}"
     );
 }
 
 #[test]
-fn a_block_topples_where_its_weight_leaves_the_kernel() {
+fn a_block_topples_if_its_weight_acts_outside_the_kernel() {
     let (width, height): (f64, f64) = (1.0, 3.0);
     for kernel in [0.0, 0.2, 0.6] {
         let limit = libm::atan(width * (1.0 - kernel) / height).to_degrees();
@@ -91,19 +91,20 @@ fn a_block_topples_where_its_weight_leaves_the_kernel() {
 #[test]
 fn a_toppling_block_turns_about_its_lower_corner() {
     let frame = first(&on_slope(25.0, 1.0, 3.0, 5.0, 0.0));
-    let moves = frame.mechanism[0];
-    // It turns anticlockwise, downhill to the left. The lower left corner, (−0.3, 0) turned by 25°, does not move.
-    assert!(moves.spin > 0.0);
+    let motion = frame.mechanism[0];
+    // The block turns anticlockwise, downhill to the left. Its lower left corner, (−0.3, 0) rotated by 25°, does not
+    // move.
+    assert!(motion.spin > 0.0);
     let corner = drystone::internals::geometry::Point::new(
         -0.3 * libm::cos(0.4363323129985824),
         -0.3 * libm::sin(0.4363323129985824),
     );
     let scene = crate::structure::scene(&on_slope(25.0, 1.0, 3.0, 5.0, 0.0));
-    assert!(moves.at(&scene, corner).norm() < 1e-6);
+    assert!(motion.at(&scene, corner).norm() < 1e-6);
 }
 
 #[test]
-fn the_harmonic_stack_stands_just_short_of_its_limit() {
+fn the_harmonic_stack_stands_up_to_its_limit() {
     for n in [1, 2, 5, 10, 30] {
         assert_eq!(verdict(&harmonic(n, 0.999)), STANDS, "{n} bricks");
         assert_eq!(verdict(&harmonic(n, 1.001)), FALLS, "{n} bricks");
@@ -111,13 +112,13 @@ fn the_harmonic_stack_stands_just_short_of_its_limit() {
 }
 
 #[test]
-fn a_semicircular_arch_needs_the_thickness_milankovitch_found() {
+fn a_semicircular_arch_needs_milankovitchs_thickness() {
     assert_eq!(verdict(&arch(181, 0.107, 0.7)), FALLS);
     assert_eq!(verdict(&arch(181, 0.108, 0.7)), STANDS);
 }
 
 #[test]
-fn a_thick_arch_needs_the_friction_at_its_springings() {
+fn a_thick_arch_needs_the_known_least_friction() {
     // The smallest μ of a thick semicircular arch with radial joints is 0.3092.
     assert_eq!(verdict(&arch(181, 0.3, 0.305)), FALLS);
     assert_eq!(verdict(&arch(181, 0.3, 0.315)), STANDS);
@@ -134,7 +135,7 @@ fn an_interlocking_wall_stands_without_thrust() {
         .map(|c| c.normal_forces[0] + c.normal_forces[1])
         .sum();
     assert!((floor - frame.weight).abs() < 1e-9 * frame.weight);
-    // Bricks side by side do not push each other.
+    // Adjacent bricks of a course do not push each other.
     for contact in frame
         .contacts
         .iter()
@@ -145,7 +146,7 @@ fn an_interlocking_wall_stands_without_thrust() {
 }
 
 #[test]
-fn a_leg_hangs_from_its_bar_only_where_they_are_one_piece() {
+fn a_leg_hangs_from_a_bar_only_if_they_are_one_block() {
     let mut file = json!({ "drystone": 1, "friction": 0.4,
         "ground": [{ "polygon": rectangle(-3.0, 0.0, 1.5, 1.0) }, { "polygon": rectangle(1.5, 0.0, 1.5, 1.0) }],
         "blocks": [block("bar", rectangle(-2.0, 1.0, 4.0, 1.0), 3.0), block("leg", rectangle(-0.5, 0.0, 1.0, 1.0), 1.0)] });
@@ -172,8 +173,8 @@ fn a_leg_hangs_from_its_bar_only_where_they_are_one_piece() {
 }
 
 #[test]
-fn uneven_loads_on_two_supports_follow_the_lever() {
-    // A beam of 6 N from x = 0 to 6 on posts at 0…1 and 5…6, 9 N hung at x = 2: about the left post's inner edge etc.
+fn two_supports_carry_an_eccentric_load_by_the_law_of_the_lever() {
+    // A beam of 6 N from x = 0 to x = 6 on two posts, from 0 to 1 and from 5 to 6, with a load of 9 N at x = 2.
     let mut file = on_floor(
         0.5,
         vec![
@@ -184,7 +185,8 @@ fn uneven_loads_on_two_supports_follow_the_lever() {
     );
     file["loads"] = json!([{ "block": "beam", "force": [0, -9], "at": [2, 2.5] }]);
     file["kernel"] = json!(1.0);
-    // With kernel 1 each post carries at its middle, x = 0.5 and 5.5: a statically determinate beam.
+    // With kernel 1 each post carries the beam in its middle, at x = 0.5 and x = 5.5, so the beam is statically
+    // determinate.
     let frame = first(&file);
     assert_eq!(frame.verdict, STANDS);
     let right = (6.0 * (3.0 - 0.5) + 9.0 * (2.0 - 0.5)) / 5.0;
@@ -205,7 +207,7 @@ fn uneven_loads_on_two_supports_follow_the_lever() {
 
 #[test]
 fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
-    // A frame with a block that stands on the lower edge of its hole.
+    // A frame, and a block on the lower edge of its hole.
     let frame_block = json!({ "id": "frame", "polygon": rectangle(0.0, 0.0, 6.0, 6.0),
         "holes": [rectangle(1.0, 1.0, 4.0, 4.0)], "weight": 10 });
     let file = on_floor(
@@ -248,7 +250,7 @@ fn a_block_without_contacts_falls_freely() {
 }
 
 #[test]
-fn a_corner_set_into_a_straight_edge_changes_nothing() {
+fn an_additional_corner_on_a_straight_edge_changes_nothing() {
     let mut plain = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 2.0, 1.0), 6.0)]);
     plain["kernel"] = json!(0.3);
     let mut notched = plain.clone();
@@ -284,7 +286,8 @@ fn a_robot_that_grips_off_centre_needs_a_torque() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 2.0, 1.0), 8.0)]);
     file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5] }]);
     let frame = first(&file);
-    // The weight acts 0.75 m to the right of the grip and turns clockwise; the missing torque turns back.
+    // The weight acts 0.75 m to the right of the grip and turns the block clockwise. The missing torque acts
+    // anticlockwise.
     let [Failure::RobotTorque { torque, .. }] = frame.failures[..] else {
         panic!("{:?}", frame.failures)
     };
@@ -294,8 +297,8 @@ fn a_robot_that_grips_off_centre_needs_a_torque() {
 }
 
 #[test]
-fn a_tip_on_a_slope_presses_square_to_it() {
-    // A slope of 3 in 4, and a triangle that stands on its tip, with the centroid vertically above the tip.
+fn the_normal_force_of_a_tip_on_a_slope_is_perpendicular_to_the_slope() {
+    // A slope that rises by 3 in 4, and a triangle on its tip, with the centroid vertically above the tip.
     let balanced = |friction: f64| {
         json!({ "drystone": 1, "friction": friction, "corner_contacts": true,
             "ground": [{ "polygon": [[-4, -3], [-4, -5], [4, -5], [4, 3]] }],
@@ -308,8 +311,8 @@ fn a_tip_on_a_slope_presses_square_to_it() {
     };
     let normal = contact.interface.normal;
     assert!((normal.x + 0.6).abs() < 1e-12 && (normal.y - 0.8).abs() < 1e-12);
-    let pressing: f64 = contact.normal_forces.iter().sum();
-    assert!((pressing - 8.0).abs() < 1e-7, "{pressing}");
+    let normal_force: f64 = contact.normal_forces.iter().sum();
+    assert!((normal_force - 8.0).abs() < 1e-7, "{normal_force}");
     assert!((contact.friction_force.abs() - 6.0).abs() < 1e-7);
     assert_eq!(verdict(&balanced(0.74)), FALLS);
 }

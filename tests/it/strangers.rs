@@ -10,8 +10,8 @@ use drystone::scene::Scene;
 
 use crate::labels::{classes, ink, texts};
 
-/// Structures of many kinds: measured coordinates, holes, loads, materials, many robots, a pebble on a boulder, names
-/// in other scripts, a wall that falls.
+/// Structures by other authors: with measured coordinates, holes, loads, materials, many robots, a pebble on a
+/// boulder, names in other scripts, and a wall that falls.
 fn strangers() -> Vec<(String, Scene)> {
     let folder = format!("{}/tests/it/stranger", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(&folder)
@@ -28,8 +28,8 @@ fn strangers() -> Vec<(String, Scene)> {
     names.into_iter().map(read).collect()
 }
 
-/// Whether a point lies in an outline; curves are replaced by their control polygons.
-fn holds(outline: &Outline, at: PagePoint) -> bool {
+/// Whether a point lies in an outline. Curves are replaced by their control polygons.
+fn contains(outline: &Outline, at: PagePoint) -> bool {
     let points: Vec<PagePoint> = outline.points().collect();
     let mut inside = false;
     for i in 0..points.len() {
@@ -41,14 +41,14 @@ fn holds(outline: &Outline, at: PagePoint) -> bool {
     inside
 }
 
-/// The colour at a position: that of the last filled path drawn there before any label.
+/// Sets `found` to the colour of the last filled path at a position, without the labels.
 fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colour) {
-    let seen = clip.is_none_or(|c| {
+    let visible = clip.is_none_or(|c| {
         (c.at.x..=c.at.x + c.width).contains(&at.x) && (c.at.y..=c.at.y + c.height).contains(&at.y)
     });
     for item in items {
         match item {
-            Item::Path(path) if seen && path.opacity > 0.99 && holds(&path.outline, at) => {
+            Item::Path(path) if visible && path.opacity > 0.99 && contains(&path.outline, at) => {
                 *found = path.fill.unwrap_or(*found);
             }
             Item::Group(group) if group.class != "labels" => {
@@ -59,7 +59,7 @@ fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colo
     }
 }
 
-/// All faults of the words of a drawing, and the number of labels that were checked.
+/// The number of labels that were checked, and all faults of the texts of a drawing.
 fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
     let page = Group {
         items: drawing.items.clone(),
@@ -72,7 +72,7 @@ fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
         if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
             faults.push(format!("{} is cut", text.words));
         }
-        // What the text names is there in any case, over whatever lies there, with a seam around its letters.
+        // A text with a halo may lie on another text.
         for other in all[..i]
             .iter()
             .filter(|o| o.halo.is_none() && text.halo.is_none())
@@ -125,15 +125,16 @@ fn overlapping_and_faint_texts_are_found() {
     drawing
         .items
         .push(Group::with_class("picture").with(faint).into());
-    let said = faults(&drawing).1;
-    assert!(said.iter().any(|f| f.contains("lies on")), "{said:?}");
+    let found = faults(&drawing).1;
+    assert!(found.iter().any(|f| f.contains("lies on")), "{found:?}");
     assert!(
-        said.iter().any(|f| f.starts_with("faint: contrast")),
-        "{said:?}"
+        found.iter().any(|f| f.starts_with("faint: contrast")),
+        "{found:?}"
     );
 }
 
-fn said(drawing: &Drawing) -> String {
+/// All texts of a drawing, separated by spaces.
+fn all_words(drawing: &Drawing) -> String {
     let page = Group {
         items: drawing.items.clone(),
         ..Group::default()
@@ -143,7 +144,7 @@ fn said(drawing: &Drawing) -> String {
 }
 
 #[test]
-fn missing_forces_and_loads_are_shown_however_small_they_are() {
+fn missing_forces_and_loads_are_shown_even_if_very_small() {
     for (name, scene) in strangers() {
         let analysis = Analysis::new(&scene);
         let drawing = figure::forces(&analysis, &Options::default());
@@ -160,18 +161,18 @@ fn missing_forces_and_loads_are_shown_however_small_they_are() {
             assert!(missing >= found.failures.len(), "{name}: {missing}");
             assert_eq!(found.verdict == Verdict::Unstable, missing > 0, "{name}");
             let loads = drawn.iter().filter(|t| t.starts_with("Load on")).count();
-            let pushes = scene
+            let expected = scene
                 .loads()
                 .iter()
                 .filter(|l| l.force.norm() > 0.0)
                 .count();
-            assert_eq!(loads, pushes, "{name}");
+            assert_eq!(loads, expected, "{name}");
         }
     }
 }
 
 #[test]
-fn a_number_of_newtons_names_no_block() {
+fn names_of_blocks_occur_without_a_unit_after_them() {
     let (_, scene) = strangers()
         .into_iter()
         .find(|s| s.0 == "falls.json")
@@ -179,13 +180,13 @@ fn a_number_of_newtons_names_no_block() {
     let analysis = Analysis::new(&scene);
     for kind in Kind::ALL {
         let drawing = figure::draw(&analysis, kind, &Options::default());
-        let words = said(&drawing);
+        let words = all_words(&drawing);
         for label in classes(&drawing.items, &["name"])
             .into_iter()
             .flat_map(texts)
         {
             let name = label.words.as_str();
-            let said = words.match_indices(name).any(|(at, _)| {
+            let as_name = words.match_indices(name).any(|(at, _)| {
                 let rest = words[at + name.len()..].trim_start_matches([' ', '\u{a0}']);
                 let amount = ["N", "kN", "m ", "%"]
                     .iter()
@@ -193,8 +194,8 @@ fn a_number_of_newtons_names_no_block() {
                 !amount && words[..at].ends_with([' ', '\u{a0}'])
             });
             assert!(
-                said,
-                "{}: {name} is labelled, and not said: {words}",
+                as_name,
+                "{}: {name} occurs only as a number with a unit: {words}",
                 kind.name()
             );
         }

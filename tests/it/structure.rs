@@ -4,12 +4,12 @@ use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-/// Reads a checked scene from the text of a scene file.
+/// The scene of a scene file. Panics if the file is invalid.
 pub fn scene(file: &Value) -> Scene {
     Scene::from_json(&file.to_string()).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The first frame of a scene file.
+/// The analysis of the first frame of a scene file. Panics if the frame has a verdict but not its proof.
 pub fn first(file: &Value) -> FrameAnalysis {
     let scene = scene(file);
     let frame = Analysis::new(&scene).frames.remove(0);
@@ -21,12 +21,12 @@ pub fn first(file: &Value) -> FrameAnalysis {
     frame
 }
 
-/// The first frame's verdict.
+/// The verdict of the first frame.
 pub fn verdict(file: &Value) -> Verdict {
     first(file).verdict
 }
 
-/// Two posts and a lintel, which stand.
+/// A lintel on two posts. It stands.
 pub const LINTEL: &str = r#"{ "drystone": 1, "title": "A lintel", "friction": 0.6,
   "ground": [{ "polygon": [[-1, -1], [7, -1], [7, 0], [-1, 0]] }],
   "blocks": [
@@ -54,7 +54,7 @@ pub fn corners(x: f64, y: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
     ]
 }
 
-/// The same as JSON.
+/// Corners of an axis-parallel rectangle, as JSON.
 pub fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Value {
     json!(corners(x, y, width, height))
 }
@@ -66,7 +66,7 @@ pub fn tilted(mut file: Value, degrees: f64) -> Value {
     file
 }
 
-/// The same file with gravity and all polygons rotated about the origin. By 0° it stays as it is written.
+/// The same file with gravity and all polygons rotated about the origin. An angle of 0° does not change the file.
 pub fn rotated(file: &Value, degrees: f64) -> Value {
     if degrees == 0.0 {
         return file.clone();
@@ -98,7 +98,7 @@ pub fn block(id: &str, polygon: Value, weight: f64) -> Value {
     json!({ "id": id, "polygon": polygon, "weight": weight })
 }
 
-/// Blocks on a floor y ≤ 0 from −100 to 100.
+/// Blocks on a floor from x = −100 to x = 100, whose upper edge is at y = 0.
 pub fn on_floor(friction: f64, blocks: Vec<Value>) -> Value {
     json!({ "drystone": 1, "friction": friction, "ground": [{ "polygon": rectangle(-100.0, -1.0, 200.0, 1.0) }],
         "blocks": blocks })
@@ -113,12 +113,12 @@ pub fn on_slope(degrees: f64, width: f64, height: f64, friction: f64, kernel: f6
         "blocks": [{ "id": "a", "shape": "block", "angle": degrees, "weight": 5.0 }] })
 }
 
-/// n equal bricks of length 1. Each reaches beyond the brick below by `share` times the overhang of the harmonic
-/// stack.
+/// n equal bricks of length 1, one on another. Each overhangs the brick below by `share` times as much as in the
+/// harmonic stack.
 pub fn harmonic(n: usize, share: f64) -> Value {
     let mut left = vec![0.0; n];
-    // Brick k, counted from 1 at the top, overhangs the next brick below by share/(2k); the lowest overhangs the
-    // table.
+    // Brick k, counted from 1 at the top, overhangs the brick below by share/(2k). The lowest brick overhangs the
+    // ground.
     let mut x = 0.0;
     for k in (1..=n).rev() {
         x += share / (2.0 * k as f64);
@@ -136,7 +136,7 @@ pub fn harmonic(n: usize, share: f64) -> Value {
     json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(-5.0, -1.0, 5.0, 1.0) }], "blocks": blocks })
 }
 
-/// A semicircular arch of n voussoirs with radial joints, centreline radius 1.
+/// A semicircular arch of n voussoirs with radial joints. The radius of its centreline is 1.
 pub fn arch(n: usize, thickness: f64, friction: f64) -> Value {
     let (inner, outer) = (1.0 - thickness / 2.0, 1.0 + thickness / 2.0);
     let at = |radius: f64, k: usize| {
@@ -163,7 +163,8 @@ pub fn arch(n: usize, thickness: f64, friction: f64) -> Value {
         "ground": [{ "polygon": rectangle(-2.0, -1.0, 4.0, 1.0) }], "blocks": blocks })
 }
 
-/// A wall of bricks in running bond, `columns` wide and `rows` high, half bricks at the ends of every second row.
+/// A wall of bricks in running bond, `columns` bricks wide and `rows` high, with half bricks at the ends of every
+/// second row.
 pub fn wall(columns: usize, rows: usize) -> Value {
     let mut blocks = Vec::new();
     for row in 0..rows {

@@ -1,6 +1,6 @@
-//! The validation manual: published values next to those of this crate. The tables and pictures of
-//! `src/doc/validation.md` are written here with `UPDATE_SNAPSHOTS=1`; otherwise the test fails if the page differs
-//! from the computed values.
+//! The validation manual: published values compared with those of this crate. With `UPDATE_SNAPSHOTS=1`, these tests
+//! write the tables and pictures of `src/doc/validation.md`. Otherwise they fail if the page differs from the
+//! computed values.
 
 mod arches;
 mod blocks;
@@ -20,7 +20,8 @@ use sources::SOURCES;
 
 const PAGE: &str = "src/doc/validation.md";
 
-/// Sources whose friction has no dilatancy: compared with them, the values of this crate are not on the safe side.
+/// Sources that use friction without dilatancy. Compared with them, the values of this crate are not on the safe
+/// side.
 const UNSAFE: [&str; 3] = ["Ferris01", "Goodman76", "RS2"];
 
 fn path(name: &str) -> PathBuf {
@@ -31,7 +32,7 @@ fn update() -> bool {
     std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none()
 }
 
-/// Writes a file that a test creates, or fails if the file differs.
+/// With `UPDATE_SNAPSHOTS`, writes a file. Otherwise panics if the file differs from `made`.
 fn keep(name: &str, made: &str) {
     if update() {
         std::fs::write(path(name), made).expect("writable");
@@ -40,7 +41,7 @@ fn keep(name: &str, made: &str) {
     assert!(kept == made, "{name}: run once with UPDATE_SNAPSHOTS=1");
 }
 
-/// Inserts text between the marks of the page.
+/// Replaces the text between two marks of the page.
 fn put(page: &mut String, mark: &str, text: &str) {
     let (begin, end) = (
         format!("<!-- {mark} -->\n"),
@@ -51,7 +52,7 @@ fn put(page: &mut String, mark: &str, text: &str) {
     page.replace_range(from..to, &format!("\n{text}\n"));
 }
 
-/// The values of this crate; each function is called once, on two threads.
+/// The values of this crate. Each function is called only once. Two threads share the work.
 fn computed() -> Vec<f64> {
     let mut found: BTreeMap<usize, f64> = BTreeMap::new();
     let mut first: BTreeMap<usize, usize> = BTreeMap::new();
@@ -79,8 +80,8 @@ fn decimals(published: &str) -> usize {
         .map_or(0, |(_, decimals)| decimals.len())
 }
 
-/// The value of this crate with the decimals of the published value, one more if it has few, and at least four
-/// digits.
+/// The value of this crate with as many decimals as the published value, or with one more if that value has fewer
+/// than five digits, and with at least four digits.
 fn ours(case: &Case, value: f64) -> String {
     if case.unit == Unit::Answer {
         return if value == 1.0 { "yes" } else { "no" }.to_owned();
@@ -110,7 +111,7 @@ fn percent(case: &Case, value: f64) -> f64 {
     100.0 * (value / published - 1.0)
 }
 
-/// A difference with two digits; differences below 0.001 % are not distinguished.
+/// A difference in percent with two digits. A difference below 0.001 % is given as "< 0.001".
 fn difference(percent: f64) -> String {
     let size = percent.abs();
     if size < 0.001 {
@@ -152,7 +153,7 @@ fn table(values: &[f64]) -> String {
     rows
 }
 
-/// The number of values within each difference.
+/// The sentence with the number of values that agree within 0.01 %, 0.1 % and 1 %.
 fn summary(values: &[f64]) -> String {
     let found: Vec<f64> = (CASES.iter().zip(values))
         .map(|(case, value)| percent(case, *value).abs())
@@ -218,7 +219,7 @@ fn every_value_has_its_source_and_every_source_a_value() {
     }
 }
 
-/// Checks a number in the text that is not in the table.
+/// Checks the number in the text of the page that is not in its table.
 #[test]
 fn the_text_states_the_computed_value() {
     let page = std::fs::read_to_string(path(PAGE)).expect("the page is there");

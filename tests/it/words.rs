@@ -1,4 +1,4 @@
-//! Each public type has a name of its own.
+//! Public types have different names.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -25,12 +25,12 @@ const PUBLIC: &[&str] = &[
     "snapshot",
 ];
 
-/// Each name of a public type means one thing. Only `Options` may occur in several modules, because it is always used
-/// with its module's name.
+/// Only the name `Options` may occur in several modules, because it is always used together with the name of its
+/// module.
 #[test]
 fn public_types_have_different_names() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut homes: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut files_by_name: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut files = Vec::new();
     collect(&root, &mut files);
     for file in files {
@@ -39,8 +39,8 @@ fn public_types_have_different_names() {
             .expect("below src")
             .to_string_lossy()
             .replace('\\', "/");
-        let room = without_groups(&path).and_then(|path| path.split_once('/'));
-        if room.is_some_and(|(room, _)| PUBLIC.contains(&room)) {
+        let module = without_groups(&path).and_then(|path| path.split_once('/'));
+        if module.is_some_and(|(module, _)| PUBLIC.contains(&module)) {
             let text = fs::read_to_string(&file).expect("source is UTF-8");
             for line in bare(&text).lines() {
                 let public = line.trim_start().strip_prefix("pub ");
@@ -49,14 +49,14 @@ fn public_types_have_different_names() {
                     kind.filter(|(kind, _)| ["struct", "enum", "type", "trait"].contains(kind));
                 let Some((_, name)) = named else { continue };
                 let name = name.split(|c: char| !c.is_alphanumeric()).next();
-                let home = homes
+                let files = files_by_name
                     .entry(name.unwrap_or_default().to_owned())
                     .or_default();
-                home.push(file.display().to_string());
+                files.push(file.display().to_string());
             }
         }
     }
-    assert!(homes.len() > 100, "{}", homes.len());
-    homes.retain(|name, files| name != "Options" && files.len() > 1);
-    assert!(homes.is_empty(), "{homes:#?}");
+    assert!(files_by_name.len() > 100, "{}", files_by_name.len());
+    files_by_name.retain(|name, files| name != "Options" && files.len() > 1);
+    assert!(files_by_name.is_empty(), "{files_by_name:#?}");
 }

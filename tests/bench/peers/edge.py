@@ -1,8 +1,9 @@
-"""Walls just short of the tilt at which they fall, and just past it: verdict, processor time, and the rung that decided.
+"""Checks walls whose gravity is tilted by slightly less or slightly more than the limit at which they fall.
 
     cargo build --release && python3 tests/bench/peers/edge.py target/release/drystone
 
-The tilt comes from `check --margins tilt`; each wall is then turned by it and a little more or less.
+The limit comes from `check --margins tilt`. The table lists the verdict, the processor time, and the method that
+decided.
 """
 
 import json
@@ -14,10 +15,10 @@ import tempfile
 
 import scenes
 
-# Bricks to a course, and courses.
+# Bricks per course, and number of courses.
 WALLS = [(20, 20), (30, 30), (45, 44)]
-# Differences from the tilt, as fractions of it; positive ones are beyond the limit.
-BESIDE = [1e-3, 1e-4, 1e-5, -1e-5, -1e-4]
+# Differences from the limit, as fractions of it. Positive differences are beyond the limit.
+DIFFERENCES = [1e-3, 1e-4, 1e-5, -1e-5, -1e-4]
 
 
 def wall(columns, rows):
@@ -30,11 +31,12 @@ def wall(columns, rows):
     return scenes.scene(f"wall of {len(bricks)}", bricks)
 
 
-def asked(binary, path, scene, *options):
+def check(binary, path, scene, *options):
+    """Checks a scene. Returns its first frame and the processor time in seconds."""
     path.write_text(json.dumps(scene))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    told = subprocess.run([binary, "check", "--json", *options, path], capture_output=True, check=False).stdout
-    return json.loads(told)["frames"][0], resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    output = subprocess.run([binary, "check", "--json", *options, path], capture_output=True, check=False).stdout
+    return json.loads(output)["frames"][0], resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def main():
@@ -45,13 +47,14 @@ def main():
         path = pathlib.Path(folder) / "wall.json"
         for columns, rows in WALLS:
             scene = wall(columns, rows)
-            _, upright = asked(binary, path, scene)
-            frame, _ = asked(binary, path, scene, "--margins", "tilt")
-            edge = frame["margins"]["tilt"]["right"]
-            for beside in BESIDE:
-                scene["gravity"] = list(scenes.turned(edge * (1 + beside)))
-                frame, seconds = asked(binary, path, scene)
-                cells = [len(scene["blocks"]), f"{beside:.0e}", frame["verdict"], len(frame["failures"]), frame["solve"]["method"]]
+            _, upright = check(binary, path, scene)
+            frame, _ = check(binary, path, scene, "--margins", "tilt")
+            limit = frame["margins"]["tilt"]["right"]
+            for difference in DIFFERENCES:
+                scene["gravity"] = list(scenes.turned(limit * (1 + difference)))
+                frame, seconds = check(binary, path, scene)
+                cells = [len(scene["blocks"]), f"{difference:.0e}", frame["verdict"], len(frame["failures"])]
+                cells += [frame["solve"]["method"]]
                 cells += [frame["solve"]["iterations"], f"{seconds:.2f}", f"{seconds / upright:.1f}"]
                 print("|", " | ".join(str(cell) for cell in cells), "|", flush=True)
 

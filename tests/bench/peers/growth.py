@@ -2,8 +2,9 @@
 
     python3 growth.py ../../../target/release/drystone --sizes 100,1000,10000
 
-Processor time of the whole process, the least of --rounds, and the most memory it held; the exponent is that of the time from
-the size before. What the stages take by themselves is told by `cargo bench --bench large`.
+The time is the processor time of the whole process, the minimum of --rounds runs. The memory is its peak. The
+exponent p means that the time grew with the p-th power of the number of blocks since the previous size. For the time
+of each stage, run `cargo bench --bench large`.
 """
 
 import argparse
@@ -20,6 +21,7 @@ KINDS = {"arch": scenes.arch, "towers of ten": scenes.separate, "wall": scenes.w
 
 
 def spent(command):
+    """Runs a command. Returns its processor time in seconds and its peak memory in megabytes."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)

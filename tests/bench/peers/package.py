@@ -1,6 +1,7 @@
-"""The calls of tests/bench/python.rs through the Python package.
+"""Makes the calls of tests/bench/python.rs through the Python package.
 
-Runs one round for each line on standard input, and prints each row with its median in microseconds.
+Runs one round for each line on standard input. Prints the name of each row and the median time of its calls in
+microseconds.
 """
 
 import sys
@@ -25,7 +26,7 @@ def timed(call, *arguments, **keys):
     return (perf_counter_ns() - start) / 1e3
 
 
-def told(name, times):
+def print_median(name, times):
     print(name, sorted(times)[len(times) // 2], sep="\t", flush=True)
 
 
@@ -37,7 +38,7 @@ def steps(kind, session, calls, polygon, keys):
         rows["release"].append(timed(session.release, "crane"))
         rows["remove"].append(timed(session.remove, "c"))
     for name, times in rows.items():
-        told(f"{name}, {kind}", times)
+        print_median(f"{name}, {kind}", times)
 
 
 def built():
@@ -53,8 +54,8 @@ def one_round(calls):
     lattice.block("a", cells=cells(0, 0)).block("b", cells=cells(3, 0))
     steps("cells", ds.Session(lattice), calls, None, {"cells": cells(1, 1)})
     scene = built()
-    told("check a scene of two blocks", [timed(ds.check, scene) for _ in range(calls)])
-    told("build it and check it", [timed(lambda: ds.check(built())) for _ in range(calls)])
+    print_median("check a scene of two blocks", [timed(ds.check, scene) for _ in range(calls)])
+    print_median("build it and check it", [timed(lambda: ds.check(built())) for _ in range(calls)])
 
 
 for _ in sys.stdin:

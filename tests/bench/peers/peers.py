@@ -1,16 +1,21 @@
-"""How other programs answer the same scenes: right or wrong, how fast, or how they failed to install.
+"""Compares the answers and the times of other programs for the same scenes. Lists programs that cannot be loaded.
 
     python3 -m venv env && env/bin/pip install -r requirements.txt
     cargo build --release && env/bin/python peers.py ../../../target/release/drystone --csv peers.csv
     UPDATE_SNAPSHOTS=1 cargo test --test it peers
 
-The last line draws the README's picture from that table anew; --csv keeps the rows of what was not asked this time.
+The last line draws the README's picture from the table again. --csv keeps the rows that are not measured in this run.
 
-Every peer is asked once outside the count and then timed several times, in turns with the others; medians are told. Solvers
-of programs are handed the source's program with contacts found for them, and their time is that of one call of the solver; the
-time of drystone is that of its whole process: starting it, reading, finding contacts, everything it finds out, and the result
-as JSON; "one of many" is its share of a batch of many copies, which gives verdicts alone, as a solver does. All times are processor time, so that other work on the machine counts little. Simulators get polygons and find
-contacts themselves. A peer whose last answer took longer than --patience is not asked about that kind of structure again.
+Every program runs once without being timed, and then several times alternately with the others. The table contains
+medians.
+
+- Solvers receive the source's program with the contacts already found. Their time is one call of the solver.
+- The time of drystone is its whole process: start, reading, finding contacts, analysis, and the result as JSON.
+- "drystone batch, one of many" is the time per scene in a batch of many copies. A batch computes verdicts alone.
+- Simulators receive polygons and find contacts themselves.
+
+All times are processor time, so that other work on the machine has little effect. After a run longer than --patience,
+a program is not run for that kind of structure again.
 """
 
 import argparse
@@ -34,7 +39,7 @@ from programs import program
 
 
 def spent():
-    """Processor time of this process and of those it has started, so that other work on the machine does not count."""
+    """Returns the processor time in seconds of this process and of the processes that it started and that ended."""
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return time.process_time() + children.ru_utime + children.ru_stime
 
@@ -43,9 +48,9 @@ def drystone(binary):
     def answer(case):
         command = [binary, "check", "--json", "--accuracy", level, case["path"]]
         start = spent()
-        told = json.loads(subprocess.run(command, capture_output=True, text=True, check=False).stdout)
+        result = json.loads(subprocess.run(command, capture_output=True, text=True, check=False).stdout)
         seconds = spent() - start
-        frame = told["frames"][0]
+        frame = result["frames"][0]
         case.setdefault("interfaces", frame["interfaces"])
         return frame["verdict"] == "stable", seconds
 
@@ -53,21 +58,22 @@ def drystone(binary):
 
 
 def drystone_batch(binary):
-    """The verdict of one scene among many that one process answers, reading and contacts included."""
+    """Checks many copies of a scene in one process. Returns the verdict and the time per copy, reading included."""
 
     def answer(case):
         copies = max(1, 2000 // len(case["scene"]["blocks"]))
         lines = (json.dumps(case["scene"]) + "\n") * copies
         start = spent()
-        told = subprocess.run([binary, "batch", "--jobs", "1"], input=lines, capture_output=True, text=True, check=False).stdout
+        command = [binary, "batch", "--jobs", "1"]
+        output = subprocess.run(command, input=lines, capture_output=True, text=True, check=False).stdout
         seconds = (spent() - start) / copies
-        return json.loads(told.split("\n", 1)[0])["verdict"] == "stable", seconds
+        return json.loads(output.split("\n", 1)[0])["verdict"] == "stable", seconds
 
     return answer
 
 
 def timed(solve):
-    """A solver of the program that is posed beforehand."""
+    """Times a solver alone: its program is built before the clock starts."""
 
     def answer(case):
         if "program" not in case:
@@ -216,7 +222,8 @@ def bullet():
                 moved = max(moved, abs(x - centre[0]), abs(z - centre[1]))
         finally:
             pybullet.disconnect(client)
-        # Two seconds later a structure that stands is where it was, to a twentieth of a block.
+        # The simulation lasts two seconds. A structure that stands moves by less than a twentieth of a block's
+        # length.
         return moved < 0.05, spent() - start
 
     return answer
@@ -234,7 +241,7 @@ def compas(solve_by):
 
     def answer(case):
         start = spent()
-        # Its gravity is vertical, so what gravity turns here is turned itself there.
+        # The gravity of compas_cra is vertical, so the structure is rotated instead of gravity.
         gx, gy = case["scene"]["gravity"]
         size = math.hypot(gx, gy)
         down = (gx / size, gy / size)
@@ -257,7 +264,7 @@ def compas(solve_by):
         except (ValueError, RuntimeError):
             return False, spent() - start
         seconds = spent() - start
-        # rbe_solve lets joints pull at a price: where any pulls more than a solver's error, the structure falls.
+        # rbe_solve permits tension at a cost. If any tension exceeds the error of the solver, the structure falls.
         forces = [force for interface in assembly.interfaces() for force in interface.forces]
         pushed = sum(force["c_np"] for force in forces)
         return all(force["c_nn"] <= 1e-4 * pushed for force in forces), seconds
@@ -283,42 +290,43 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("drystone")
     arguments.add_argument("--sizes", default="10,100,1000")
-    arguments.add_argument("--only", help="peers whose names have this in them")
+    arguments.add_argument("--only", help="runs only the programs whose names contain this text")
     arguments.add_argument("--rounds", type=int, default=5)
     arguments.add_argument("--patience", type=float, default=20.0, metavar="SECONDS")
-    arguments.add_argument("--csv", type=pathlib.Path, help="writes the medians here too, in place of older ones")
-    wanted = arguments.parse_args()
-    binary = os.path.abspath(wanted.drystone)
+    arguments.add_argument("--csv", type=pathlib.Path, help="also writes the medians to this file, over older ones")
+    options = arguments.parse_args()
+    binary = os.path.abspath(options.drystone)
     contestants = [
         ("drystone", drystone(binary)),
         ("drystone batch, one of many", drystone_batch(binary)),
     ]
     for name, package, make in PEERS:
-        if wanted.only and wanted.only not in name:
+        if options.only and options.only not in name:
             continue
         try:
             contestants.append((f"{name} {importlib.metadata.version(package)}", make()))
         except Exception as error:
-            print(f"{name}: not there: {type(error).__name__}: {error}", file=sys.stderr)
-    tired = set()
+            print(f"{name}: cannot be loaded: {type(error).__name__}: {error}", file=sys.stderr)
+    too_slow = set()
     print("| structure | blocks | stands | program | answer | ms | times drystone |")
     print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for size in (int(size) for size in wanted.sizes.split(",")):
+        for size in (int(size) for size in options.sizes.split(",")):
             for kind, make in scenes.KINDS.items():
                 for stands in (True, False):
                     scene = make(size, stands)
                     path = pathlib.Path(folder) / "scene.json"
                     path.write_text(json.dumps(scene))
-                    run(scene, str(path), kind, stands, contestants, wanted, tired)
+                    run(scene, str(path), kind, stands, contestants, options, too_slow)
 
 
-def run(scene, path, kind, stands, contestants, wanted, tired):
+def run(scene, path, kind, stands, contestants, options, too_slow):
+    """Runs all programs on one scene, prints their rows, and writes them to the table of --csv."""
     case = {"scene": scene, "path": path}
     answers, times = {}, {}
-    for turn in range(wanted.rounds + 1):
+    for turn in range(options.rounds + 1):
         for name, ask in contestants:
-            if (name, kind) in tired:
+            if (name, kind) in too_slow:
                 continue
             try:
                 answer, seconds = ask(case)
@@ -327,11 +335,11 @@ def run(scene, path, kind, stands, contestants, wanted, tired):
             answers[name] = answer
             if turn > 0:
                 times.setdefault(name, []).append(seconds)
-            if seconds > wanted.patience:
+            if seconds > options.patience:
                 times[name] = [seconds]
-                tired.add((name, kind))
+                too_slow.add((name, kind))
     own = statistics.median(times["drystone"])
-    table = read(wanted.csv)
+    table = read(options.csv)
     for name, _ in contestants:
         if name not in times:
             continue
@@ -347,14 +355,14 @@ def run(scene, path, kind, stands, contestants, wanted, tired):
             row = kind, blocks, "yes" if stands else "no", name, word.lower()
             table[row[:4]] = (*row, f"{1000 * seconds:.3g}")
         print(f"| {kind} | {blocks} | {'yes' if stands else 'no'} | {name} | {word} | {rest}", flush=True)
-    write(wanted.csv, table)
+    write(options.csv, table)
 
 
 HEAD = "structure,blocks,stands,program,answer,milliseconds"
 
 
 def read(path):
-    """The rows of a table by structure, blocks, whether it stands, and program."""
+    """Returns the rows of a table. The key of a row is its structure, blocks, whether it stands, and program."""
     if path is None or not path.exists():
         return {}
     with path.open(newline="") as file:

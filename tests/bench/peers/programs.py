@@ -1,8 +1,8 @@
 """The source's program, [Vallat23] 2.0.7, as matrices: min sum(x)  s.t.  A_eq x = b_eq,  A x <= 0,  x >= 0.
 
-Six unknowns per interface: a normal force and friction either way at each of two application points. Bodies, loads and
-contacts come from the scene and from the interfaces that `drystone check --json` found in it, since none of the solvers
-finds contacts.
+Each interface has six unknowns: at each of its two application points, a normal force and a friction force in either
+direction. Bodies and loads come from the scene. The solvers do not find contacts, so these come from the interfaces
+that `drystone check --json` lists.
 """
 
 import math

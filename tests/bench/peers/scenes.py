@@ -1,4 +1,4 @@
-"""Walls, arches and stacks that stand or fall, with the answer known beforehand."""
+"""Walls, arches and stacks for which it is known whether they stand or fall."""
 
 import math
 
@@ -26,7 +26,9 @@ def turned(degrees):
 
 
 def wall(blocks, stands):
-    """Running bond, half bricks at the ends of every other row; gravity turned by 40 degrees slides it off (tan 40 > 0.7)."""
+    """A wall in running bond with half bricks at the ends of every second row.
+
+    With gravity turned by 40 degrees it slides, because tan 40° > 0.7."""
     rows = max(2, round(math.sqrt(blocks / 2.5)))
     columns = max(2, round((blocks - rows // 2) / rows))
     bricks = []
@@ -40,8 +42,10 @@ def wall(blocks, stands):
 
 
 def arch(blocks, stands):
-    """A half circle; the least thickness that stands is 0.1075 of the radius (Milankovitch), for any number of stones a little
-    less, and none at 0.05 for ten stones or more."""
+    """A semicircular arch of radius 1.
+
+    A circular arch needs a thickness of 0.1075 of its radius (Milankovitch); an arch of finitely many stones needs
+    slightly less. With ten stones or more it falls at a thickness of 0.05."""
     thickness = 0.2 if stands else 0.05
     inner, outer = 1 - thickness / 2, 1 + thickness / 2
 
@@ -54,15 +58,17 @@ def arch(blocks, stands):
 
 
 def stack(blocks, stands):
-    """One brick on another, each shifted by the same: the centre of all above the lowest is (n - 1)/2 shifts and half a shift
-    from its middle, so a stack stands up to a shift of 1/n."""
+    """A stack of n bricks of length 1, each shifted by the same distance s.
+
+    The centre of gravity of all bricks above the lowest lies n/2 * s from the middle of the lowest. So the stack
+    stands up to s = 1/n."""
     shift = (0.9 if stands else 1.1) / blocks
     bricks = [rectangle(shift * k, 0.25 * k, 1.0, 0.25) for k in range(blocks)]
     return scene(f"stack of {blocks}", bricks)
 
 
 def separate(blocks, stands):
-    """Towers of ten beside each other; of those that fall the last one does."""
+    """Separate towers of ten bricks. If the structure should fall, only the last tower does."""
     bricks = []
     towers = max(1, blocks // 10)
     for tower in range(towers):

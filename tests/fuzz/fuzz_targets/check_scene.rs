@@ -1,5 +1,5 @@
-//! Every random pile of bricks gets a verdict with finite numbers, a proof that holds or a reason why there is none, and a
-//! figure. Nothing panics.
+//! Every valid random pile of bricks has a result with finite numbers and a figure. A decided verdict has a proof
+//! that holds; an undecided one has a reason. Nothing panics.
 
 #![no_main]
 
@@ -20,7 +20,7 @@ struct Heap {
     load: Option<(u8, i16, i16)>,
 }
 
-/// A brick dropped onto whatever lies below it; leaning ones touch along slopes.
+/// A brick that is placed on the highest brick below it. A leaning brick is a parallelogram.
 #[derive(Arbitrary, Debug)]
 struct Brick {
     x: u8,

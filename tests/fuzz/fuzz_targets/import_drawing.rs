@@ -1,4 +1,5 @@
-//! Any bytes are either a sound scene or a reason, read as SVG, DXF, GeoJSON and well-known text; never a panic.
+//! Any bytes read as SVG, DXF, GeoJSON or well-known text are either imported as a valid scene or refused with a
+//! message. Nothing panics.
 
 #![no_main]
 

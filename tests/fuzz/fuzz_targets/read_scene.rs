@@ -1,4 +1,5 @@
-//! Any bytes are either a scene or a list of problems, each with words and a place inside the text; never a panic.
+//! Any bytes are either read as a scene or refused with a list of problems. Each problem has a message, and its
+//! position lies inside the text. Nothing panics.
 
 #![no_main]
 
@@ -9,7 +10,7 @@ fuzz_target!(|bytes: &[u8]| {
     let Err(problems) = Scene::from_slice(bytes) else {
         return;
     };
-    assert!(!problems.list.is_empty(), "refused without a word");
+    assert!(!problems.list.is_empty(), "refused without a problem");
     for problem in &problems.list {
         assert!(!problem.message.is_empty());
         if let (Some(span), Some(text)) = (&problem.span, &problems.text) {

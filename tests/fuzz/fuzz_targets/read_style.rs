@@ -1,5 +1,5 @@
-//! Any bytes are either a theme, which is written as a style file that gives the same theme, or a list of problems; never a
-//! panic.
+//! Any bytes are either read as a theme or refused with a list of problems. A theme that is written as a style file
+//! and read again is the same theme. Nothing panics.
 
 #![no_main]
 
@@ -13,11 +13,11 @@ fuzz_target!(|bytes: &[u8]| {
         match Theme::read(&text, notation, None) {
             Ok(theme) => {
                 let written = theme.to_json();
-                let again = Theme::read(&written, Notation::Json, None).expect("our own file is sound");
+                let again = Theme::read(&written, Notation::Json, None).expect("a file that we write is valid");
                 assert_eq!(again.to_json(), written);
             }
             Err(problems) => {
-                assert!(!problems.0.is_empty(), "refused without a word");
+                assert!(!problems.0.is_empty(), "refused without a problem");
                 assert!(problems.0.iter().all(|p| !p.to_string().is_empty()));
             }
         }

@@ -9,7 +9,7 @@ use crate::oracle::balance::Balance;
 use crate::oracle::number_of;
 use crate::oracle::touch::touches;
 
-/// In 90 directions each, no vertex lies outside the exact set and the set reaches as far as the exact one.
+/// In each of 90 directions, the set extends as far as the exact set, up to a millionth of its size.
 /// `DRYSTONE_CAPACITY_SCENES=1000` compares more scenes than the usual 30.
 #[test]
 #[expect(
@@ -41,7 +41,7 @@ fn random_sets_are_those_of_an_exact_program() {
         .iter()
         .fold([0.0, 0.0], |[a, b]: [f64; 2], c| [a.max(c.0), b.max(c.1)]);
     println!(
-        "{} sets, the farthest vertex outside by {:.1e}, the shortest direction short by {:.1e}; {} wrong",
+        "{} sets, beyond the exact set by at most {:.1e}, short of it by at most {:.1e}; {} wrong",
         good.len(),
         worst[0],
         worst[1],
@@ -77,8 +77,8 @@ fn random_sets_are_those_of_an_exact_program() {
     assert!(withheld.len() as u64 <= 2 + wanted / 100, "{withheld:?}");
 }
 
-/// How far the vertices lie outside the exact set, and how much the set falls short of it, both relative to its size;
-/// or why there is nothing to compare.
+/// The largest distances by which the set extends beyond the exact set and falls short of it, both divided by the
+/// size of the set. Otherwise the reason why the scene is not compared.
 type Compared = Result<(f64, f64, CapacityShape), Skipped>;
 
 /// Why a scene is not compared.
@@ -86,13 +86,14 @@ type Compared = Result<(f64, f64, CapacityShape), Skipped>;
 enum Skipped {
     /// The scene is not valid, its blocks overlap, or rounding opens a contact of the exact program.
     NoScene,
-    /// The verdict of other blocks lies within the tolerance, or a set that is empty in exact numbers is not empty
-    /// within it.
+    /// The other blocks are within the tolerance of their limit, or the set is empty in exact numbers but not empty
+    /// within the tolerance.
     InBand,
     /// The capacity is withheld, because the proved forces and the proved motions do not agree closely enough.
     Withheld(u64),
 }
 
+/// Compares the capacity of one block of a random scene. An error is a text that describes a wrong set.
 fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let file = crate::oracle::random::scene(number).1;
     let Ok(scene) = Scene::from_json(&file.to_string()) else {
@@ -134,7 +135,7 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let Some(exact) = exact else {
         return match found.shape() {
             CapacityShape::Empty => Ok(Ok((0.0, 0.0, found.shape()))),
-            // Some force may be carried within the tolerance of a proof.
+            // A force may be carried within the tolerance of a proof.
             _ if own.holds_within_band(block, [at.x, at.y]) => Ok(Err(Skipped::InBand)),
             shape => Err(format!("{number}: {shape:?} instead of empty\n{file}")),
         };

@@ -5,7 +5,7 @@ use drystone::Analysis;
 use drystone::analysis::Proof;
 use serde_json::Value;
 
-use super::{Told, cross, dot, less, list, number, pair, structures};
+use super::{Checked, cross, dot, less, list, number, pair, structures};
 use crate::structure::scene;
 
 /// The forces on one block.
@@ -13,9 +13,12 @@ use crate::structure::scene;
 struct Acting {
     force: [f64; 2],
     moment: f64,
-    /// Sum of the amounts of all forces, of the loads alone, and of the forces and moments that a change can scale.
+    /// The sum of the magnitudes of all forces, N.
     total: f64,
+    /// The sum of the magnitudes of the weight and the listed loads, N. Their moment is divided by the block's
+    /// radius.
     load: f64,
+    /// The sums of |Fx|, |Fy| and |moment| of all forces.
     scalable: [f64; 3],
 }
 
@@ -48,10 +51,10 @@ fn name(value: &Value) -> &str {
     value.as_str().expect("a name")
 }
 
-/// The forces on every block: weight, loads, interfaces, robots, and the missing forces; with the radius of the
-/// block.
-fn acting(told: &Told) -> Vec<(String, f64, Acting)> {
-    let (scene, frame) = (scene(&told.file), &told.json["frames"][0]);
+/// The name and the radius of every block, and the forces on it: weight, loads, contact forces, robot forces and
+/// missing forces.
+fn acting(checked: &Checked) -> Vec<(String, f64, Acting)> {
+    let (scene, frame) = (scene(&checked.file), &checked.json["frames"][0]);
     let down = [scene.down().x, scene.down().y];
     let mut all = Vec::new();
     for (number_of, block) in scene.blocks().iter().enumerate() {
@@ -117,35 +120,34 @@ fn acting(told: &Told) -> Vec<(String, f64, Acting)> {
     all
 }
 
-/// The unbalanced remainder of a block, in newtons, and as a share of its load.
-fn left(radius: f64, acting: &Acting) -> (f64, f64) {
-    let left = norm(acting.force).max(acting.moment.abs() / radius);
-    (left, left / acting.load)
+/// The unbalanced force of a block, in newtons, and as a fraction of its load. A moment is divided by the radius.
+fn remainder(radius: f64, acting: &Acting) -> (f64, f64) {
+    let force = norm(acting.force).max(acting.moment.abs() / radius);
+    (force, force / acting.load)
 }
 
 #[test]
 fn listed_forces_and_missing_ones_balance_every_block() {
     let (mut standing, mut falling) = (0, 0);
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         let unsupported = list(&frame["unsupported"]);
         if frame["verdict"] == "undecided" {
             continue;
         }
-        let all = acting(&told);
-        // The permitted remainder is a share of the forces of the component, measured by its most heavily loaded
-        // block.
+        let all = acting(&checked);
+        // The permitted remainder of a frame that falls is a fraction of the forces on its most heavily loaded block.
         let size = all.iter().map(|(.., a)| a.total).fold(0.0, f64::max);
         for (id, radius, acting) in &all {
             if unsupported.iter().any(|block| name(block) == id) {
                 continue;
             }
-            let (left, _) = left(*radius, acting);
+            let (left, _) = remainder(*radius, acting);
             let within = match frame["verdict"] == "stable" {
                 true => 1e-6 * acting.total,
                 false => 2e-6 * size,
             };
-            assert!(left <= within, "{id}: {left} of {size} in {}", told.file);
+            assert!(left <= within, "{id}: {left} of {size} in {}", checked.file);
         }
         match frame["verdict"] == "stable" {
             true => standing += 1,
@@ -155,27 +157,28 @@ fn listed_forces_and_missing_ones_balance_every_block() {
     assert!(standing > 20 && falling > 20, "{standing} {falling}");
 }
 
-/// `worst_share` is what the JSON's own forces leave unbalanced; `worst_imbalance` is no less than what each force and moment
-/// would have to change at least; `worst_pull` and `worst_slip` are those of the listed forces.
+/// `worst_share` is the largest unbalanced fraction of a block's load, from the forces in the JSON. `worst_imbalance`
+/// is at least the relative change of the forces and moments that would balance every block. `worst_pull` and
+/// `worst_slip` are computed from the listed forces.
 #[test]
 fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
     let mut seen = 0;
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         if frame["verdict"] != "stable" {
             continue;
         }
         let proof = &frame["proof"];
         let (mut worst_share, mut least_change): (f64, f64) = (0.0, 0.0);
         let mut rounding: f64 = 0.0;
-        for (_, radius, acting) in acting(&told) {
+        for (_, radius, acting) in acting(&checked) {
             if acting.load == 0.0 {
                 continue;
             }
             // The rounding error of a plain sum is about 1e-15 of its terms, and more about a distant centroid.
             rounding = rounding.max(1e-13 * acting.total / acting.load);
-            worst_share = worst_share.max(left(radius, &acting).1);
-            // A force may change by a share of its amount and move by that share of the radius.
+            worst_share = worst_share.max(remainder(radius, &acting).1);
+            // A force may change by a fraction of its magnitude and move by the same fraction of the radius.
             let [x, y, moment] = acting.scalable;
             for (left, can) in [
                 (acting.force[0].abs(), x + acting.total),
@@ -192,10 +195,10 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
         assert!(
             (share - worst_share).abs() <= rounding + 1e-6 * share,
             "{share} {worst_share} {rounding}: {}",
-            told.file
+            checked.file
         );
         let imbalance = number(&proof["worst_imbalance"]);
-        let own = Analysis::new(scene(&told.file)).frames.remove(0).proof;
+        let own = Analysis::new(scene(&checked.file)).frames.remove(0).proof;
         assert!(
             matches!(own, Proof::Forces { worst_imbalance, .. } if worst_imbalance == imbalance),
             "{imbalance}: {own:?}"
@@ -203,7 +206,7 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
         assert!(
             imbalance + 1e-12 >= least_change && imbalance <= 1e-7,
             "{imbalance} {least_change}: {}",
-            told.file
+            checked.file
         );
         let (mut pull, mut slip): (f64, f64) = (0.0, 0.0);
         for interface in list(&frame["interfaces"]) {
@@ -225,8 +228,8 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
 /// Limits hold to the last bit, because a reader compares the printed numbers.
 #[test]
 fn shares_and_forces_lie_within_the_limits_they_are_compared_with() {
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         for interface in list(&frame["interfaces"]) {
             let [a, b] = pair(&interface["normal_forces"]);
             let share = number(&interface["friction_used"]);
@@ -237,8 +240,8 @@ fn shares_and_forces_lie_within_the_limits_they_are_compared_with() {
         }
         for robot in list(&frame["robots"]) {
             let share = number(&robot["limit_used"]);
-            assert!((0.0..=1.0).contains(&share), "{robot}: {}", told.file);
-            let listed = list(&told.file["robots"]).iter();
+            assert!((0.0..=1.0).contains(&share), "{robot}: {}", checked.file);
+            let listed = list(&checked.file["robots"]).iter();
             let limits = &listed.clone().find(|r| r["id"] == robot["id"]).expect("it")["limits"];
             let [x, y] = pair(&robot["force"]);
             for (key, given) in [("fx", x), ("fy", y), ("torque", number(&robot["torque"]))] {
@@ -247,13 +250,13 @@ fn shares_and_forces_lie_within_the_limits_they_are_compared_with() {
                     _ => limits["force"].as_f64(),
                 });
                 let within = limit.is_none_or(|limit| given.abs() <= limit);
-                assert!(within, "{robot} {limits}: {}", told.file);
+                assert!(within, "{robot} {limits}: {}", checked.file);
             }
         }
     }
 }
 
-/// Distance of a point from a line between two corners.
+/// Distance of a point from the segment between two corners.
 fn distance(at: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (span, arm) = (less(b, a), less(at, a));
     let share = (dot(arm, span) / dot(span, span)).clamp(0.0, 1.0);
@@ -261,10 +264,10 @@ fn distance(at: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 #[test]
-fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
+fn interfaces_lie_on_both_outlines_and_the_kernel_sets_their_application_points() {
     let mut seen = 0;
-    for told in structures() {
-        let scene = scene(&told.file);
+    for checked in structures() {
+        let scene = scene(&checked.file);
         let rings = |body: &str| -> Vec<Vec<[f64; 2]>> {
             let polygons = match body {
                 "ground" => scene.ground().iter().map(|g| &g.body.polygon).collect(),
@@ -292,10 +295,10 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
                 .map(|(a, b)| distance(at, a, b))
                 .fold(f64::INFINITY, f64::min)
         };
-        let gap = number(&told.json["contact_tolerance"]["gap"]);
-        let friction = told.file["friction"].as_f64().unwrap_or(0.7);
-        let kernel = told.file["kernel"].as_f64().unwrap_or(0.0);
-        for interface in list(&told.json["frames"][0]["interfaces"]) {
+        let gap = number(&checked.json["contact_tolerance"]["gap"]);
+        let friction = checked.file["friction"].as_f64().unwrap_or(0.7);
+        let kernel = checked.file["kernel"].as_f64().unwrap_or(0.0);
+        for interface in list(&checked.json["frames"][0]["interfaces"]) {
             let ends = [pair(&interface["ends"][0]), pair(&interface["ends"][1])];
             let span = less(ends[1], ends[0]);
             let reach = norm(ends[0]).max(norm(ends[1])).max(1.0);
@@ -316,12 +319,12 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
             let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
             let inside = [0, 1].map(|k| middle[k] + hair * normal[k]);
             let first = name(&interface["bodies"][0]);
-            let winding: i32 = rings(first).iter().map(|ring| turns(ring, inside)).sum();
+            let winding: i32 = rings(first).iter().map(|ring| winding(ring, inside)).sum();
             assert!(
                 winding != 0,
                 "the normal does not point into {first}: {interface}"
             );
-            // The kernel keeps forces away from each end by half of its share of the length.
+            // The distance of an application point from its end is half of the kernel times the length.
             for (k, at) in list(&interface["application_points"]).iter().enumerate() {
                 let share = if k == 0 {
                     0.5 * kernel
@@ -342,8 +345,8 @@ fn interfaces_lie_on_both_outlines_and_press_where_the_kernel_leaves_it() {
     assert!(seen > 200, "{seen}");
 }
 
-/// How many times a ring goes around a point.
-fn turns(ring: &[[f64; 2]], at: [f64; 2]) -> i32 {
+/// The winding number of a ring about a point.
+fn winding(ring: &[[f64; 2]], at: [f64; 2]) -> i32 {
     let mut turns = 0;
     for (k, a) in ring.iter().enumerate() {
         let b = ring[(k + 1) % ring.len()];

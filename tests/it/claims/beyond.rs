@@ -3,10 +3,10 @@
 use drystone::analysis::Options;
 use serde_json::{Value, json};
 
-use super::{Told, cross, dot, less, list, number, pair, told, told_with};
+use super::{Checked, check, check_with, cross, dot, less, list, number, pair};
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
-/// The velocity of a point of a body under a motion. The ground and bodies that are not listed are at rest.
+/// The velocity of a point of a body in a motion. The ground and bodies that are not listed are at rest.
 fn velocity(motions: &Value, body: &str, centroid: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     let own = list(motions).iter().find(|m| m["block"] == body);
     own.map_or([0.0; 2], |m| {
@@ -48,7 +48,7 @@ fn power_and_worst(changed: &Value, motions: &Value) -> (f64, f64) {
         power -= number(&limits["torque"]) * spin(&robot["holds"]).abs();
     }
     let mut worst = 0.0_f64;
-    for interface in list(&told(changed).json["frames"][0]["interfaces"]) {
+    for interface in list(&check(changed).json["frames"][0]["interfaces"]) {
         let normal = pair(&interface["normal"]);
         let [a, b] = [0, 1].map(|k| interface["bodies"][k].as_str().expect("a name"));
         for at in list(&interface["application_points"]) {
@@ -60,18 +60,18 @@ fn power_and_worst(changed: &Value, motions: &Value) -> (f64, f64) {
     (power, worst)
 }
 
-/// A scene whose margins are checked, and the number of motions beyond their ends that do work.
+/// A scene whose margins are checked, and the number of motions checked so far.
 struct Beyond {
-    told: Told,
+    checked: Checked,
     seen: usize,
 }
 
 impl Beyond {
-    /// Asserts that the motion beyond an end does work in a scene that is changed slightly further, and no contact
-    /// can stop it.
+    /// Asserts that the motion listed for an end does work in the scene changed to just beyond this end, and that no
+    /// contact can stop it.
     fn holds(&mut self, motions: &Value, end: &Value, change: &dyn Fn(f64) -> Value, sign: f64) {
         let Some(at) = end.as_f64().filter(|at| at.abs() > 1e-6) else {
-            // There are no values below 0, and no motion if there is no end.
+            // Without an end there is no motion. Nor is there one at an end of 0, below which there are no values.
             assert!(list(motions).is_empty(), "{end}: {motions}");
             return;
         };
@@ -83,7 +83,7 @@ impl Beyond {
     }
 
     fn with(&self, key: &str, value: Value) -> Value {
-        let mut changed = self.told.file.clone();
+        let mut changed = self.checked.file.clone();
         changed[key] = value;
         changed
     }
@@ -94,8 +94,8 @@ impl Beyond {
     }
 
     fn pushed(&self, share: f64) -> Value {
-        let scene = scene(&self.told.file);
-        let mut loads = list(&self.told.file["loads"]).to_vec();
+        let scene = scene(&self.checked.file);
+        let mut loads = list(&self.checked.file["loads"]).to_vec();
         for block in scene.blocks() {
             let at = [block.centroid.x, block.centroid.y];
             let push = [share * block.weight, 0.0];
@@ -105,7 +105,7 @@ impl Beyond {
     }
 
     fn loaded(&self, factor: f64) -> Value {
-        let mut changed = self.told.file.clone();
+        let mut changed = self.checked.file.clone();
         for load in changed["loads"].as_array_mut().into_iter().flatten() {
             for axis in 0..2 {
                 load["force"][axis] = json!(number(&load["force"][axis]) * factor);
@@ -114,12 +114,12 @@ impl Beyond {
         changed
     }
 
-    fn checked(&mut self) {
-        let margins = self.told.json["frames"][0]["margins"].clone();
+    fn check_margins(&mut self) {
+        let margins = self.checked.json["frames"][0]["margins"].clone();
         let beyond = &margins["mechanisms"];
-        let file = self.told.file.clone();
+        let file = self.checked.file.clone();
         let this = Beyond {
-            told: told(&file),
+            checked: check(&file),
             seen: 0,
         };
         let friction = |mu: f64| this.with("friction", json!(mu));
@@ -141,16 +141,16 @@ impl Beyond {
             ("load_factor", &loaded),
         ];
         for (key, change) in changes {
-            for (side, way) in [("left", -1.0), ("right", 1.0)] {
+            for (side, sign) in [("left", -1.0), ("right", 1.0)] {
                 if let Some(at) = margins[key][side].as_f64() {
-                    self.holds(&beyond[key][side], &json!(way * at), change, way);
+                    self.holds(&beyond[key][side], &json!(sign * at), change, sign);
                 }
             }
-            for (k, way) in [-1.0, 1.0].into_iter().enumerate() {
+            for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
                 let both = &beyond["intervals"][key];
                 if both.is_array() {
                     let end = &margins["intervals"][key][k];
-                    self.holds(&both[k], end, change, way);
+                    self.holds(&both[k], end, change, sign);
                 }
             }
         }
@@ -193,17 +193,17 @@ fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
         held,
     ] {
         let mut beyond = Beyond {
-            told: told_with(&file, &options),
+            checked: check_with(&file, &options),
             seen: 0,
         };
-        beyond.checked();
+        beyond.check_margins();
         seen += beyond.seen;
     }
     assert!(seen >= 25, "{seen}");
 }
 
-/// Scenes that stand at no value of one or more parameters: parts with conflicting needs, a block that hangs in the air, and
-/// a plank that no tilt holds.
+/// Scenes that stand at no value of one or more parameters: groups of blocks that never stand at the same value, a
+/// block that hangs in the air, and a plank that falls at every tilt.
 fn hopeless() -> Vec<Value> {
     let read = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
     let mut files = vec![
@@ -226,14 +226,14 @@ fn hopeless() -> Vec<Value> {
     files
 }
 
-/// Whether one of the listed motions excludes a value: it does work in the scene changed to this value, and no
-/// contact or robot can stop it.
-fn is_excluded(reasons: &Value, at: f64, turn: f64, changed: &Value) -> bool {
+/// Whether one of the listed motions excludes the value `at`: it does work in the scene changed to this value, and no
+/// contact or robot can stop it. `period` is 360° for a tilt, otherwise 0.
+fn is_excluded(reasons: &Value, at: f64, period: f64, changed: &Value) -> bool {
     let covers = |reason: &&Value| {
         let from = reason["from"].as_f64().unwrap_or(f64::NEG_INFINITY);
         let to = reason["to"].as_f64().unwrap_or(f64::INFINITY);
         let is_within = |at: f64| from <= at && at <= to;
-        is_within(at) || is_within(at - turn) || is_within(at + turn)
+        is_within(at) || is_within(at - period) || is_within(at + period)
     };
     let reasons = list(reasons);
     assert!(!reasons.is_empty(), "{at}: nothing excludes it");
@@ -245,7 +245,7 @@ fn is_excluded(reasons: &Value, at: f64, turn: f64, changed: &Value) -> bool {
 
 /// If an interval is empty, the listed motions exclude all its values. Otherwise none are listed.
 #[test]
-fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
+fn a_scene_with_an_empty_interval_falls_at_each_value_by_a_listed_motion() {
     let signed: Vec<f64> = vec![-900.0, -3.1, -0.61, -0.07, 0.0, 0.03, 0.47, 0.9, 8.0, 1e3];
     let grown: Vec<f64> = signed.iter().map(|v| v.abs()).collect();
     let shares: Vec<f64> = grown.iter().copied().filter(|v| *v <= 1.0).collect();
@@ -253,10 +253,10 @@ fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
     let (mut seen, mut pairs) = (Vec::new(), 0);
     for file in hopeless() {
         let this = Beyond {
-            told: told_with(&file, &Options::default().margins(true)),
+            checked: check_with(&file, &Options::default().margins(true)),
             seen: 0,
         };
-        let margins = this.told.json["frames"][0]["margins"].clone();
+        let margins = this.checked.json["frames"][0]["margins"].clone();
         let excluded = &margins["excluded"];
         let friction = |mu: f64| this.with("friction", json!(mu));
         let kernel = |kernel: f64| this.with("kernel", json!(kernel));
@@ -271,7 +271,7 @@ fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
             ("horizontal_load", &signed, 0.0, &pushed),
             ("load_factor", &grown, 0.0, &loaded),
         ];
-        for (key, values, turn, change) in changes {
+        for (key, values, period, change) in changes {
             let interval = margins["intervals"].get(key);
             let is_empty = interval.is_some_and(Value::is_null);
             assert_eq!(is_empty, !excluded[key].is_null(), "{key} {margins}");
@@ -283,7 +283,7 @@ fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
             for at in values {
                 let changed = change(*at);
                 assert!(
-                    is_excluded(&excluded[key], *at, turn, &changed),
+                    is_excluded(&excluded[key], *at, period, &changed),
                     "{key} {at}: {} {changed}",
                     excluded[key]
                 );
@@ -321,5 +321,5 @@ fn what_stands_at_no_value_falls_at_each_by_a_listed_motion() {
     ] {
         assert!(seen.contains(&key), "no scene stands at no {key}");
     }
-    assert!(pairs >= 2, "{pairs} conflicts of two parts");
+    assert!(pairs >= 2, "{pairs} conflicts of two groups");
 }

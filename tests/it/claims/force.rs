@@ -1,4 +1,4 @@
-//! The statements about forces: totals, weights, resultants, shares of friction and of limits.
+//! The statements about forces: totals, weights, resultants, and the used fractions of friction and of limits.
 
 use drystone::result::{
     Fields, Layout, Origin, PictureOutcome, Timing, line_of, to_json, to_json_with_blocks,
@@ -6,14 +6,14 @@ use drystone::result::{
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
-use super::{cross, dot, less, list, number, pair, structures, told};
+use super::{check, cross, dot, less, list, number, pair, structures};
 use crate::structure::{block, on_floor, rectangle};
 
 #[test]
-fn totals_are_the_sums_of_what_is_listed() {
+fn totals_are_the_sums_of_the_listed_forces() {
     let mut falling = 0;
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         let mut sum = 0.0;
         for interface in list(&frame["interfaces"]) {
             let normal = pair(&interface["normal_forces"]);
@@ -21,19 +21,20 @@ fn totals_are_the_sums_of_what_is_listed() {
         }
         for robot in list(&frame["robots"]) {
             let force = pair(&robot["force"]);
-            sum += force[0].abs() + force[1].abs() + number(&robot["torque"]).abs() / told.length;
+            sum +=
+                force[0].abs() + force[1].abs() + number(&robot["torque"]).abs() / checked.length;
         }
         let total = number(&frame["total_force"]);
         assert!(
             (sum - total).abs() <= 1e-9 * sum.max(1e-9),
             "{sum} {total}: {}",
-            told.file
+            checked.file
         );
         let missing: f64 = list(&frame["failures"])
             .iter()
             .map(|f| match f["torque"].is_null() {
                 true => number(&f["amount"]),
-                false => number(&f["amount"]) / told.length,
+                false => number(&f["amount"]) / checked.length,
             })
             .sum();
         let sticking = number(&frame["total_sticking"]);
@@ -41,7 +42,7 @@ fn totals_are_the_sums_of_what_is_listed() {
         assert!(
             (missing - sticking).abs() <= 1e-6 * size,
             "{missing} {sticking}: {}",
-            told.file
+            checked.file
         );
         falling += usize::from(missing > 0.0);
         for failure in list(&frame["failures"]) {
@@ -67,8 +68,8 @@ fn the_weight_is_that_of_the_placed_blocks() {
             json!({ "id": "c", "polygon": rectangle(3.0, 0.0, 2.0, 0.5), "density": 200 }),
         ],
     );
-    let told = told(&file);
-    let weight = number(&told.json["frames"][0]["weight"]);
+    let checked = check(&file);
+    let weight = number(&checked.json["frames"][0]["weight"]);
     assert!(
         (weight - (12.5 + 200.0 * 9.81)).abs() < 1e-9 * weight,
         "{weight}"
@@ -112,13 +113,16 @@ fn the_blocks_of_a_frame_are_those_placed_with_their_weights_and_outlines() {
         "{\"frames\":[{\"blocks\":[{\"area\":12.0}]},{\"blocks\":[{\"area\":12.0},{\"area\":2.0}]}]}\n"
     );
     let plain = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
-    assert!(!plain.contains("\"blocks\""), "only on request");
+    assert!(
+        !plain.contains("\"blocks\""),
+        "blocks are listed only on request"
+    );
 }
 
 #[test]
 fn resultants_replace_the_forces_at_both_points() {
-    for told in structures() {
-        for interface in list(&told.json["frames"][0]["interfaces"]) {
+    for checked in structures() {
+        for interface in list(&checked.json["frames"][0]["interfaces"]) {
             let normal = pair(&interface["normal"]);
             let tangent = [-normal[1], normal[0]];
             let forces = pair(&interface["normal_forces"]);
@@ -153,9 +157,9 @@ fn resultants_replace_the_forces_at_both_points() {
 }
 
 #[test]
-fn contact_forces_press_and_friction_is_stated_as_a_share() {
-    for told in structures() {
-        for interface in list(&told.json["frames"][0]["interfaces"]) {
+fn contact_forces_press_and_friction_is_stated_as_a_used_fraction() {
+    for checked in structures() {
+        for interface in list(&checked.json["frames"][0]["interfaces"]) {
             let forces = pair(&interface["normal_forces"]);
             assert!(forces[0] >= 0.0 && forces[1] >= 0.0, "{interface}");
             let most = number(&interface["mu"]) * (forces[0] + forces[1]);
@@ -172,11 +176,11 @@ fn contact_forces_press_and_friction_is_stated_as_a_share() {
 }
 
 #[test]
-fn a_robot_stays_within_its_limits_and_states_the_largest_share() {
+fn a_robot_stays_within_its_limits_and_states_the_largest_used_fraction() {
     let mut limited = 0;
-    for told in structures() {
-        for robot in list(&told.json["frames"][0]["robots"]) {
-            let listed = list(&told.file["robots"])
+    for checked in structures() {
+        for robot in list(&checked.json["frames"][0]["robots"]) {
+            let listed = list(&checked.file["robots"])
                 .iter()
                 .find(|r| r["id"] == robot["id"]);
             let limits = &listed.expect("a robot of the file")["limits"];
@@ -190,7 +194,7 @@ fn a_robot_stays_within_its_limits_and_states_the_largest_share() {
             let given = [
                 (x, limit("fx")),
                 (y, limit("fy")),
-                // A robot without a limit of its torque exerts no torque.
+                // A robot without a torque limit exerts no torque.
                 (
                     number(&robot["torque"]),
                     Some(limit("torque").unwrap_or(0.0)),
@@ -202,7 +206,7 @@ fn a_robot_stays_within_its_limits_and_states_the_largest_share() {
                 assert!(
                     amount.abs() <= limit * (1.0 + 1e-9),
                     "{robot} {}",
-                    told.file
+                    checked.file
                 );
                 if limit > 0.0 {
                     most = most.max(amount.abs() / limit);

@@ -3,7 +3,7 @@
 use drystone::Scene;
 use serde_json::{Value, json};
 
-use super::{less, list, number, pair, told};
+use super::{check, less, list, number, pair};
 use crate::structure::wall;
 
 /// A wall rotated about the origin, with coordinates of four decimals.
@@ -47,17 +47,17 @@ fn moves(file: &Value) -> Vec<f64> {
 /// Four decimals leave corners up to 7·10⁻⁵ m away from the bodies that they touch. The result counts the corners
 /// that healing moved.
 #[test]
-fn what_healing_moved_is_counted_and_measured() {
+fn moved_corners_are_counted_and_the_largest_move_is_stated() {
     let mut seen = 0;
     for degrees in [3.0, 17.3, 24.0] {
         let mut file = turned(degrees);
         file["title"] = json!("a wall");
-        let json = told(&file).json;
+        let json = check(&file).json;
         assert_eq!(json["drystone"], env!("CARGO_PKG_VERSION"));
         assert_eq!(json["scene"], "a wall");
         let tolerance = &json["contact_tolerance"];
-        // Half of the last digit for rounding, twice for two bodies, and their diagonals: together one and a half
-        // digits.
+        // Rounding moves each coordinate by half a unit of the last decimal. Two corners move apart by twice this in
+        // x and in y, so by √2 units. This is rounded up to one and a half units.
         let gap = 1.5e-4;
         assert_eq!(
             (&tolerance["from"], &tolerance["digits"]),
@@ -82,7 +82,7 @@ fn what_healing_moved_is_counted_and_measured() {
     }
     assert_eq!(seen, 3);
     // Without rotation, every corner lies on the body that it touches.
-    let tolerance = &told(&turned(0.0)).json["contact_tolerance"];
+    let tolerance = &check(&turned(0.0)).json["contact_tolerance"];
     let moved = (&tolerance["moved_corners"], &tolerance["largest_move"]);
     assert_eq!(moved, (&json!(0), &json!(0.0)));
 }

@@ -1,4 +1,6 @@
-//! Intervals in words and as bars: the output of the terminal and of a report is recomputed from `check --json`.
+//! Intervals in words and as bars: the output of the terminal and of a report is compared with `check --json`.
+
+mod headline;
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -10,12 +12,15 @@ use tempfile::TempDir;
 use super::{list, number};
 use crate::structure::{on_slope, wall};
 
-/// A parameter that varies: its name in words, its key in `margins.intervals`, whether it may be negative, its
-/// present value.
+/// A parameter that has an interval.
 struct Parameter {
+    /// Its name in the output for people.
     name: String,
+    /// The JSON pointer of its interval in `margins.intervals`.
     pointer: String,
+    /// True if it may be negative.
     is_signed: bool,
+    /// Its value in the scene file.
     present: f64,
 }
 
@@ -54,7 +59,7 @@ fn parameters(file: &Value) -> Vec<Parameter> {
     all
 }
 
-/// The output for one scene: the result, the terminal's lines, and the report.
+/// One scene file, the frame of its result, the table of the terminal, and the report.
 struct Statements {
     file: Value,
     frame: Value,
@@ -82,8 +87,8 @@ fn statements(file: Value) -> Statements {
     }
 }
 
-/// Planks that need a counterweight, an arch that falls under its load, parts that stand at no common value, scenes without
-/// loads, and a robot.
+/// Planks that need a counterweight, an arch that falls under its load, groups of blocks that never stand at the same
+/// value, scenes without loads, and a block held by a robot.
 fn scenes() -> Vec<Statements> {
     let read = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
     let plank = json!({ "drystone": 1, "friction": 0.7,
@@ -123,7 +128,7 @@ fn sentence<'a>(table: &'a str, name: &str) -> Option<&'a str> {
         .find_map(|line| line.trim().strip_prefix(&start))
 }
 
-/// The numbers of a sentence; numbers to the left are negative.
+/// The numbers of a sentence. A number that is followed by "left" is negative.
 fn signed_numbers(sentence: &str) -> Vec<f64> {
     let words: Vec<&str> = sentence.split([' ', ';', ',']).collect();
     let following = words.iter().skip(1).chain([&""]);
@@ -135,7 +140,7 @@ fn signed_numbers(sentence: &str) -> Vec<f64> {
     .collect()
 }
 
-/// The bars of a report, each as a document of its own.
+/// The different bars of a report, each as an SVG document.
 fn bars(page: &str) -> Vec<&str> {
     let starts = page.match_indices("<svg class=\"bar\"");
     let mut bars: Vec<&str> = starts
@@ -144,7 +149,7 @@ fn bars(page: &str) -> Vec<&str> {
             &rest[..rest.find("</svg>").expect("closed") + 6]
         })
         .collect();
-    // The headline has its bar twice: below the verdict and in the table.
+    // The bar of the headline occurs twice: below the verdict and in the table.
     bars.sort_unstable();
     bars.dedup();
     bars
@@ -166,30 +171,30 @@ fn coordinate(node: Node, name: &str) -> f64 {
 #[test]
 fn words_and_bars_state_the_intervals_of_the_result() {
     let (mut inside, mut outside, mut never) = (0, 0, 0);
-    for told in scenes() {
-        let drawn = bars(&told.page);
+    for stated in scenes() {
+        let drawn = bars(&stated.page);
         let mut seen = 0;
-        for parameter in parameters(&told.file) {
-            let intervals = &told.frame["margins"]["intervals"];
+        for parameter in parameters(&stated.file) {
+            let intervals = &stated.frame["margins"]["intervals"];
             let Some(interval) = intervals.pointer(&parameter.pointer) else {
                 assert_eq!(
-                    sentence(&told.table, &parameter.name),
+                    sentence(&stated.table, &parameter.name),
                     None,
                     "{}",
-                    told.table
+                    stated.table
                 );
-                assert!(!told.page.contains(&parameter.name));
+                assert!(!stated.page.contains(&parameter.name));
                 continue;
             };
             seen += 1;
-            let words = sentence(&told.table, &parameter.name).expect("a line");
+            let words = sentence(&stated.table, &parameter.name).expect("a line");
             let label = format!("{}: {words}", parameter.name);
             let documents = drawn.iter().map(|bar| Document::parse(bar).expect("XML"));
             let bar = documents
                 .into_iter()
                 .find(|bar| bar.root_element().attribute("aria-label") == Some(label.as_str()))
                 .unwrap_or_else(|| panic!("a bar for {label}"));
-            let excluded = told.frame["margins"]["excluded"].pointer(&parameter.pointer);
+            let excluded = stated.frame["margins"]["excluded"].pointer(&parameter.pointer);
             check_words(
                 &parameter,
                 interval,
@@ -202,17 +207,16 @@ fn words_and_bars_state_the_intervals_of_the_result() {
                 (_, true) => inside += 1,
                 _ => outside += 1,
             }
-            let stands = told.frame["verdict"] == "stable";
+            let stands = stated.frame["verdict"] == "stable";
             assert_eq!(contains(interval, parameter.present), stands, "{label}");
         }
-        // The bar of the headline is drawn twice, by the verdict and in the list.
-        let same: BTreeSet<&str> = drawn.iter().copied().collect();
-        assert_eq!(seen, same.len(), "every bar is of an interval");
-        if list(&told.file["loads"]).is_empty() {
+        let different: BTreeSet<&str> = drawn.iter().copied().collect();
+        assert_eq!(seen, different.len(), "every bar shows an interval");
+        if list(&stated.file["loads"]).is_empty() {
             // The report's proof mentions loads in another sense.
             for words in ["factor on", "with its loads", "loads times"] {
-                assert!(!told.table.contains(words), "{}", told.table);
-                assert!(!told.page.contains(words), "{words}");
+                assert!(!stated.table.contains(words), "{}", stated.table);
+                assert!(!stated.page.contains(words), "{words}");
             }
         }
     }
@@ -222,7 +226,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
     );
 }
 
-/// The ends of an interval that are finite, except an end at which the range of the parameter itself begins.
+/// The finite ends of an interval. A lower end of 0 is left out if the parameter cannot be negative.
 fn finite(parameter: &Parameter, interval: &Value) -> [Option<f64>; 2] {
     let low = interval[0].as_f64();
     let begins = |low: &f64| parameter.is_signed || *low > 0.0;
@@ -235,8 +239,8 @@ fn contains(interval: &Value, value: f64) -> bool {
     !interval.is_null() && low <= value && value <= high
 }
 
-/// The ends of two parts in conflict: one part falls below the first end, the other falls above the second, smaller
-/// end.
+/// The two values of a conflict: one group of blocks falls below the first value, another group falls above the
+/// second value, which is smaller. Empty if there is no such conflict.
 fn conflict(excluded: &Value) -> Vec<f64> {
     let [below, above] = list(excluded) else {
         return Vec::new();
@@ -294,7 +298,8 @@ fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words:
     );
 }
 
-/// All marks lie on one scale. Its 0 is the left end of the track, or the middle if the parameter may be negative.
+/// Asserts that all marks of a bar lie on one scale. Its 0 is at the left end of the track, or in the middle if the
+/// parameter may be negative.
 fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     let one = |name: &str| class(bar, name).into_iter().next().expect("one");
     let track = one("all");
@@ -365,170 +370,4 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
             "{at} for {value}, not {expected}: {interval}"
         );
     }
-}
-
-/// Words of a headline, and the parameter that they refer to.
-const HEADLINE_SIGNS: [(&str, &str); 4] = [
-    ("gravity turns", "/tilt"),
-    ("pushes it", "/horizontal_load"),
-    ("friction", "/friction"),
-    ("safety kernel", "/kernel"),
-];
-
-/// The headline of a frame with loads states the end of the interval of its load factor, with three digits.
-fn assert_load_headline(headline: &str, verdict: &str, interval: &Value) {
-    let [low, high] = [0, 1].map(|k| interval.get(k).and_then(Value::as_f64));
-    let named = |start: &str| -> f64 {
-        let rest = headline.strip_prefix(start).unwrap_or_default();
-        let number = rest.split(' ').next().unwrap_or_default();
-        number.parse().unwrap_or(f64::NAN)
-    };
-    let is_near = |found: f64, value: f64| (found - value).abs() <= 1e-2 * value.abs();
-    // A load that is carried is rounded down, a load that is needed is rounded up.
-    let is_below = |found: f64, value: f64| is_near(found, value) && found <= value * (1.0 + 1e-6);
-    let is_above = |found: f64, value: f64| is_near(found, value) && found >= value * (1.0 - 1e-6);
-    let holds = match (verdict, low, high) {
-        ("stable", _, Some(high)) => is_below(named("It carries "), high),
-        ("stable", Some(low), None) if low > 0.0 => {
-            headline.ends_with("and any larger multiple.") && is_above(named("It carries "), low)
-        }
-        ("stable", _, None) => headline.starts_with("It carries any multiple of its load"),
-        ("unstable", Some(low), _) if low > 1.0 => is_above(named("It falls: it needs "), low),
-        ("unstable", _, Some(high)) => is_below(named("It falls: it carries "), high),
-        ("unstable", ..) => headline.starts_with("It falls"),
-        _ => headline.starts_with("It is undecided"),
-    };
-    assert!(holds, "{headline}: {verdict}, {interval}");
-}
-
-/// The headline is the load factor if it has a limit, otherwise the margin that is nearest to its end.
-#[test]
-fn the_headline_is_the_margin_nearest_to_its_end() {
-    for told in scenes() {
-        let start = "<p class=\"headline\"><strong><bdi dir=\"ltr\">";
-        let from = told.page.find(start).expect("a headline") + start.len();
-        let headline = &told.page[from..from + told.page[from..].find('<').expect("closed")];
-        let intervals = &told.frame["margins"]["intervals"];
-        let load_factor = intervals.get("load_factor");
-        let verdict = told.frame["verdict"].as_str().expect("a word");
-        let is_free = |interval: &Value| {
-            verdict == "stable" && interval[0].as_f64() == Some(0.0) && interval[1].is_null()
-        };
-        if load_factor.is_some_and(is_free) {
-            let words = "and carries any multiple of its load";
-            assert!(headline.contains(words), "{headline}");
-        } else if let Some(interval) = load_factor {
-            assert_load_headline(headline, verdict, interval);
-            continue;
-        }
-        if told.frame["verdict"] != "stable" {
-            continue;
-        }
-        let reserve = |parameter: &Parameter| -> Option<f64> {
-            let interval = told.frame["margins"]["intervals"].pointer(&parameter.pointer)?;
-            let [low, high] = finite(parameter, interval);
-            let now = parameter.present;
-            let all = match parameter.pointer.as_str() {
-                "/tilt" => 90.0,
-                "/kernel" => 1.0 - now,
-                _ => 1.0,
-            };
-            let below = low.map_or(1.0, |low| {
-                if parameter.is_signed {
-                    -low / all
-                } else {
-                    1.0 - low / now
-                }
-            });
-            let above = high.map_or(1.0, |high| (high - now) / all);
-            Some(below.min(above))
-        };
-        let all = parameters(&told.file);
-        let reserves = all.iter().filter_map(|p| Some((p, reserve(p)?)));
-        let (nearest, least) = reserves.min_by(|a, b| a.1.total_cmp(&b.1)).expect("some");
-        let sign = HEADLINE_SIGNS
-            .iter()
-            .find(|(words, _)| headline.contains(words));
-        let pointer = sign.map_or("", |(_, pointer)| *pointer);
-        let is_named = |p: &&Parameter| p.pointer == pointer || headline.starts_with(&p.name);
-        let named = all.iter().find(is_named).expect("named");
-        let own = reserve(named).expect("an interval");
-        assert!(own <= least + 1e-9, "{headline}, not {}", nearest.name);
-    }
-}
-
-/// A value at which a report says that a structure would fall, or stand, lies on the correct side of the end.
-#[test]
-fn factors_at_which_it_would_fall_or_stand_lie_on_the_right_side() {
-    for (told, sentence) in scenes().iter().zip([
-        "The structure would fall at 3.82 times its loads.",
-        "The structure would stand at 1.34 times its loads.",
-        "The structure would fall below 0.301 times its loads.",
-        "The structure would stand at 0.327 times its loads.",
-        "The structure stands at every factor on its loads.",
-        "The structure falls at every factor on its loads.",
-    ]) {
-        let has = told.page.contains(sentence);
-        let is_loaded = !list(&told.file["loads"]).is_empty();
-        assert_eq!(
-            has, is_loaded,
-            "{sentence}: {}",
-            told.frame["margins"]["intervals"]
-        );
-    }
-    // The plank falls below its least load factor, and the drawing shows this.
-    let plank = &scenes()[2];
-    assert!(
-        plank
-            .page
-            .contains("Below 0.302 times its loads, 1 block moves")
-    );
-}
-
-/// The number after `start` in a page.
-fn number_after(page: &str, start: &str) -> Option<f64> {
-    let (_, rest) = page.split_once(start)?;
-    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.')?;
-    rest[..end].parse().ok()
-}
-
-/// A friction coefficient reported as too small is at most the least one; a tilt reported as too large is at least
-/// the end.
-#[test]
-fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
-    let (mut frictions, mut tilts) = (0, 0);
-    for told in scenes() {
-        let intervals = &told.frame["margins"]["intervals"];
-        let start = "The structure would fall with a friction coefficient below ";
-        if let Some(found) = number_after(&told.page, start) {
-            let low = number(&intervals["friction"][0]);
-            let is_below = found <= low * (1.0 + 1e-6) && found >= 0.99 * low;
-            assert!(is_below, "{found}: {low}");
-            frictions += 1;
-        }
-        let Some((_, turned)) = told
-            .page
-            .split_once("The structure would fall if gravity turned by ")
-        else {
-            continue;
-        };
-        let turned = &turned[..turned.find(". ").unwrap_or(turned.len())];
-        let mut sides = turned.split(" or ").take(2);
-        for (side, end) in [("left", -1.0), ("right", 1.0)] {
-            let end = end
-                * intervals["tilt"][usize::from(end > 0.0)]
-                    .as_f64()
-                    .unwrap_or(f64::NAN);
-            if end.is_nan() {
-                continue;
-            }
-            let words = sides.next().expect("a side");
-            let found = number_after(words, "").expect("an angle");
-            assert!(words.contains(side), "{words}");
-            let is_beyond = found >= end * (1.0 - 1e-6) && found <= 1.01 * end;
-            assert!(is_beyond, "{found}: {end}");
-            tilts += 1;
-        }
-    }
-    assert!(frictions > 0 && tilts > 3, "{frictions} {tilts}");
 }

@@ -6,7 +6,7 @@ use drystone::figure::{self, Kind};
 use drystone::output::svg;
 use serde_json::{Value, json};
 
-use super::{list, number, told_with};
+use super::{check_with, list, number};
 use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
 
@@ -19,7 +19,7 @@ fn margins_agree_with_verdicts_on_either_side() {
     // With a vertical limit this small, the robot needs its horizontal force.
     held["robots"] =
         json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 0.1, "torque": 9 } }]);
-    let mut asked = 0;
+    let mut compared = 0;
     for file in [
         arch(11, 0.3, 0.7),
         wall(4, 3),
@@ -28,7 +28,7 @@ fn margins_agree_with_verdicts_on_either_side() {
         held,
     ] {
         let options = Options::default().margins(true);
-        let json = told_with(&file, &options).json;
+        let json = check_with(&file, &options).json;
         let margins = &json["frames"][0]["margins"];
         let mut agrees = |margin: &Value, more_is_worse: bool, change: &dyn Fn(f64) -> Value| {
             let Some(at) = margin.as_f64().filter(|at| *at > 1e-6) else {
@@ -46,7 +46,7 @@ fn margins_agree_with_verdicts_on_either_side() {
                     verdict, expected,
                     "{at} times {share} in {margins}: {changed}"
                 );
-                asked += 1;
+                compared += 1;
             }
         };
         assert_margins_are_ends(margins);
@@ -70,13 +70,13 @@ fn margins_agree_with_verdicts_on_either_side() {
             }
             changed
         });
-        for (side, way) in [("left", -1.0), ("right", 1.0)] {
+        for (side, sign) in [("left", -1.0), ("right", 1.0)] {
             if file["loads"].is_null() {
                 agrees(&margins["tilt"][side], true, &|degrees| {
                     let angle = degrees.to_radians();
                     with(
                         "gravity",
-                        json!([way * libm::sin(angle), -libm::cos(angle)]),
+                        json!([sign * libm::sin(angle), -libm::cos(angle)]),
                     )
                 });
             }
@@ -86,7 +86,7 @@ fn margins_agree_with_verdicts_on_either_side() {
                 let mut loads = list(&file["loads"]).to_vec();
                 for block in scene.blocks() {
                     let at = [block.centroid.x, block.centroid.y];
-                    loads.push(json!({ "block": block.id, "force": [way * share * block.weight, 0.0], "at": at }));
+                    loads.push(json!({ "block": block.id, "force": [sign * share * block.weight, 0.0], "at": at }));
                 }
                 changed["loads"] = json!(loads);
                 changed
@@ -100,7 +100,7 @@ fn margins_agree_with_verdicts_on_either_side() {
             });
         }
     }
-    assert!(asked >= 20, "{asked}");
+    assert!(compared >= 20, "{compared}");
 }
 
 /// A margin is the end of its interval on the same side.
@@ -127,7 +127,7 @@ fn assert_margins_are_ends(margins: &Value) {
     }
 }
 
-/// The words of `--kind margin` state the interval of the result, whether the frame stands today or not.
+/// The text of a figure `--kind margin` states the interval of the result, whether or not the frame stands as it is.
 #[test]
 fn the_figure_of_a_margin_states_the_interval_of_the_result() {
     let options = Options::default()
@@ -144,12 +144,12 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
     let files = random.filter(loaded).filter(sound).take(40);
     let (mut standing, mut falling, mut never) = (0, 0, 0);
     for (number_of, file) in [plank].into_iter().chain(files).enumerate() {
-        let told = told_with(&file, &options);
-        let frame = &told.json["frames"][0];
+        let checked = check_with(&file, &options);
+        let frame = &checked.json["frames"][0];
         let interval = &frame["margins"]["intervals"]["load_factor"];
         let analysis = Analysis::with(scene(&file), &options);
-        let look = figure::Options::default().toward(Toward::LoadFactor);
-        let svg = svg::write(&figure::draw(&analysis, Kind::Margin, &look));
+        let figure_options = figure::Options::default().toward(Toward::LoadFactor);
+        let svg = svg::write(&figure::draw(&analysis, Kind::Margin, &figure_options));
         let document = roxmltree::Document::parse(&svg).expect("XML");
         let parts = document.descendants().filter(|n| n.has_tag_name("text"));
         let words: Vec<&str> = parts.filter_map(|n| n.text()).collect();
@@ -157,14 +157,15 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
         let ends = [&interval[0], &interval[1]].map(Value::as_f64);
         // Numbers are written with four digits.
         let near = |exact: f64| {
-            let told = words
+            let numbers = words
                 .split([' ', ','])
                 .filter_map(|word| word.parse::<f64>().ok());
-            told.into_iter()
+            numbers
+                .into_iter()
                 .any(|value| (value - exact).abs() <= 6e-4 * exact)
         };
         if number_of == 0 {
-            // Its weight acts 1 m outside the ground's edge at 4 m, the load 1.5 m inside: 6·1 = 12·1.5·f.
+            // The weight acts 1 m outside the ground's edge at x = 4 m, the load 1.5 m inside: 6·1 = 12·1.5·f.
             assert!(
                 ends[0].is_some_and(|low| (low - 1.0 / 3.0).abs() < 1e-6),
                 "{interval}"

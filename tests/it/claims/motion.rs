@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::{cross, dot, less, list, number, pair, structures};
 use crate::structure::scene;
 
-/// The velocity of a point of a moving body; that of the ground is 0.
+/// The velocity of a point of a body. The ground and bodies that are not listed are at rest.
 fn speed(frame: &Value, centroid: &dyn Fn(&str) -> [f64; 2], body: &str, at: [f64; 2]) -> [f64; 2] {
     let moves = list(&frame["mechanism"])
         .iter()
@@ -21,16 +21,16 @@ fn speed(frame: &Value, centroid: &dyn Fn(&str) -> [f64; 2], body: &str, at: [f6
 }
 
 #[test]
-fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
+fn no_contact_force_opposes_a_mechanism_and_its_fastest_point_has_speed_one() {
     let mut seen = 0;
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         if list(&frame["mechanism"]).is_empty() {
-            assert_ne!(frame["verdict"], "unstable", "{}", told.file);
+            assert_ne!(frame["verdict"], "unstable", "{}", checked.file);
             continue;
         }
         seen += 1;
-        let scene = scene(&told.file);
+        let scene = scene(&checked.file);
         let find = |id: &str| scene.blocks().iter().find(|b| b.id == id).expect("a block");
         let centroid = |id: &str| {
             let at = find(id).centroid;
@@ -44,7 +44,7 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
                 fastest = fastest.max(dot(v, v).sqrt());
             }
         }
-        assert!((fastest - 1.0).abs() < 1e-6, "{fastest}: {}", told.file);
+        assert!((fastest - 1.0).abs() < 1e-6, "{fastest}: {}", checked.file);
         for interface in list(&frame["interfaces"]) {
             let normal = pair(&interface["normal"]);
             let tangent = [-normal[1], normal[0]];
@@ -61,7 +61,7 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
                 assert!(
                     power >= -1e-5 * (1.0 + mu),
                     "{interface} {power}: {}",
-                    told.file
+                    checked.file
                 );
             }
         }
@@ -75,8 +75,8 @@ fn a_mechanism_presses_nothing_and_its_fastest_point_has_speed_one() {
 #[test]
 fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
     let mut seen = 0;
-    for told in structures() {
-        let frame = &told.json["frames"][0];
+    for checked in structures() {
+        let frame = &checked.json["frames"][0];
         let proof = &frame["proof"];
         // With several groups, the proof is the worst of several motions.
         if frame["verdict"] != "unstable" || frame["solve"]["groups"] != 1 {
@@ -92,7 +92,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
                 (&"unbounded".into(), 0.0)
             ),
         }
-        let scene = scene(&told.file);
+        let scene = scene(&checked.file);
         let moves = |id: &str| list(&frame["mechanism"]).iter().find(|m| m["block"] == id);
         let down = [scene.down().x, scene.down().y];
         let (mut work, mut loads, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
@@ -130,7 +130,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
             let arm = less(pair(&robot["at"]), [block.centroid.x, block.centroid.y]);
             let (v, spin) = (pair(&moving["velocity"]), number(&moving["spin"]));
             let at_grip = [v[0] - spin * arm[1], v[1] + spin * arm[0]];
-            let listed = list(&told.file["robots"])
+            let listed = list(&checked.file["robots"])
                 .iter()
                 .find(|r| r["id"] == robot["id"]);
             let limits = &listed.expect("a robot of the file")["limits"];
@@ -142,7 +142,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
                 };
                 match limit.filter(|limit| *limit <= 1e4 * loads) {
                     Some(limit) => work -= limit * speed.abs(),
-                    None => assert!(speed.abs() <= violation + 1e-8, "{robot}: {}", told.file),
+                    None => assert!(speed.abs() <= violation + 1e-8, "{robot}: {}", checked.file),
                 }
             }
         }
@@ -150,7 +150,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
         assert!(
             (power - expected).abs() <= 1e-6 * expected.abs().max(1e-3),
             "{power} {expected} {fastest}: {}",
-            told.file
+            checked.file
         );
         seen += 1;
     }

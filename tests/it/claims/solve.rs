@@ -8,7 +8,7 @@ use drystone::internals::solve::{Conditioning, balance};
 use drystone::result::{Layout, Timing, to_json};
 use serde_json::{Value, json};
 
-use super::{Told, list, number, structures, told};
+use super::{Checked, check, list, number, structures};
 use crate::falls::program;
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene};
 
@@ -16,13 +16,14 @@ fn count(value: &Value) -> u64 {
     value.as_u64().expect("a whole number")
 }
 
-/// The number of groups of blocks that touch each other, directly or through other blocks, from a result's own interfaces.
-fn groups_of(told: &Told) -> u64 {
-    let scene = scene(&told.file);
+/// The number of groups of blocks that touch each other, directly or through other blocks, from the interfaces of a
+/// result.
+fn groups_of(checked: &Checked) -> u64 {
+    let scene = scene(&checked.file);
     let blocks: Vec<&str> = scene.blocks().iter().map(|b| b.id.as_str()).collect();
     let mut group: Vec<usize> = (0..blocks.len()).collect();
     let place = |name: &Value| blocks.iter().position(|id| Some(*id) == name.as_str());
-    for interface in list(&told.json["frames"][0]["interfaces"]) {
+    for interface in list(&checked.json["frames"][0]["interfaces"]) {
         let [a, b] = [0, 1].map(|k| place(&interface["bodies"][k]));
         if let (Some(a), Some(b)) = (a, b) {
             let (old, new) = (group[a], group[b]);
@@ -38,25 +39,25 @@ fn groups_of(told: &Told) -> u64 {
     group.len() as u64
 }
 
-/// A result counts the groups formed by its own interfaces. Without a program there are no iterations.
+/// The number of groups in a result agrees with its interfaces. Without a program there are no iterations.
 #[test]
 fn groups_are_those_of_the_listed_interfaces() {
     let (mut several, mut solved) = (0, 0);
-    for told in structures() {
-        let solve = &told.json["frames"][0]["solve"];
-        let groups = groups_of(&told);
-        assert_eq!(count(&solve["groups"]), groups, "{}", told.file);
-        assert_eq!(count(&solve["reused"]), 0, "{}", told.file);
+    for checked in structures() {
+        let solve = &checked.json["frames"][0]["solve"];
+        let groups = groups_of(&checked);
+        assert_eq!(count(&solve["groups"]), groups, "{}", checked.file);
+        assert_eq!(count(&solve["reused"]), 0, "{}", checked.file);
         let [programs, iterations] = ["programs", "iterations"].map(|key| count(&solve[key]));
-        assert_eq!(programs == 0, iterations == 0, "{}", told.file);
-        assert!(iterations >= programs, "{}", told.file);
+        assert_eq!(programs == 0, iterations == 0, "{}", checked.file);
+        assert!(iterations >= programs, "{}", checked.file);
         several += usize::from(groups > 1);
         solved += usize::from(programs > 0);
     }
     assert!(several > 3 && solved > 10, "{several} {solved}");
 }
 
-/// Arches next to each other, each moved to the right and with block names of its own.
+/// Arches next to each other, with different block names.
 fn arches(count: usize) -> Value {
     let mut file = arch(11, 0.3, 0.7);
     let moved = |body: &Value, metres: f64, name: Option<String>| {
@@ -71,7 +72,7 @@ fn arches(count: usize) -> Value {
     };
     let (ground, blocks) = (file["ground"].clone(), file["blocks"].clone());
     for copy in 1..count {
-        // Moving by a power of two keeps all digits of differences of coordinates.
+        // Moving by 16 m does not change the digits of the differences of coordinates.
         let metres = 16.0 * copy as f64;
         for body in list(&ground) {
             let body = moved(body, metres, None);
@@ -86,24 +87,24 @@ fn arches(count: usize) -> Value {
     file
 }
 
-/// The program of least force decides an arch. Its programs and iterations are those of that program solved alone, and the sum over
-/// all groups where there are several.
+/// The program of least force decides an arch. So the result counts the programs and iterations of this program
+/// solved alone. For several groups, it counts the sum over all groups.
 #[test]
 fn programs_and_iterations_are_those_of_the_solver() {
     let alone = program(&scene(&arch(11, 0.3, 0.7)));
     let effort = balance(&alone, Conditioning::Plain).effort;
     assert!(effort.programs > 0 && effort.iterations > 0);
-    let solve = told(&arches(1)).json["frames"][0]["solve"].clone();
+    let solve = check(&arches(1)).json["frames"][0]["solve"].clone();
     assert_eq!(count(&solve["programs"]), effort.programs as u64);
     assert_eq!(count(&solve["iterations"]), effort.iterations as u64);
     assert_eq!(solve["method"], "kinematic");
-    let solve = told(&arches(3)).json["frames"][0]["solve"].clone();
+    let solve = check(&arches(3)).json["frames"][0]["solve"].clone();
     assert_eq!(count(&solve["groups"]), 3);
     assert_eq!(count(&solve["programs"]), 3 * effort.programs as u64);
 }
 
-/// The method is that of the group that was hardest to decide: a closed form for a block on a floor, a block on a
-/// slope, and a stack; a program for an arch, with or without such a block next to it.
+/// The method is that of the group that was hardest to decide: a closed form for a stack and for a block on a slope,
+/// a program for an arch, with or without a block next to it.
 #[test]
 fn the_method_is_that_of_the_hardest_group() {
     let stack = (0..3).map(|k| {
@@ -114,18 +115,21 @@ fn the_method_is_that_of_the_hardest_group() {
         on_floor(0.7, stack.collect()),
         on_slope(20.0, 2.0, 1.0, 0.6, 0.2),
     ] {
-        let solve = &told(&file).json["frames"][0]["solve"];
+        let solve = &check(&file).json["frames"][0]["solve"];
         let found = (&solve["method"], count(&solve["programs"]));
         assert_eq!(found, (&json!("closed form"), 0), "{file}");
     }
     let mut both = arch(11, 0.3, 0.7);
     for _ in 0..2 {
-        let solve = &told(&both).json["frames"][0]["solve"];
+        let solve = &check(&both).json["frames"][0]["solve"];
         assert_eq!(solve["method"], "kinematic", "{both}");
         let ground = json!({ "polygon": rectangle(64.0, -1.0, 9.0, 1.0) });
         both["ground"].as_array_mut().expect("a list").push(ground);
-        let beside = block("beside", rectangle(65.0, 0.0, 1.0, 1.0), 1.0);
-        both["blocks"].as_array_mut().expect("a list").push(beside);
+        let separate = block("separate", rectangle(65.0, 0.0, 1.0, 1.0), 1.0);
+        both["blocks"]
+            .as_array_mut()
+            .expect("a list")
+            .push(separate);
     }
 }
 
@@ -139,7 +143,7 @@ fn groups_of_an_earlier_frame_are_reused_and_cost_no_program() {
         .collect();
     let (first, second) = names.split_at(names.len() / 2);
     file["steps"] = json!([{ "place": first }, { "place": second }, { "remove": second }]);
-    let frames = told(&file).json["frames"].clone();
+    let frames = check(&file).json["frames"].clone();
     let solve = |k: usize| {
         let solve = &frames[k]["solve"];
         ["groups", "reused", "programs"].map(|key| count(&solve[key]))
@@ -151,12 +155,12 @@ fn groups_of_an_earlier_frame_are_reused_and_cost_no_program() {
     assert_eq!(solve(2), [1, 1, 0]);
 }
 
-/// A frame takes no longer than the call that analyses it, and its stages no longer than the frame. A stage that was not requested
-/// takes no time at all.
+/// The time of a frame is at most that of the call that analyses it, and its stages sum to at most the time of the
+/// frame. The time of a stage that was not requested is 0.
 #[test]
-fn times_are_within_what_the_call_took() {
+fn times_do_not_exceed_the_time_of_the_call() {
     let file = arch(11, 0.3, 0.7);
-    for (asked, options) in [
+    for (requested, options) in [
         (false, Options::default()),
         (true, Options::default().margins(true).wedging(true)),
     ] {
@@ -173,7 +177,7 @@ fn times_are_within_what_the_call_took() {
         assert!(stages.iter().sum::<f64>() <= seconds * (1.0 + 1e-9));
         let [assembly, solution, wedging, margins] = stages;
         assert!(assembly > 0.0 && solution > 0.0, "{solve}");
-        assert_eq!([wedging > 0.0, margins > 0.0], [asked; 2], "{solve}");
+        assert_eq!([wedging > 0.0, margins > 0.0], [requested; 2], "{solve}");
         // The time outside all stages is small.
         assert!(stages.iter().sum::<f64>() > 0.5 * seconds, "{solve}");
     }

@@ -3,17 +3,18 @@
 use drystone::analysis::Options;
 use serde_json::{Value, json};
 
-use super::{Told, list, number, told, told_with};
+use super::{Checked, check, check_with, list, number};
 use crate::structure::{block, harmonic, rectangle, wall};
 
-/// `only_by_wedging` is absent if it was not requested or if the frame falls. Otherwise its effect gives the reason.
+/// `only_by_wedging` is absent if it was not requested or if the frame falls. Otherwise the entry `wedging` of
+/// `effects` states the reason.
 #[test]
 fn wedging_is_reported_with_its_reason() {
-    let asked = Options::default().wedging(true);
+    let with_wedging = Options::default().wedging(true);
     let between = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }],
         "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), 7.0)] });
-    let frame = |told: &Told| told.json["frames"][0].clone();
+    let frame = |checked: &Checked| checked.json["frames"][0].clone();
     let why = |frame: &Value| {
         let effect = list(&frame["effects"])
             .iter()
@@ -23,8 +24,8 @@ fn wedging_is_reported_with_its_reason() {
             .expect("words")
             .to_string()
     };
-    assert!(frame(&told(&between)).get("only_by_wedging").is_none());
-    let wedged = frame(&told_with(&between, &asked));
+    assert!(frame(&check(&between)).get("only_by_wedging").is_none());
+    let wedged = frame(&check_with(&between, &with_wedging));
     assert_eq!(wedged["only_by_wedging"], json!(true));
     // Friction of 0.7 must carry 7 N, so both faces together press with at least 10 N.
     assert!(why(&wedged).contains("1.000e1 N"), "{}", why(&wedged));
@@ -33,25 +34,25 @@ fn wedging_is_reported_with_its_reason() {
         "{}",
         why(&wedged)
     );
-    let stands = frame(&told_with(&wall(2, 2), &asked));
+    let stands = frame(&check_with(&wall(2, 2), &with_wedging));
     assert_eq!(stands["only_by_wedging"], json!(false));
-    let falls = frame(&told_with(&harmonic(4, 1.1), &asked));
+    let falls = frame(&check_with(&harmonic(4, 1.1), &with_wedging));
     assert!(falls.get("only_by_wedging").is_none());
 }
 
-/// The certificate that a frame stands only by wedging is checked with the result alone: its interfaces, their
-/// forces, two motions.
+/// The certificate that a frame stands only by wedging is checked with the result alone: with its interfaces, their
+/// forces and two motions.
 #[test]
 fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
-    let asked = Options::default().wedging(true);
+    let with_wedging = Options::default().wedging(true);
     let walls = json!([{ "polygon": rectangle(-2.0, -2.0, 2.0, 4.0) }, { "polygon": rectangle(3.0, -2.0, 2.0, 4.0) }]);
     // Friction of μ must carry the weight, so both faces together press with at least weight/μ.
     for (mu, weight) in [(0.7, 7.0), (0.25, 3.0)] {
         let least = weight / mu;
         let file = json!({ "drystone": 1, "friction": mu, "ground": walls,
             "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), weight)] });
-        let told = told_with(&file, &asked);
-        let frame = &told.json["frames"][0];
+        let checked = check_with(&file, &with_wedging);
+        let frame = &checked.json["frames"][0];
         assert_eq!(frame["only_by_wedging"], json!(true));
         let wedging = &frame["wedging"];
         let at_least = number(&wedging["normal_force_at_least"]);
@@ -83,12 +84,12 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
         for (face, must) in interfaces.iter().zip(&must) {
             let normal = [0, 1].map(|k| number(&face["normal_forces"][k]));
             for (point, normal) in normal.into_iter().enumerate() {
-                // When springs give way, only the named faces come apart, and no face is pressed.
+                // In the motion `gives_way`, only the listed faces move apart or slide, and no face is pressed.
                 let (opens, slides) = apart(&wedging["gives_way"], face, point);
                 assert!(opens > -1e-5, "{face}");
                 assert!(*must || opens.abs().max(slides.abs()) < 1e-5, "{face}");
-                // Along the motion of the bound no other face takes work, and the named faces take at most 1 for each
-                // newton.
+                // In the motion `bound`, the other faces take no power, and each newton on a listed face takes at
+                // most 1.
                 let (opens, slides) = apart(&wedging["bound"], face, point);
                 let taken = number(&face["mu"]) * slides.abs() - opens;
                 assert!(taken < f64::from(u8::from(*must)) + 1e-6, "{taken} {face}");
@@ -99,8 +100,8 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
             pressed += if *must { normal[0] + normal[1] } else { 0.0 };
         }
         assert_eq!(wedging["presses_nothing"], json!(true));
-        // The power of the loads is taken by these forces, so in any balance the faces press with at least this
-        // force.
+        // The contact forces take the power of the loads. So in any balance, the listed faces press with at least
+        // this force.
         assert!(
             (power - at_least).abs() < 1e-5 * at_least,
             "{power} {at_least}"

@@ -7,17 +7,17 @@ use drystone::figure::{self, Kind};
 use drystone::output::svg;
 use serde_json::{Value, json};
 
-use super::{Told, dot, list, number, pair, structures};
+use super::{Checked, dot, list, number, pair, structures};
 use crate::structure::scene;
 
-/// The numbers of a text, without a comma or a bracket after them.
+/// The numbers of a text. Commas, brackets, colons and semicolons separate words.
 fn numbers(text: &str) -> Vec<f64> {
     let marks = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ')' | ':' | ';');
     let words = text.split(marks).map(|word| word.replace('−', "-"));
     words.filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Whether a number written with four digits is this number.
+/// Whether `written` is `exact`, rounded to four digits.
 fn is_near(written: f64, exact: f64) -> bool {
     (written - exact).abs() <= 6e-4 * exact.abs() + 1e-12
 }
@@ -28,13 +28,13 @@ fn largest(values: &Value, key: &str) -> f64 {
     values.fold(0.0, f64::max)
 }
 
-/// The tables of `drystone check` for some scenes, from one run.
-fn tables(all: &[Told]) -> Vec<String> {
+/// The tables of `drystone check --verbose`, one for each scene, from one run.
+fn tables(all: &[Checked]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a folder");
     let mut names = Vec::new();
-    for (number, told) in all.iter().enumerate() {
+    for (number, checked) in all.iter().enumerate() {
         let name = format!("{number:03}.json");
-        std::fs::write(folder.path().join(&name), told.file.to_string()).expect("writable");
+        std::fs::write(folder.path().join(&name), checked.file.to_string()).expect("writable");
         names.push(name);
     }
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drystone"));
@@ -61,8 +61,8 @@ fn tables(all: &[Told]) -> Vec<String> {
 fn the_terminals_table_says_what_the_result_says() {
     let all = structures();
     let (mut failures, mut unsupported) = (0, 0);
-    for (told, table) in all.iter().zip(tables(&all)) {
-        let frame = &told.json["frames"][0];
+    for (checked, table) in all.iter().zip(tables(&all)) {
+        let frame = &checked.json["frames"][0];
         let row = table.lines().nth(2).expect("a row");
         let word = match frame["verdict"].as_str().expect("a word") {
             "stable" => " stands ",
@@ -114,7 +114,7 @@ fn the_terminals_table_says_what_the_result_says() {
         } else {
             assert_eq!(friction, "-", "{table}");
         }
-        says_proof(proof, &frame["proof"]);
+        assert_proof(proof, &frame["proof"]);
         for failure in list(&frame["failures"]).iter().take(12) {
             assert!(says_failure(&table, failure), "{failure}: {table}");
             failures += 1;
@@ -142,40 +142,43 @@ fn the_terminals_table_says_what_the_result_says() {
     assert!(failures > 50 && unsupported > 0, "{failures} {unsupported}");
 }
 
-/// Whether a number is rounded to one digit, as in `3e-12`.
+/// Whether `written` is `exact`, rounded to one digit, as in `3e-12`.
 fn is_rough(written: f64, exact: f64) -> bool {
     (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor())
         || written == exact
 }
 
-fn says_proof(words: &str, proof: &Value) {
-    let told = numbers(words);
+fn assert_proof(words: &str, proof: &Value) {
+    let values = numbers(words);
     if proof["power"].is_null() {
         let worst = ["worst_imbalance", "worst_pull", "worst_slip"].map(|key| number(&proof[key]));
         let worst = worst.into_iter().fold(0.0, f64::max);
         assert!(
-            words.starts_with("forces balance to") && is_rough(told[0], worst),
+            words.starts_with("forces balance to") && is_rough(values[0], worst),
             "{words} {proof}"
         );
         return;
     }
-    assert!(is_near(told[0], number(&proof["power"])), "{words} {proof}");
+    assert!(
+        is_near(values[0], number(&proof["power"])),
+        "{words} {proof}"
+    );
     match proof["no_balance_below"].as_f64() {
         Some(sum) => assert!(
-            words.contains("no balance below") && is_rough(told[1], sum),
+            words.contains("no balance below") && is_rough(values[1], sum),
             "{words} {proof}"
         ),
         None => assert!(words.contains("no balance at all"), "{words} {proof}"),
     }
 }
 
-/// Whether a line of a text states the bodies, the place and the amount of a failure.
+/// Whether a line of a text states the bodies, the position and the missing force or torque of a failure.
 fn says_failure(text: &str, failure: &Value) -> bool {
     let name = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let says = |line: &str, words: &str, values: &[f64]| {
-        let told = numbers(line);
+        let written = numbers(line);
         line.contains(words)
-            && (values.iter()).all(|value| told.iter().any(|written| is_near(*written, *value)))
+            && (values.iter()).all(|value| written.iter().any(|w| is_near(*w, *value)))
     };
     let (force, torque) = (&failure["force"], &failure["torque"]);
     let (words, values) = match failure["kind"].as_str().expect("a kind") {
@@ -202,7 +205,8 @@ fn says_failure(text: &str, failure: &Value) -> bool {
     text.lines().any(|line| says(line, &words, &values))
 }
 
-/// The amount of a text such as `43.4 N at 90°` or `4.56 mN`, in newtons, and its direction in degrees.
+/// The force in a text such as `43.4 N at 90°` or `4.56 mN`, in newtons, and its direction in degrees. The force is
+/// NaN if it is written with a power of ten.
 fn amount(text: &str) -> (f64, Option<f64>) {
     let mut words = text.split_whitespace();
     let value = words.next().expect("an amount").replace('−', "-");
@@ -226,25 +230,25 @@ fn amount(text: &str) -> (f64, Option<f64>) {
     (value * factor, at)
 }
 
-/// The title of every arrow in a figure of forces states an amount and a direction that the result lists between
-/// these bodies.
+/// The title of every arrow in a figure of forces states a magnitude and a direction that the result lists for the
+/// same two bodies.
 #[test]
 fn titles_of_arrows_state_the_forces_of_the_result() {
     let (mut contacts, mut weights, mut robots) = (0, 0, 0);
-    for told in structures().iter().step_by(2) {
-        let scene = scene(&told.file);
+    for checked in structures().iter().step_by(2) {
+        let scene = scene(&checked.file);
         let analysis = Analysis::with(&scene, &Options::default());
         let drawing = figure::draw(&analysis, Kind::Forces, &figure::Options::default());
         let svg = svg::write(&drawing);
         let document = roxmltree::Document::parse(&svg).expect("XML");
-        let frame = &told.json["frames"][0];
+        let frame = &checked.json["frames"][0];
         for node in document.descendants().filter(|n| n.has_tag_name("title")) {
             let title = node.text().unwrap_or_default();
-            let Some((what, told_amount)) = title.split_once(": ") else {
+            let Some((what, written_amount)) = title.split_once(": ") else {
                 continue;
             };
             let fits = |force: [f64; 2]| {
-                let (written, at) = amount(told_amount);
+                let (written, at) = amount(written_amount);
                 let size = dot(force, force).sqrt();
                 let angle = libm::atan2(force[1], force[0]).to_degrees();
                 let off = at.map_or(0.0, |at: f64| {
@@ -261,7 +265,7 @@ fn titles_of_arrows_state_the_forces_of_the_result() {
                     assert!(
                         given.any(|r| fits(pair(&r["force"]))),
                         "{title}: {}",
-                        told.file
+                        checked.file
                     );
                     robots += 1;
                     continue;
@@ -279,7 +283,7 @@ fn titles_of_arrows_state_the_forces_of_the_result() {
                     }
                 });
                 let between: Vec<[f64; 2]> = between.collect();
-                assert!(between.into_iter().any(fits), "{title}: {}", told.file);
+                assert!(between.into_iter().any(fits), "{title}: {}", checked.file);
                 contacts += 1;
             } else if let Some(on) = what.strip_prefix("Weight of block ") {
                 let block = scene.blocks().iter().find(|b| b.id == on).expect("a block");
@@ -310,10 +314,10 @@ fn unsupported_blocks_are_reported_with_their_true_reason() {
     };
     let file = json!({ "drystone": 1, "corner_contacts": true, "friction": 0.5, "ground": ground,
         "blocks": [tip, high("a", 5.0), high("b", 6.0)] });
-    let told = super::told(&file);
-    let frame = &told.json["frames"][0];
+    let checked = super::check(&file);
+    let frame = &checked.json["frames"][0];
     assert_eq!(frame["unsupported"], json!(["tip", "a", "b"]));
-    let table = tables(&[told]).remove(0);
+    let table = tables(&[checked]).remove(0);
     let says = |part: &str| table.lines().any(|line| line.trim() == part);
     assert!(
         says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"),

@@ -1,4 +1,4 @@
-//! Narrow gaps and slight overlaps on which a verdict may hinge.
+//! Narrow gaps and slight overlaps on which a verdict may depend.
 
 use drystone::Scene;
 use drystone::analysis::{Contact, Verdict};
@@ -25,7 +25,7 @@ fn lintel(gap: f64, tolerance: Option<f64>) -> Value {
 }
 
 #[test]
-fn a_verdict_that_depends_on_a_narrow_gap_is_not_given_silently() {
+fn a_verdict_that_depends_on_a_narrow_gap_is_undecided() {
     let (verdict, _, doubt) = judged(&lintel(0.004, None));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
     for word in [
@@ -38,10 +38,10 @@ fn a_verdict_that_depends_on_a_narrow_gap_is_not_given_silently() {
     ] {
         assert!(doubt.contains(word), "{word}: {doubt}");
     }
-    // The tolerance in the message settles the verdict, and so does one that leaves the gap open.
+    // With the tolerance in the message the verdict is decided, and also with one that leaves the gap open.
     assert_eq!(judged(&lintel(0.004, Some(0.00404))).0, Verdict::Stable);
     assert_eq!(judged(&lintel(0.004, Some(1e-6))).0, Verdict::Unstable);
-    // A gap of more than a hundredth of a post stays a gap.
+    // A gap of more than a hundredth of a post's size is not doubtful.
     assert_eq!(judged(&lintel(0.03, None)).0, Verdict::Unstable);
     assert_eq!(judged(&lintel(0.0, None)).0, Verdict::Stable);
 }
@@ -49,7 +49,7 @@ fn a_verdict_that_depends_on_a_narrow_gap_is_not_given_silently() {
 /// Stones of a fifth of a metre, too small for healing by millimetres. The widest gap measured along edges is 0.33
 /// mm, but a corner of the pier lies 0.8 mm from its intended place. If that gap is closed, the arch stands.
 #[test]
-fn closing_gaps_reaches_the_corners_that_are_off() {
+fn the_tolerance_in_the_message_closes_gaps_at_misplaced_corners() {
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/tests/reference/arch-on-piers.json"
@@ -58,7 +58,7 @@ fn closing_gaps_reaches_the_corners_that_are_off() {
     let mut file: Value = serde_json::from_str(&text).expect("JSON");
     let (verdict, _, doubt) = judged(&file);
     assert_eq!(verdict, Verdict::Undecided);
-    assert!(doubt.contains("stands where bodies touch"), "{doubt}");
+    assert!(doubt.contains("stands if bodies touch"), "{doubt}");
     let (_, closing) = doubt.split_once("contact_tolerance of ").expect("a value");
     let closing = closing.split(' ').next().expect("a number");
     file["contact_tolerance"] = json!(closing.parse::<f64>().expect("a number"));
@@ -89,7 +89,7 @@ fn a_small_stone_keeps_its_own_tolerance() {
 }
 
 #[test]
-fn a_verdict_that_depends_on_a_slight_overlap_is_not_given_silently() {
+fn a_verdict_that_depends_on_a_slight_overlap_is_undecided() {
     // The lintel overlaps both posts. If these overlaps carry nothing, it falls.
     let file = |depth: f64, tolerance: Option<f64>| {
         let mut file = lintel(0.0, tolerance);
@@ -103,12 +103,13 @@ fn a_verdict_that_depends_on_a_slight_overlap_is_not_given_silently() {
         "lintel",
         " b ",
         "contact_tolerance of 3.03e-3 m",
-        "it falls where overlaps",
-        "stands where bodies touch",
+        "it falls if overlaps",
+        "stands if bodies touch",
     ] {
         assert!(doubt.contains(word), "{word}: {doubt}");
     }
-    // The tolerance in the message settles the verdict. If the overlap exceeds the tolerance, the file is refused.
+    // With the tolerance in the message the verdict is decided. If the overlap exceeds the tolerance, the file is
+    // refused.
     assert_eq!(judged(&file(0.003, Some(0.00303))).0, Verdict::Stable);
     for (depth, tolerance) in [(0.003, Some(1e-4)), (0.02, None)] {
         let problems = Scene::from_json(&file(depth, tolerance).to_string()).unwrap_err();
@@ -122,8 +123,8 @@ fn a_verdict_that_depends_on_a_slight_overlap_is_not_given_silently() {
 
 #[test]
 fn a_slight_overlap_that_does_not_matter_is_reported_with_the_verdict() {
-    // Two posts side by side, the second 4 mm inside the first. It is pushed by a tenth of its weight, or by all of
-    // it.
+    // Two posts side by side, the second 4 mm inside the first. The second is pushed away with a tenth of its weight,
+    // or with its whole weight.
     let file = |push: f64| {
         json!({
             "drystone": 1, "ground": [{ "polygon": [[-1.3333333333, -1], [5, -1], [5, 0], [-1.3333333333, 0]] }],
@@ -137,10 +138,14 @@ fn a_slight_overlap_that_does_not_matter_is_reported_with_the_verdict() {
     for (push, expected) in [(1.0, Verdict::Stable), (10.0, Verdict::Unstable)] {
         let frame = first(&file(push));
         assert_eq!(frame.verdict, expected, "{}", frame.doubt());
-        let told = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
-        assert!(frame.notices.iter().any(told), "{:?}", frame.notices);
+        let names_overlap = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
+        assert!(
+            frame.notices.iter().any(names_overlap),
+            "{:?}",
+            frame.notices
+        );
     }
-    // Pushed towards its neighbour, it stands only if it can lean on it.
+    // If it is pushed towards the first post, it stands only if it touches that post.
     let (verdict, _, doubt) = judged(&file(-7.5));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
 }

@@ -1,4 +1,5 @@
-//! The equilibrium of a frame as exact linear programs, with the unknowns of the source, built from the corners.
+//! The equilibrium of a frame as exact linear programs with the unknowns of the source. They are built from the
+//! corners of the bodies.
 //!
 //! The normal of an interface is its segment turned by 90°. It is not scaled to length 1, because a unit normal is
 //! usually irrational. Normal forces and friction are both in units of that length, so |T| ≤ μ(N1 + N2) is unchanged.
@@ -34,7 +35,7 @@ pub enum Sum {
 type First = usize;
 
 impl<'a> Balance<'a> {
-    /// The groups of a scene's only frame.
+    /// The groups of blocks in the first frame of a scene.
     pub fn groups(scene: &'a Scene, touches: &'a [Touch]) -> Vec<Balance<'a>> {
         let mut mark: Vec<usize> = (0..scene.blocks().len()).collect();
         for _ in 0..scene.blocks().len() {
@@ -94,13 +95,13 @@ impl<'a> Balance<'a> {
         self.admissible().least().map(|v| v.to_f64_fast())
     }
 
-    /// The least sum of forces that exceed what contacts and robots can give, newtons. `None` if no such forces give
-    /// equilibrium.
+    /// The least sum of adhesion at contacts and of robot forces beyond their limits that gives equilibrium, newtons.
+    /// `None` if no such forces give equilibrium.
     pub fn least_sticking(&self) -> Option<f64> {
         self.soft().least().map(|v| v.to_f64_fast())
     }
 
-    /// The least sum as a fraction.
+    /// The least sum as an exact fraction. `None` if there is no equilibrium.
     pub fn least_exactly(&self, sum: Sum) -> Option<RBig> {
         self.program(sum).least()
     }
@@ -112,14 +113,15 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// The least and the largest part of a sum that acts on one block, among all forces whose total is at most
-    /// `least`.
+    /// The smallest and the largest sum of the forces that act on one block, newtons, among all forces of the whole
+    /// group whose sum is at most `least`.
     ///
-    /// The total may exceed `least` by a rounding error, because the costs are lengths, which are rounded square
+    /// The sum may exceed `least` by a rounding error, because the costs are lengths, and these are rounded square
     /// roots.
     pub fn sum_on(&self, sum: Sum, block: usize, least: &RBig) -> [f64; 2] {
         let most = least * exact(1.0 + 4.0 * f64::EPSILON);
-        let bounded = |counts: &dyn Fn(bool) -> bool| {
+        // The least sum of the costs that count. `counts` is called with whether an unknown acts on the block.
+        let least_sum = |counts: &dyn Fn(bool) -> bool| {
             let mut program = self.program(sum);
             program.rows.push(Row {
                 entries: program.costs.iter().cloned().enumerate().collect(),
@@ -140,28 +142,28 @@ impl<'a> Balance<'a> {
             }
             program.least().expect("the optimum fits")
         };
-        let low = bounded(&|own| own);
-        let rest = bounded(&|own| !own);
+        let low = least_sum(&|own| own);
+        let rest = least_sum(&|own| !own);
         [low.to_f64_fast(), (&most - rest).to_f64_fast()]
     }
 
-    /// Whether no sticking gives equilibrium, even with an imbalance up to the tolerance.
-    pub fn is_past_help(&self) -> bool {
-        self.off(self.soft()) > Proof::IMBALANCE_TOL
+    /// Whether no adhesion gives equilibrium, even with an imbalance up to the tolerance.
+    pub fn cannot_be_held(&self) -> bool {
+        self.least_imbalance(self.soft()) > Proof::IMBALANCE_TOL
     }
 
-    /// The soft program of the source in the limit of its β: only sticking has a cost.
+    /// The soft program of the source for an infinite β: only adhesion has a cost.
     fn soft(&self) -> LinearProgram {
         let mut program = self.admissible();
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
         for touch in &self.touches {
-            let way = Way::of(touch);
-            let cost = exact(way.length);
+            let axes = Axes::of(touch);
+            let cost = exact(axes.length);
             for at in self.application_points(touch) {
                 let pull = program.unknown(cost.clone());
-                self.act(&mut program, touch, pull, &at, &negative(&way.normal));
+                self.act(&mut program, touch, pull, &at, &negative(&axes.normal));
             }
-            for along in [way.tangent.clone(), negative(&way.tangent)] {
+            for along in [axes.tangent.clone(), negative(&axes.tangent)] {
                 let slip = program.unknown(cost.clone());
                 self.act(&mut program, touch, slip, &touch.ends[0], &along);
             }
@@ -180,19 +182,21 @@ impl<'a> Balance<'a> {
     /// The least possible largest imbalance of any block, relative to the heaviest load (times L for moments). It is
     /// 0 if the group stands.
     pub fn distance(&self) -> f64 {
-        self.off(self.admissible())
+        self.least_imbalance(self.admissible())
     }
 
-    pub(super) fn off(&self, mut program: LinearProgram) -> f64 {
+    /// The least possible largest imbalance of any row of a program, relative to the heaviest load (times L for
+    /// moments).
+    pub(super) fn least_imbalance(&self, mut program: LinearProgram) -> f64 {
         program.costs.iter_mut().for_each(|c| *c = RBig::ZERO);
-        let off = program.unknown(RBig::ONE);
+        let largest = program.unknown(RBig::ONE);
         for row in 0..3 * self.blocks.len() {
             let size = exact(self.size(row));
             let rest = program.unknown(RBig::ZERO);
             program.rows[row]
                 .entries
-                .extend([(rest, RBig::ONE), (off, -size.clone())]);
-            let entries = vec![(rest, RBig::ONE), (off, RBig::from(-2) * size)];
+                .extend([(rest, RBig::ONE), (largest, -size.clone())]);
+            let entries = vec![(rest, RBig::ONE), (largest, RBig::from(-2) * size)];
             program.rows.push(Row {
                 entries,
                 bound: RBig::ZERO,
@@ -202,7 +206,7 @@ impl<'a> Balance<'a> {
         program.least().map_or(f64::INFINITY, |v| v.to_f64_fast())
     }
 
-    /// Whether the group stands, and still stands if one component of one block's load changes by `share` of that
+    /// Whether the group stands, and also stands if any one component of a block's load changes by `share` times that
     /// load.
     pub fn stands_with_margin(&self, share: f64) -> bool {
         self.stands()
@@ -230,11 +234,11 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// Whether the group stands if each force on a block may change by `band` of its amount, and may move by `band`
-    /// of the block's radius. The two sides of a contact change independently.
+    /// Whether the group stands if each force on a block may change by `band` times its magnitude, and may move by
+    /// `band` times the block's radius. The forces on the two bodies of a contact change independently.
     ///
-    /// All constraints are linear: a change z of a force x obeys |z| ≤ band · x, and moved forces give a moment of at
-    /// most band · R · Σ |F|.
+    /// All constraints are linear: a change z of a force x obeys |z| ≤ band · x, and moved forces exert an additional
+    /// moment of at most band · R · Σ |F|.
     pub fn stands_within(&self, band: f64) -> bool {
         let mut program = self.admissible();
         let band = exact(band);
@@ -346,16 +350,16 @@ impl<'a> Balance<'a> {
             }
         }
         for touch in &self.touches {
-            let way = Way::of(touch);
-            let cost = exact(way.length);
+            let axes = Axes::of(touch);
+            let cost = exact(axes.length);
             let mut entries = Vec::new();
             for at in self.application_points(touch) {
                 let press = program.unknown(cost.clone());
-                self.act(&mut program, touch, press, &at, &way.normal);
+                self.act(&mut program, touch, press, &at, &axes.normal);
                 entries.push((press, -exact(touch.friction)));
             }
             if touch.friction > 0.0 {
-                for along in [way.tangent.clone(), negative(&way.tangent)] {
+                for along in [axes.tangent.clone(), negative(&axes.tangent)] {
                     let rub = program.unknown(cost.clone());
                     self.act(&mut program, touch, rub, &touch.ends[0], &along);
                     entries.push((rub, RBig::ONE));
@@ -422,7 +426,7 @@ impl<'a> Balance<'a> {
         [[&a[0] + &inward[0], &a[1] + &inward[1]], minus(b, &inward)]
     }
 
-    /// Adds an unknown force of a contact: on the first body, and reversed on the other.
+    /// Adds an unknown force of a contact: on the first body, and in the opposite direction on the other.
     fn act(
         &self,
         program: &mut LinearProgram,
@@ -494,22 +498,22 @@ impl<'a> Balance<'a> {
 
     fn first_row(&self, block: usize) -> First {
         let place = self.blocks.iter().position(|b| *b == block);
-        3 * place.expect("what touches a group is of the group")
+        3 * place.expect("the block belongs to this group")
     }
 }
 
 /// The normal and the tangent of an interface, both as long as the interface.
-struct Way {
+struct Axes {
     normal: Pair,
     tangent: Pair,
     length: f64,
 }
 
-impl Way {
-    fn of(touch: &Touch) -> Way {
+impl Axes {
+    fn of(touch: &Touch) -> Axes {
         let tangent = minus(&touch.ends[1], &touch.ends[0]);
         let normal = [tangent[1].clone(), -tangent[0].clone()];
-        Way {
+        Axes {
             normal,
             length: norm(&tangent),
             tangent,

@@ -1,4 +1,4 @@
-//! Contact tolerances as large as blocks: healing may close gaps, but no result may be false where healing fails.
+//! Contact tolerances as large as blocks: healing may close gaps, but if healing fails, no result may be false.
 //!
 //! The bodies of these scenes touch exactly, so the exact program gives the verdict of the outlines. Each scene is
 //! analysed as written, and with every corner moved by up to a thousandth of the size of the smallest block.
@@ -20,7 +20,8 @@ const SHARES: [f64; 4] = [0.05, 0.3, 1.0, 3.0];
 
 /// How far corners are moved, relative to the size of the smallest block.
 const OFF: f64 = 1e-3;
-/// Moved corners must not change the verdict if the structure is farther from its limit than this share of its loads.
+/// Scenes with moved corners are checked only if the structure is farther from its limit than this fraction of its
+/// loads.
 const CLEAR: f64 = 0.02;
 
 /// The exact program is slow for more blocks.
@@ -35,12 +36,13 @@ struct Found {
     moved: usize,
     /// The number of bodies left as written.
     kept: usize,
-    /// The number of interfaces minus that of the outlines as written.
+    /// The number of interfaces minus the number of interfaces of the outlines as written.
     more: i64,
     is_wrong: bool,
     text: String,
 }
 
+/// The results of one random scene with each tolerance. Empty if the scene is invalid or too large.
 fn found(number: u64) -> Vec<Found> {
     let (kind, file) = random::scene(number);
     let sound = |file: &Value| {
@@ -131,7 +133,7 @@ fn tolerances_as_large_as_blocks_change_no_verdict_without_closing_a_gap() {
         .collect();
     let count = |f: &dyn Fn(&&Found) -> bool| all.iter().filter(f).count();
     println!(
-        "{} scenes with a tolerance, {} of them with corners that are off, {} with bodies left as written; {} other verdicts, {} of them with such bodies",
+        "{} scenes with a tolerance, {} of them with moved corners, {} with bodies left as written; {} different verdicts, {} of them with such bodies",
         all.len(),
         count(&|f| f.is_off),
         count(&|f| f.kept > 0),

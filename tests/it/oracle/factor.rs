@@ -1,4 +1,4 @@
-//! The exact interval of a parameter on which the loads depend linearly: two linear programs, no search.
+//! The exact interval of a parameter on which the loads depend linearly. Each end is the optimum of a linear program.
 
 use dashu_ratio::RBig;
 
@@ -33,8 +33,8 @@ impl Balance<'_> {
         Some([low.min(most), high.max(least)])
     }
 
-    /// For each direction, the largest component of a force at a point of a block with which the group stands. The
-    /// inner `None` means that the component is unbounded, the outer `None` that the group stands with no force.
+    /// For each direction, the largest component of the forces at a point of a block with which the group stands,
+    /// newtons. The inner `None` means that the component is unbounded, the outer `None` that no such force exists.
     pub fn farthest_forces(
         &self,
         block: usize,
@@ -61,7 +61,7 @@ impl Balance<'_> {
 
     /// Whether the group stands with some force at a point of a block, with an imbalance of up to 10⁻⁶ allowed.
     pub fn holds_within_band(&self, block: usize, at: [f64; 2]) -> bool {
-        self.off(self.with_force(block, at).0) <= 1e-6
+        self.least_imbalance(self.with_force(block, at).0) <= 1e-6
     }
 
     /// The program with one more force at a point of a block. Its unknowns are x, −x, y and −y; their sum is at most
@@ -111,7 +111,7 @@ impl Balance<'_> {
             }
             Growing::AcrossGravity => {
                 let [x, y, _] = self.weight(block);
-                // To the right when gravity points down the page.
+                // The force points to the right if gravity points downwards.
                 (all, [-y, x, RBig::ZERO])
             }
         }

@@ -1,8 +1,8 @@
 //! Compares verdicts with an exact linear program: a simplex in integers over the equilibrium equations of the scene.
 //!
-//! Every floating-point number is a fraction, so whether a scene as written stands has an exact answer. This
-//! directory finds contacts, builds the equilibrium equations and solves them on its own. It shares no code with
-//! `program` and `solve`.
+//! Every floating-point number is a fraction, so it has an exact answer whether a scene as written stands. This
+//! directory has separate code that finds contacts, builds the equilibrium equations and solves them. It shares no
+//! code with `program` and `solve`.
 //!
 //! `DRYSTONE_ORACLE_SCENES=10000` sets the number of scenes (300 by default), `DRYSTONE_ORACLE_FIRST` the number of
 //! the first scene.
@@ -28,7 +28,7 @@ use crate::structure::{block, rectangle, scene};
 use balance::Balance;
 use simplex::{LinearProgram, Row};
 
-/// How one scene's verdict compares.
+/// How the verdict of a scene compares with the exact verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     Agrees(Verdict),
@@ -51,15 +51,15 @@ struct Finding {
     kind: usize,
     file: Value,
     standing: Standing,
-    /// The largest relative error of the total force, of its lower bound or of the total sticking, if it was
-    /// computed.
+    /// The largest relative error of the total force, of its lower bound or of the total adhesion. `None` if they
+    /// were not compared.
     error: Option<f64>,
     /// For an unstable scene: its motion rules out every equilibrium whose sum of forces is below this multiple of
     /// the heaviest load.
     ruled_out: Option<f64>,
 }
 
-fn looked_at(number: u64) -> Finding {
+fn examined(number: u64) -> Finding {
     let (kind, file) = random::scene(number);
     let exact = random::KINDS[kind].1;
     let (standing, error, ruled_out) = match Scene::from_json(&file.to_string()) {
@@ -78,6 +78,7 @@ fn looked_at(number: u64) -> Finding {
     }
 }
 
+/// The standing, the error and the excluded sum of forces of a scene, as in [`Finding`].
 fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<f64>, Option<f64>) {
     let touches = if exact {
         touch::touches(scene)
@@ -94,6 +95,7 @@ fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<
     (standing, error, ruled_out)
 }
 
+/// The standing of a frame and, `with_forces`, the error of its sums.
 fn judged(
     scene: &Scene,
     touches: &[touch::Touch],
@@ -138,24 +140,24 @@ fn judged(
                 true => off(bound.min(least), least, frame.weight) / 10.0,
                 false => 0.0,
             };
-            let told = off(frame.total_force, least, frame.weight);
-            return Some(told.max(above).max(short));
+            let total = off(frame.total_force, least, frame.weight);
+            return Some(total.max(above).max(short));
         }
         let (mut sum, mut lost) = (0.0, Vec::new());
         for group in &groups {
             match group.least_sticking() {
                 Some(least) => sum += least,
-                None if group.is_past_help() => lost.extend(group.blocks.iter().copied()),
-                // No sticking gives an exact equilibrium, but one exists within the tolerance, because corners are
-                // rounded. There is no exact sum to compare with.
+                None if group.cannot_be_held() => lost.extend(group.blocks.iter().copied()),
+                // No adhesion gives an exact equilibrium, but because of rounded corners, one exists within the
+                // tolerance. There is no exact sum to compare with.
                 None => return None,
             }
         }
         lost.sort();
-        let mut told: Vec<usize> = frame.unsupported.iter().map(|b| b.0).collect();
-        told.sort();
+        let mut reported: Vec<usize> = frame.unsupported.iter().map(|b| b.0).collect();
+        reported.sort();
         let sticking = off(frame.total_sticking, sum, frame.weight);
-        Some(if told == lost {
+        Some(if reported == lost {
             sticking
         } else {
             f64::INFINITY
@@ -165,15 +167,16 @@ fn judged(
 }
 
 /// The difference of two sums of force, relative to the exact sum or to the total weight, whichever is larger.
-fn off(told: f64, exact: f64, weight: f64) -> f64 {
+fn off(found: f64, exact: f64, weight: f64) -> f64 {
     let size = exact.max(weight);
     if size > 0.0 {
-        (told - exact).abs() / size
+        (found - exact).abs() / size
     } else {
-        told.abs()
+        found.abs()
     }
 }
 
+/// The number in an environment variable, or `otherwise`.
 pub fn number_of(variable: &str, otherwise: u64) -> u64 {
     std::env::var(variable)
         .ok()
@@ -186,7 +189,7 @@ pub fn number_of(variable: &str, otherwise: u64) -> u64 {
 #[test]
 fn the_total_force_is_the_least_under_a_very_small_push() {
     for number in [18849, 21741, 19792] {
-        let found = looked_at(number);
+        let found = examined(number);
         assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
         assert!(found.error.is_some_and(|e| e < 1e-8), "{:?}", found.error);
         let scene = Scene::from_json(&found.file.to_string()).expect("a sound scene");
@@ -199,25 +202,25 @@ fn the_total_force_is_the_least_under_a_very_small_push() {
 /// least sum, and no better bound was found.
 #[test]
 fn a_total_force_above_the_least_is_not_reported_as_the_least() {
-    let found = looked_at(800_676);
+    let found = examined(800_676);
     assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
     let scene = Scene::from_json(&found.file.to_string()).expect("a sound scene");
     let frame = Analysis::new(&scene).frames.remove(0);
     let is_least = found.error.is_some_and(|error| error < 1e-6);
     assert_eq!(frame.least_force, is_least, "{:?}", found.error);
-    let is_said = frame
+    let is_stated = frame
         .notices
         .iter()
-        .any(|notice| notice.contains("was not shown"));
-    assert_eq!(is_said, !is_least, "{:?}", frame.notices);
+        .any(|notice| notice.contains("was not proved"));
+    assert_eq!(is_stated, !is_least, "{:?}", frame.notices);
 }
 
-/// A push of 8·10⁻⁹ N on a frictionless block whose robot may not push back; and a brick at the foot of a wall with
-/// an exact corner, which healing once moved.
+/// A push of 8·10⁻⁹ N on a frictionless block whose robot may not push back, and a brick at the foot of a wall with
+/// an exact corner that healing once moved.
 #[test]
-fn a_very_small_push_and_an_exact_corner_are_judged_correctly() {
+fn scenes_with_a_very_small_push_and_with_an_exact_corner_fall() {
     for number in [51974, 51566] {
-        let found = looked_at(number);
+        let found = examined(number);
         assert_eq!(
             found.standing,
             Standing::Agrees(Verdict::Unstable),
@@ -227,11 +230,11 @@ fn a_very_small_push_and_an_exact_corner_are_judged_correctly() {
     }
 }
 
-/// Weights from 1 N to 9 kN. Among all forces with the least sticking, those with the least sum are reported. Their
-/// sticking was once 0.2 % above the least.
+/// Weights from 1 N to 9 kN. Among all forces with the least adhesion, those with the least sum are reported. Their
+/// adhesion was once 0.2 % above the least.
 #[test]
-fn the_sticking_of_the_least_forces_is_the_least() {
-    let found = looked_at(2812);
+fn the_adhesion_of_the_least_forces_is_the_least() {
+    let found = examined(2812);
     assert_eq!(found.standing, Standing::Agrees(Verdict::Unstable));
     // The error is relative to the weight, which is 800 times the sticking.
     assert!(found.error.is_some_and(|e| e < 1e-9), "{:?}", found.error);
@@ -248,7 +251,7 @@ fn verdicts_are_those_of_an_exact_program() {
     let wanted = number_of("DRYSTONE_ORACLE_SCENES", 300);
     let findings: Vec<Finding> = (first..first + wanted)
         .into_par_iter()
-        .map(looked_at)
+        .map(examined)
         .collect();
     let count = |f: &dyn Fn(&Finding) -> bool| findings.iter().filter(|x| f(x)).count();
     for (kind, (name, _)) in random::KINDS.iter().enumerate() {
@@ -292,14 +295,14 @@ fn verdicts_are_those_of_an_exact_program() {
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
-/// Towers and walls with stones of any size and weight on them and in them. The only tolerance is that of each block.
+/// Towers and walls with stones of very different sizes and weights on them, next to them and in them.
 /// `DRYSTONE_ORACLE_SMALL=5000` sets the number of scenes.
 #[test]
 #[expect(
     clippy::print_stdout,
     reason = "the counts are the result of a long run"
 )]
-fn the_smallest_stone_is_judged_as_an_exact_program_does() {
+fn verdicts_of_scenes_with_small_stones_are_those_of_an_exact_program() {
     let wanted = number_of("DRYSTONE_ORACLE_SMALL", 300);
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
     let found: Vec<(u64, Value, Standing, String)> = (first..first + wanted)

@@ -1,7 +1,7 @@
 //! Random small scenes: piles, cut walls, stacks on slopes and arches. Each number always gives the same scene.
 //!
-//! Coordinates are coarse fractions where possible, so that bodies touch exactly and many scenes are exactly at their
-//! limit. A load of 1e-4 to 1e-9 of a weight then moves a scene slightly to one side of the limit.
+//! If possible, coordinates are coarse fractions, so that bodies touch exactly and many scenes are exactly at their
+//! limit. A load of 10⁻⁴ to 10⁻⁹ of a weight then moves a scene slightly to one side of the limit.
 
 use serde_json::{Value, json};
 
@@ -18,7 +18,7 @@ pub const KINDS: [(&str, bool); 6] = [
     ("arch", true),
 ];
 
-/// The scene of a number: its kind and its file.
+/// The kind and the file of the scene with this number.
 pub fn scene(number: u64) -> (usize, Value) {
     let mut chance = Random::new(number);
     let kind = (number % KINDS.len() as u64) as usize;
@@ -45,8 +45,9 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
         friction = chance.share();
     }
     if slope && chance.percent(40) {
-        let beside = chance.one_of(&[0.0, 0.0, 1e-3, 1e-5, 1e-6, 1e-8, -1e-8, -1e-6, -1e-5, -1e-3]);
-        friction = chance.one_of(&[0.75, 5.0 / 12.0, 7.0 / 24.0, 4.0 / 3.0]) + beside;
+        let difference =
+            chance.one_of(&[0.0, 0.0, 1e-3, 1e-5, 1e-6, 1e-8, -1e-8, -1e-6, -1e-5, -1e-3]);
+        friction = chance.one_of(&[0.75, 5.0 / 12.0, 7.0 / 24.0, 4.0 / 3.0]) + difference;
     }
     file["friction"] = json!(friction);
     let kernel = if chance.percent(15) {
@@ -125,7 +126,7 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
     }
     if chance.percent(25) {
         let size = libm::exp10(-chance.whole(4, 9) as f64) * chance.whole(1, 9) as f64;
-        let way = chance.one_of(&[
+        let direction = chance.one_of(&[
             [1.0, 0.0],
             [-1.0, 0.0],
             [0.0, 1.0],
@@ -133,7 +134,7 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
             [1.0, -1.0],
         ]);
         let name = &names[chance.whole(0, names.len() as i64 - 1) as usize];
-        loads.push(json!({ "block": name, "force": [size * way[0], size * way[1]] }));
+        loads.push(json!({ "block": name, "force": [size * direction[0], size * direction[1]] }));
     }
     file["loads"] = json!(loads);
 }

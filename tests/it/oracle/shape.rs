@@ -8,7 +8,7 @@ use crate::random::Random;
 
 type Cell = (i64, i64);
 
-/// Pieces of up to four squares, dropped one after the other.
+/// Blocks of up to four squares, dropped one after the other onto the ground and the earlier blocks.
 pub fn square_pile(chance: &mut Random) -> Value {
     let mut taken = BTreeSet::new();
     let mut ground = Vec::new();
@@ -47,9 +47,9 @@ pub fn square_pile(chance: &mut Random) -> Value {
 /// A triangle of the lattice: column, row, and whether it points up.
 type Triangle = (i64, i64, bool);
 
-/// Blocks of one to six triangles. Each grows from a free place next to the blocks already there.
+/// Blocks of one to six triangles. Each begins with a free triangle next to the ground or an earlier block.
 pub fn triangular_pile(chance: &mut Random) -> Value {
-    let beside = |(x, y, up): Triangle| match up {
+    let neighbours = |(x, y, up): Triangle| match up {
         true => [(x, y, false), (x - 1, y + 1, false), (x, y + 1, false)],
         false => [(x, y, true), (x + 1, y - 1, true), (x, y - 1, true)],
     };
@@ -70,7 +70,7 @@ pub fn triangular_pile(chance: &mut Random) -> Value {
         let around = |cells: &mut dyn Iterator<Item = Triangle>,
                       taken: &BTreeSet<Triangle>|
          -> Vec<Triangle> {
-            let all: BTreeSet<Triangle> = cells.flat_map(beside).collect();
+            let all: BTreeSet<Triangle> = cells.flat_map(neighbours).collect();
             all.into_iter()
                 .filter(|c| !taken.contains(c) && !buried(*c))
                 .collect()
@@ -98,9 +98,9 @@ pub fn triangular_pile(chance: &mut Random) -> Value {
     json!({ "grid": { "kind": "triangular" }, "ground": ground, "blocks": blocks })
 }
 
-/// Courses of bricks of random widths at random places, in axes turned so that `along` is the first axis.
+/// Courses of bricks of random widths at random positions, rotated so that `along` is the direction of a course.
 ///
-/// The components of the axis and its length are integers, so the turned corners are exact.
+/// The components of `along` and its length are integers, so the rotated corners are exact.
 pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     let place = |x: i64, y: i64| {
         let (c, s) = (along[0] as f64 / 8.0, along[1] as f64 / 8.0);
@@ -143,7 +143,7 @@ pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     json!({ "ground": ground, "blocks": blocks })
 }
 
-/// A rectangle cut by straight lines, on a floor, perhaps between walls, perhaps with some pieces missing.
+/// A rectangle cut by straight lines, on a floor, sometimes between walls, sometimes with one piece missing.
 pub fn cut_wall(chance: &mut Random) -> Value {
     loop {
         let (width, height) = (
@@ -191,7 +191,8 @@ pub fn cut_wall(chance: &mut Random) -> Value {
     }
 }
 
-/// The two parts of a convex piece. Neighbours that share an edge get exactly the same new corner on it.
+/// The two parts into which a line cuts a convex piece; one may be empty. Neighbours that share an edge have exactly
+/// the same new corner on it.
 fn cut(piece: &[[f64; 2]], through: [f64; 2], normal: [f64; 2]) -> [Vec<[f64; 2]>; 2] {
     let side = |p: [f64; 2]| normal[0] * (p[0] - through[0]) + normal[1] * (p[1] - through[1]);
     let (mut above, mut below) = (Vec::new(), Vec::new());
@@ -220,7 +221,7 @@ fn cut(piece: &[[f64; 2]], through: [f64; 2], normal: [f64; 2]) -> [Vec<[f64; 2]
     [above, below]
 }
 
-/// Voussoirs between two abutments, of uneven thickness and joints rounded to 1/64.
+/// Voussoirs of uneven thickness between two abutments. Coordinates are rounded to 1/64.
 pub fn arch(chance: &mut Random) -> Value {
     let n = chance.whole(1, 7);
     let (inner, thickness) = (1.0, 0.1 + chance.share() * 0.6);

@@ -44,7 +44,7 @@ impl LinearProgram {
     pub fn least(&self) -> Option<RBig> {
         assert!(
             self.costs.iter().all(|c| *c >= RBig::ZERO),
-            "costs have a least"
+            "costs must not be negative"
         );
         let mut table = Table::new(self);
         if !table.reach_feasible() {
@@ -62,11 +62,11 @@ impl LinearProgram {
             } else {
                 sum <= row.bound
             };
-            assert!(kept, "the simplex table breaks a row");
+            assert!(kept, "the solution violates a row");
         }
         assert!(
             x.iter().all(|v| *v >= RBig::ZERO),
-            "the simplex table breaks a sign"
+            "the solution has a negative unknown"
         );
         Some(
             x.iter()
@@ -147,7 +147,10 @@ impl Table {
                 }
                 basis.push(Basic::Artificial);
             } else {
-                assert!(row.bound >= RBig::ZERO, "an inequality starts out kept");
+                assert!(
+                    row.bound >= RBig::ZERO,
+                    "the bound of an inequality is negative"
+                );
                 line[slack] = IBig::ONE;
                 basis.push(Basic::Unknown(slack));
                 slack += 1;
@@ -163,7 +166,7 @@ impl Table {
         }
     }
 
-    /// Drives the artificial unknowns to 0; false if this is impossible.
+    /// Makes all artificial unknowns 0. False if this is impossible.
     fn reach_feasible(&mut self) -> bool {
         self.objective = vec![IBig::ZERO; self.width];
         for (row, basic) in self.rows.iter().zip(&self.basis) {
@@ -209,7 +212,7 @@ impl Table {
         x
     }
 
-    /// Replaces artificial unknowns in the basis, all of which are 0, and removes redundant rows.
+    /// Replaces the artificial unknowns in the basis, which are all 0, and removes redundant rows.
     fn drop_artificials(&mut self) {
         let mut r = 0;
         while r < self.rows.len() {
@@ -235,19 +238,19 @@ impl Table {
     /// Pivots until the objective improves. False at the optimum.
     fn step(&mut self) -> bool {
         for idle in 0.. {
-            let dear = |k: &usize| self.objective[*k] < IBig::ZERO;
+            let lowers = |k: &usize| self.objective[*k] < IBig::ZERO;
             let entering = if idle < PATIENCE {
                 (0..self.width - 1)
-                    .filter(dear)
+                    .filter(lowers)
                     .min_by(|a, b| self.objective[*a].cmp(&self.objective[*b]))
             } else {
-                (0..self.width - 1).find(dear)
+                (0..self.width - 1).find(lowers)
             };
             let Some(k) = entering else {
                 return false;
             };
             let Some(r) = self.leaving(k) else {
-                unreachable!("costs are not negative, so nothing falls for ever");
+                unreachable!("costs are not negative, so the objective is bounded");
             };
             let gains = !self.rows[r][self.width - 1].is_zero();
             self.pivot(r, k);

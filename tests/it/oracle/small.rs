@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 
 use crate::random::Random;
 
-/// First axes of the piles: level (twice as often), and a slope of 3 in 4, which has length 5/8.
+/// The directions of the courses of a pile: horizontal, twice as often as the slope of 3 in 4. The latter has length
+/// 5/8.
 const AXES: [[f64; 2]; 3] = [[1.0, 0.0], [1.0, 0.0], [0.5, 0.375]];
 
 struct Pile {
@@ -35,7 +36,7 @@ impl Pile {
     }
 }
 
-/// The scene file of a number.
+/// The file of the scene with this number.
 pub fn scene(number: u64) -> Value {
     let mut chance = Random::new(number ^ 0x5a11);
     let along = chance.one_of(&AXES);
@@ -63,7 +64,7 @@ pub fn scene(number: u64) -> Value {
         pile.add(x, k as f64, 2.0, 1.0, own);
     }
     let top = courses as f64;
-    // The part of a stone that lies beyond the edge.
+    // The fraction of a stone's width that lies beyond the edge.
     let shares = [0.25, 0.484375, 0.5, 0.515625, 0.5625, 0.75, 0.984375];
     for stone in 0..chance.whole(1, 2) {
         let (size, beyond) = (binary(&mut chance), chance.one_of(&shares));
@@ -72,7 +73,8 @@ pub fn scene(number: u64) -> Value {
             // The first stone on the right edge of the top, the second on the left edge.
             0 | 1 if stone == 0 => pile.add(x + 2.0 - size * (1.0 - beyond), top, size, size, own),
             0 | 1 => pile.add(x - size * beyond, top, size, size, own),
-            // In a joint between two bricks on the top course, resting on it or lifted, perhaps with a brick above.
+            // In a joint between two bricks on the top course, resting on that course or above it, sometimes below
+            // another brick.
             2 if stone == 0 => {
                 let gap = size.min(0.25);
                 pile.add(x, top, 0.75, 0.5, weight(&mut chance));
@@ -84,7 +86,7 @@ pub fn scene(number: u64) -> Value {
                 }
                 break;
             }
-            // One of two supports of a brick.
+            // As one of two supports of a brick.
             3 if stone == 0 => {
                 let height = size.min(0.5);
                 pile.add(x + 0.125, top, height, height, own);
@@ -94,7 +96,7 @@ pub fn scene(number: u64) -> Value {
                 pile.add(x + reach - 0.5, top + height, 2.0, 1.0, weight(&mut chance));
                 break;
             }
-            // Next to a post of ground. The stone touches only the side of the post, or stands on the floor as well.
+            // Next to a post of ground. The stone touches only the side of the post, or also stands on the floor.
             _ => {
                 let y = chance.one_of(&[0.0, 0.25, 0.5]);
                 pile.add(-8.0 - size, y, size, size, own);

@@ -10,17 +10,18 @@ pub type Pair = [RBig; 2];
 /// A straight contact between a block and another body.
 #[derive(Clone, Debug)]
 pub struct Touch {
+    /// The number of the block.
     pub on: usize,
     /// The number of the other block; `None` for the ground.
     pub from: Option<usize>,
-    /// The block `on` lies to the left of the direction from the second end to the first.
+    /// The ends of the contact. Seen from the second end towards the first, the block `on` lies to the left.
     pub ends: [Pair; 2],
     pub friction: f64,
 }
 
 /// A floating-point number as an exact fraction.
 pub fn exact(value: f64) -> RBig {
-    RBig::try_from(value).expect("scenes hold finite numbers")
+    RBig::try_from(value).expect("scenes contain only finite numbers")
 }
 
 pub fn pair(x: f64, y: f64) -> Pair {
@@ -39,7 +40,7 @@ pub fn dot(a: &Pair, b: &Pair) -> RBig {
     &a[0] * &b[0] + &a[1] * &b[1]
 }
 
-/// The corners of a body's outline, anticlockwise by their signed area.
+/// The corners of a body's outline in anticlockwise order.
 pub fn corners(body: &Body) -> Vec<Pair> {
     let mut corners: Vec<Pair> = body
         .polygon
@@ -56,7 +57,7 @@ pub fn corners(body: &Body) -> Vec<Pair> {
     corners
 }
 
-/// All exact contacts.
+/// All exact contacts of a scene.
 pub fn touches(scene: &Scene) -> Vec<Touch> {
     let blocks: Vec<Vec<Pair>> = scene.blocks().iter().map(|b| corners(&b.body)).collect();
     let ground: Vec<Vec<Pair>> = scene.ground().iter().map(|g| corners(&g.body)).collect();
@@ -67,8 +68,8 @@ pub fn touches(scene: &Scene) -> Vec<Touch> {
                 .body
                 .friction
                 .min(scene.blocks()[j].body.friction);
-            let stretches = joined(stretches(one, other));
-            found.extend(stretches.into_iter().map(|ends| Touch {
+            let common_segments = joined(common_segments(one, other));
+            found.extend(common_segments.into_iter().map(|ends| Touch {
                 on: i,
                 from: Some(j),
                 ends,
@@ -80,8 +81,8 @@ pub fn touches(scene: &Scene) -> Vec<Touch> {
                 .body
                 .friction
                 .min(scene.ground()[j].body.friction);
-            let stretches = joined(stretches(one, other));
-            found.extend(stretches.into_iter().map(|ends| Touch {
+            let common_segments = joined(common_segments(one, other));
+            found.extend(common_segments.into_iter().map(|ends| Touch {
                 on: i,
                 from: None,
                 ends,
@@ -109,8 +110,8 @@ pub fn as_found(scene: &Scene) -> Vec<Touch> {
         .collect()
 }
 
-/// The segments that the edges of two outlines have in common.
-fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
+/// The segments that the edges of two outlines have in common, if the bodies lie on opposite sides of them.
+fn common_segments(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
     let mut found = Vec::new();
     for i in 0..one.len() {
         let (a, b) = (&one[i], &one[(i + 1) % one.len()]);
@@ -122,10 +123,10 @@ fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
             if !straight || dot(&along, &minus(d, c)) >= RBig::ZERO {
                 continue;
             }
-            let way = |p: &Pair| dot(&along, &minus(p, a));
-            let begin = if way(d) > RBig::ZERO { d } else { a };
-            let end = if way(c) < way(b) { c } else { b };
-            if way(begin) < way(end) {
+            let position = |p: &Pair| dot(&along, &minus(p, a));
+            let begin = if position(d) > RBig::ZERO { d } else { a };
+            let end = if position(c) < position(b) { c } else { b };
+            if position(begin) < position(end) {
                 found.push([end.clone(), begin.clone()]);
             }
         }
@@ -133,7 +134,8 @@ fn stretches(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
     found
 }
 
-/// Joins segments that continue each other on one line. A corner inside a straight edge changes nothing.
+/// Joins segments that lie on one line and share an end, so that a corner inside a straight edge does not split a
+/// contact.
 fn joined(mut list: Vec<[Pair; 2]>) -> Vec<[Pair; 2]> {
     let follows = |a: &[Pair; 2], b: &[Pair; 2]| {
         let (u, v) = (minus(&a[1], &a[0]), minus(&b[1], &b[0]));

@@ -1,6 +1,6 @@
-//! Checks the certificate that a structure stands only by wedging. The exact simplex finds every ruled-out case
-//! infeasible, and the cases together cover all patterns. The rows are built here from the contacts found and the law
-//! of the springs.
+//! Checks the certificate that a structure stands only by wedging. By the exact simplex, every ruled-out case is
+//! infeasible, and the cases together cover all patterns. The rows are built here from the contacts that drystone
+//! finds and the law of the springs.
 
 use dashu_ratio::RBig;
 use drystone::analysis::{FrameAnalysis, Options, RuledOut, Slide};
@@ -98,7 +98,8 @@ impl<'a> Springs<'a> {
         });
     }
 
-    /// The rows of all cases: equilibrium, work of the loads, and the bound on the normal forces.
+    /// Adds the rows that all cases have in common: equilibrium, the power of the loads, and the bound on the normal
+    /// forces.
     fn common(&mut self) {
         let mut balance: Vec<Entries> = vec![Vec::new(); 3 * self.scene.blocks().len()];
         for contact in 0..self.frame.contacts.len() {
@@ -138,10 +139,10 @@ impl<'a> Springs<'a> {
         self.row(sum, all, false);
     }
 
-    /// The rows of the law of the springs in one case.
+    /// Adds the rows of the law of the springs in one case.
     fn law(&mut self, case: &RuledOut) {
         for contact in 0..self.frame.contacts.len() {
-            let said = |point: usize| {
+            let presses = |point: usize| {
                 let mut points = case.points.iter();
                 let of = points.find(|p| (p.interface, p.point) == (contact, point));
                 of.map(|p| p.presses)
@@ -154,7 +155,7 @@ impl<'a> Springs<'a> {
                 };
                 let opening = self.speed(contact, point, false, &RBig::ONE);
                 let closing = self.speed(contact, point, false, &-RBig::ONE);
-                match said(point) {
+                match presses(point) {
                     Some(true) => self.row(with_normal(opening, RBig::ONE), RBig::ZERO, true),
                     Some(false) => {
                         self.row(vec![(normal, RBig::ONE)], RBig::ZERO, true);
@@ -168,10 +169,10 @@ impl<'a> Springs<'a> {
                 let factor = &mu * &by;
                 [0, 1].map(|point| (self.normal(contact, point), factor.clone()))
             };
-            let way = |by: i64| RBig::from(by);
+            let integer = |by: i64| RBig::from(by);
             let (least, whole) = (most(-RBig::ONE), most(RBig::ONE));
             for sign in [1, -1] {
-                let mut entries = self.friction(contact, &way(sign));
+                let mut entries = self.friction(contact, &integer(sign));
                 entries.extend(least.clone());
                 self.row(entries, RBig::ZERO, false);
             }
@@ -187,10 +188,10 @@ impl<'a> Springs<'a> {
                     // Friction acts at its limit against the slip, and the slip is at least the friction force
                     // divided by the stiffness 1.
                     let along = if slides == Slide::Forth { 1 } else { -1 };
-                    let mut limit = self.friction(contact, &way(along));
+                    let mut limit = self.friction(contact, &integer(along));
                     limit.extend(whole.clone());
                     self.row(limit, RBig::ZERO, true);
-                    let mut slip = self.speed(contact, 0, true, &way(-along));
+                    let mut slip = self.speed(contact, 0, true, &integer(-along));
                     slip.extend(whole.clone());
                     self.row(slip, RBig::ZERO, false);
                 }
@@ -199,7 +200,7 @@ impl<'a> Springs<'a> {
     }
 }
 
-/// The share of all patterns that a case covers: a factor ½ for each point, ⅓ for each face.
+/// The fraction of all patterns that a case covers: a factor of ½ for each of its points and ⅓ for each of its faces.
 fn share(case: &RuledOut) -> RBig {
     let half = RBig::from_parts(1.into(), 2_u8.into());
     let third = RBig::from_parts(1.into(), 3_u8.into());
@@ -208,7 +209,7 @@ fn share(case: &RuledOut) -> RBig {
 }
 
 /// Whether two cases exclude each other: they differ at some point or face.
-fn apart(one: &RuledOut, other: &RuledOut) -> bool {
+fn exclude_each_other(one: &RuledOut, other: &RuledOut) -> bool {
     let points = one.points.iter().any(|a| {
         let same = |b: &&_| ends(a) == ends(b);
         other
@@ -240,15 +241,15 @@ fn the_exact_program_confirms_every_ruled_out_case_of_wedging() {
         let options = Options::default().wedging(true);
         let analysis = Analysis::with(scene.clone(), &options);
         let frame = &analysis.frames[0];
-        let wedged = frame.wedged.as_ref().expect("what shows that it is wedged");
+        let wedged = frame.wedged.as_ref().expect("the certificate of wedging");
         let all = wedged
             .ruled_out
             .iter()
             .fold(RBig::ZERO, |sum, c| sum + share(c));
-        assert_eq!(all, RBig::ONE, "the cases leave nothing out");
+        assert_eq!(all, RBig::ONE, "the cases cover all patterns");
         for (k, case) in wedged.ruled_out.iter().enumerate() {
             for other in &wedged.ruled_out[k + 1..] {
-                assert!(apart(case, other), "{case:?} {other:?}");
+                assert!(exclude_each_other(case, other), "{case:?} {other:?}");
             }
             let mut springs = Springs::of(&scene, frame);
             springs.common();

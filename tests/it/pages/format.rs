@@ -22,14 +22,14 @@ fn file(keys: Value) -> Value {
     file
 }
 
-/// The same scene with other keys of its block as well.
+/// The scene of [`file`] with additional keys of its block.
 fn block(keys: Value, scene: Value) -> Value {
     let mut file = file(scene);
     put(&mut file["blocks"][0], keys);
     file
 }
 
-/// Cells on a square lattice of half a metre.
+/// A scene with cells on a square lattice of half a metre. The given keys are added to its block.
 fn cells(keys: Value) -> Value {
     let mut file = json!({ "drystone": 1, "grid": { "kind": "square", "side": 0.5 },
         "ground": [{ "cells": [[0, -1], [1, -1]] }], "blocks": [{ "cells": [[0, 0], [0, 1]] }] });
@@ -67,25 +67,25 @@ fn is_near(found: &Value, expected: &Value) -> bool {
     }
 }
 
-fn hold(claims: Vec<Claim>) {
+fn assert_claims(claims: Vec<Claim>) {
     let page = words_of("src/doc/format.md");
-    for Claim(said, file, shown) in claims {
-        assert!(page.contains(said), "the page does not say: {said}");
+    for Claim(phrase, file, shown) in claims {
+        assert!(page.contains(phrase), "the page does not contain: {phrase}");
         match (Scene::from_json(&file.to_string()), shown) {
             (Ok(scene), Result(pointer, expected)) => {
                 let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
                 let result: Value = serde_json::from_str(&json).expect("JSON");
                 let found = result.pointer(pointer).unwrap_or(&Value::Null);
-                assert!(is_near(found, &expected), "{said}\n{file}\n{found}");
+                assert!(is_near(found, &expected), "{phrase}\n{file}\n{found}");
             }
             (Err(problems), Refused(code, words)) => {
                 let text = problems.to_string();
                 let codes = problems.list.iter().map(|p| p.code.word());
-                assert!(codes.clone().all(|c| c == code), "{said}\n{file}\n{text}");
-                assert!(text.contains(words), "{said}\n{file}\n{text}");
+                assert!(codes.clone().all(|c| c == code), "{phrase}\n{file}\n{text}");
+                assert!(text.contains(words), "{phrase}\n{file}\n{text}");
             }
-            (Ok(_), _) => panic!("{said}\n{file}\nis not refused"),
-            (Err(problems), _) => panic!("{said}\n{file}\n{problems}"),
+            (Ok(_), _) => panic!("{phrase}\n{file}\nis not refused"),
+            (Err(problems), _) => panic!("{phrase}\n{file}\n{problems}"),
         }
     }
 }
@@ -100,13 +100,13 @@ fn stands() -> Shown {
 }
 
 #[test]
-fn keys_may_be_left_out_and_unknown_ones_are_errors() {
-    let least = |key: &str| {
+fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
+    let without = |key: &str| {
         let mut file = file(json!({}));
         file.as_object_mut().expect("an object").remove(key);
         file
     };
-    hold(vec![
+    assert_claims(vec![
         Claim(
             "the message names the nearest known key",
             block(json!({ "weigth": 1 }), json!({})),
@@ -122,17 +122,17 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
         ),
         Claim(
             "Keys with a default may be left out",
-            least("ground"),
+            without("ground"),
             Result(STANDS, json!("unstable")),
         ),
         Claim(
             "`drystone` | whole number | required",
-            least("drystone"),
+            without("drystone"),
             Refused("missing_key", "drystone"),
         ),
         Claim(
             "`blocks` | list: a block | required",
-            least("blocks"),
+            without("blocks"),
             Refused("missing_key", "blocks"),
         ),
         Claim(
@@ -163,7 +163,7 @@ fn keys_may_be_left_out_and_unknown_ones_are_errors() {
     ];
     for key in lists.into_iter().chain(["drystone", "blocks"]) {
         let refused = Refused("wrong_type", "found null");
-        hold(vec![Claim(
+        assert_claims(vec![Claim(
             "`null` is an error for a required key, and for a key whose value is a list or an object of named entries",
             file(json!({ key: null })),
             refused,
@@ -182,7 +182,7 @@ fn defaults_and_units_are_those_of_the_page() {
     };
     let pushed = |load: Value| block(json!({ "weight": 10 }), json!({ "loads": [load] }));
     let resultant = "/frames/0/interfaces/0/resultant";
-    hold(vec![
+    assert_claims(vec![
         Claim(
             "Default [0, -9.81].",
             file(json!({})),

@@ -14,7 +14,8 @@ fn result(file: &Value, options: &Options) -> Value {
     serde_json::from_str(&json).expect("JSON")
 }
 
-/// A phrase of the page, a scene, its options, a path in the result and the value there; `None` if there is no value.
+/// A phrase of the page, a scene, the options of its analysis, a path in the result, and the expected value at this
+/// path. `None` if there must be no value.
 struct Claim<'a>(
     &'static str,
     &'a Value,
@@ -23,10 +24,10 @@ struct Claim<'a>(
     Option<Value>,
 );
 
-fn hold(claims: Vec<Claim<'_>>) {
+fn assert_claims(claims: Vec<Claim<'_>>) {
     let page = words_of("src/doc/result.md");
-    for Claim(said, file, options, pointer, expected) in claims {
-        assert!(page.contains(said), "the page does not say: {said}");
+    for Claim(phrase, file, options, pointer, expected) in claims {
+        assert!(page.contains(phrase), "the page does not contain: {phrase}");
         let result = result(file, options);
         let found = result.pointer(pointer);
         let near = match (
@@ -36,7 +37,7 @@ fn hold(claims: Vec<Claim<'_>>) {
             (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * b.abs().max(1.0),
             _ => found == expected.as_ref(),
         };
-        assert!(near, "{said}\n{file}\n{pointer}: {found:?}");
+        assert!(near, "{phrase}\n{file}\n{pointer}: {found:?}");
     }
 }
 
@@ -55,7 +56,7 @@ fn held(limits: Value, loads: Value) -> Value {
 #[test]
 fn sums_lengths_and_shares_are_as_the_page_says() {
     let plain = Options::default();
-    let beside = |widths: &[f64]| {
+    let side_by_side = |widths: &[f64]| {
         let blocks = widths.iter().enumerate();
         let blocks = blocks.map(|(k, width)| {
             block(
@@ -74,7 +75,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
     let mut smooth = on_floor(0.0, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
     let flat = smooth.clone();
     smooth["loads"] = json!([{ "block": "a", "force": [1, 0] }]);
-    let mut hung = beside(&[1.0]);
+    let mut hung = side_by_side(&[1.0]);
     hung["blocks"].as_array_mut().expect("blocks").push(block(
         "z",
         rectangle(0.0, 5.0, 1.0, 1.0),
@@ -84,8 +85,8 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
     let only = Options::default().verdict_only(true);
     let (nothing, two, three) = (
         on_floor(0.7, vec![]),
-        beside(&[3.0, 0.5]),
-        beside(&[3.0, 0.5, 2.0]),
+        side_by_side(&[3.0, 0.5]),
+        side_by_side(&[3.0, 0.5, 2.0]),
     );
     let hanging = hanging();
     let none = json!([]);
@@ -97,8 +98,8 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             json!([{ "block": "a", "force": [15, 0] }]),
         ),
     );
-    let at = |said, file, pointer, value| Claim(said, file, &plain, pointer, Some(value));
-    hold(vec![
+    let at = |phrase, file, pointer, value| Claim(phrase, file, &plain, pointer, Some(value));
+    assert_claims(vec![
         at(
             "the median length of the frame's interfaces",
             &three,
@@ -203,7 +204,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             json!([]),
         ),
         at(
-            "where no adhesion would help (`unsupported`)",
+            "if no adhesion would help (`unsupported`)",
             &hanging,
             "/frames/0/total_sticking",
             json!(0.0),
@@ -242,13 +243,13 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             None,
         ),
         at(
-            "empty where stable",
+            "empty if the frame stands",
             &flat,
             "/frames/0/mechanism",
             json!([]),
         ),
         at(
-            "the step's title; empty where it has none",
+            "the step's title; empty if it has none",
             &flat,
             "/frames/0/title",
             json!(""),
@@ -281,9 +282,9 @@ fn requested_values_are_present_and_others_are_not() {
     narrow["blocks"][0]["polygon"] = rectangle(0.0, 0.005, 1.0, 1.0);
     let (hanging, held) = (hanging(), held(json!(null), json!([])));
     let there =
-        |said, file, options, pointer, value| Claim(said, file, options, pointer, Some(value));
+        |phrase, file, options, pointer, value| Claim(phrase, file, options, pointer, Some(value));
     let empty = json!({ "left": [], "right": [] });
-    hold(vec![
+    assert_claims(vec![
         Claim(
             "`frames[].margins` | object | | with `--margins`",
             &stands,
@@ -292,21 +293,21 @@ fn requested_values_are_present_and_others_are_not() {
             None,
         ),
         there(
-            "`frames[].margins.friction` | number, null or `\"unbounded\"` | | where requested",
+            "`frames[].margins.friction` | number, null or `\"unbounded\"` | | if requested",
             &stands,
             &some,
             "/frames/0/margins/friction",
             json!(0.0),
         ),
         Claim(
-            "`frames[].margins.kernel` | number, null or `\"unbounded\"` | | where requested",
+            "`frames[].margins.kernel` | number, null or `\"unbounded\"` | | if requested",
             &stands,
             &some,
             "/frames/0/margins/kernel",
             None,
         ),
         Claim(
-            "`frames[].margins.tilt` | object | | where requested",
+            "`frames[].margins.tilt` | object | | if requested",
             &stands,
             &some,
             "/frames/0/margins/tilt",
@@ -425,7 +426,7 @@ fn requested_values_are_present_and_others_are_not() {
             None,
         ),
         there(
-            "the scene's title; empty where it has none",
+            "the scene's title; empty if it has none",
             &stands,
             &plain,
             "/scene",
@@ -450,7 +451,7 @@ fn effects_and_methods_have_the_names_on_the_page() {
         page.contains(&format!("{} or {last}", first.join(", "))),
         "{named:?}"
     );
-    // An effect that is left out states the unknowns that it would have added.
+    // An effect that is not simulated states the number of unknowns that it would add.
     let sticking = effects
         .iter()
         .find(|e| e["effect"] == EffectName::Sticking.word())

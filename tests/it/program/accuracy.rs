@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::Bench;
 
-/// A frictionless wedge of some half-angle in its notch, all turned by 30° so that no face runs along an axis.
+/// A frictionless wedge in its notch, rotated by 30° so that no face is parallel to an axis.
 fn wedge(half_angle: f64) -> String {
     let d = half_angle;
     let turned = |shape: &str| json!({ "shape": shape, "angle": 30 });
@@ -61,12 +61,12 @@ fn a_study_is_written_in_every_form() {
 fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
     let bench = Bench::new();
     // A thrust of 10⁹ weights is balanced to seven digits. This is enough for a verdict, but not for the level
-    // `proved`, which needs a hundred times better.
+    // `proved`, which needs nine digits.
     fs::write(bench.path("flat.json"), wedge(1e-9)).expect("writable");
     let ran = bench.run("check --accuracy proved flat.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(ran.out.contains("undecided"), "{}", ran.out);
-    assert!(ran.out.contains("of what acts on a block"), "{}", ran.out);
+    assert!(ran.out.contains("of the forces on a block"), "{}", ran.out);
     // A thrust of 10¹³ weights is balanced to three digits, which is not a proof. The wedge does not fall either.
     fs::write(bench.path("flatter.json"), wedge(1e-13)).expect("writable");
     let ran = bench.run("check flatter.json");
@@ -76,7 +76,7 @@ fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
     assert_eq!(
         bench.run("check flatter.json falls.json").code,
         1,
-        "what is known comes first"
+        "a fall has precedence over an undecided verdict"
     );
     assert_eq!(bench.run("render flatter.json -o flatter.svg").code, 0);
     assert_eq!(

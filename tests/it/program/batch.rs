@@ -1,5 +1,7 @@
 //! `drystone batch`: one line for every scene, in order, even if some scenes are invalid or a run is interrupted.
 
+mod resume;
+
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::Stdio;
@@ -39,33 +41,36 @@ fn lines(out: &str) -> Vec<Value> {
 }
 
 #[test]
-fn every_line_is_answered_in_its_place() {
+fn every_line_has_an_answer_in_the_same_order() {
     let bench = Bench::new();
     let stands = line(STANDS);
     let input = format!("{stands}{}{{ \"drystone\": 1,\n\n{stands}", line(FALLS));
     let ran = bench.run_with("batch --no-such", b"");
     assert_eq!(ran.code, 2, "{}", ran.err);
     let ran = bench.run_with("batch", input.as_bytes());
-    assert_eq!((ran.code, &*ran.err), (2, ""), "something was wrong");
-    let told = lines(&ran.out);
-    assert_eq!(told.len(), 5);
+    assert_eq!((ran.code, &*ran.err), (2, ""), "a line is invalid");
+    let answers = lines(&ran.out);
+    assert_eq!(answers.len(), 5);
     assert_eq!(
-        told[0],
+        answers[0],
         json!({ "line": 1, "scene": "A lintel", "verdict": "stable" })
     );
-    assert_eq!(told[1]["verdict"], "unstable", "the worst of both frames");
-    assert_eq!(told[2]["problems"][0]["line"], 3);
-    assert_eq!(told[3]["line"], 4, "an empty line has an answer too");
-    assert_eq!(told[3]["problems"].as_array().map(Vec::len), Some(1));
-    assert_eq!(told[4]["verdict"], "stable");
+    assert_eq!(
+        answers[1]["verdict"], "unstable",
+        "the worse of the two frames"
+    );
+    assert_eq!(answers[2]["problems"][0]["line"], 3);
+    assert_eq!(answers[3]["line"], 4, "an empty line also has an answer");
+    assert_eq!(answers[3]["problems"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answers[4]["verdict"], "stable");
 }
 
 #[test]
 fn problems_are_reported_with_their_positions() {
     let bench = Bench::new();
     let input = format!("{}{}", line(STANDS), line(WRONG));
-    let told = lines(&bench.run_with("batch", input.as_bytes()).out);
-    let problems = told[1]["problems"].as_array().expect("a list");
+    let answers = lines(&bench.run_with("batch", input.as_bytes()).out);
+    let problems = answers[1]["problems"].as_array().expect("a list");
     let paths: Vec<&Value> = problems.iter().map(|p| &p["path"]).collect();
     assert!(paths.contains(&&json!("blocks[1].weight")), "{paths:?}");
     for problem in problems {
@@ -75,10 +80,10 @@ fn problems_are_reported_with_their_positions() {
     }
     // In a separate file the line numbers are those of the file.
     let ran = bench.run("batch wrong.json");
-    let told = lines(&ran.out);
-    assert_eq!(told[0]["file"], "wrong.json");
+    let answers = lines(&ran.out);
+    assert_eq!(answers[0]["file"], "wrong.json");
     let on = |n| {
-        told[0]["problems"]
+        answers[0]["problems"]
             .as_array()
             .into_iter()
             .flatten()
@@ -88,7 +93,7 @@ fn problems_are_reported_with_their_positions() {
 }
 
 #[test]
-fn many_threads_answer_as_one_does_and_as_check_does() {
+fn several_threads_give_the_same_answers_as_one_thread_and_as_check() {
     let bench = Bench::new();
     let mut input = String::new();
     for k in 0..60 {
@@ -100,13 +105,16 @@ fn many_threads_answer_as_one_does_and_as_check_does() {
     let one = bench.run("batch corpus.ndjson --jobs 1 --fields all");
     let many = bench.run("batch corpus.ndjson --jobs 4 --fields all");
     assert_eq!((one.code, one.out.len()), (many.code, many.out.len()));
-    assert!(one.out == many.out, "threads show in the output");
+    assert!(
+        one.out == many.out,
+        "the output depends on the number of threads"
+    );
     assert_eq!(one.code, 1, "some fall");
-    for (k, (text, told)) in input.lines().zip(lines(&one.out)).enumerate().step_by(9) {
+    for (k, (text, answer)) in input.lines().zip(lines(&one.out)).enumerate().step_by(9) {
         fs::write(bench.path("single.json"), text).expect("writable");
         let alone = bench.run("check --json --no-timing single.json");
         let alone: Value = serde_json::from_str(&alone.out).expect("JSON");
-        assert_eq!(told["frames"], alone["frames"], "scene {k}");
+        assert_eq!(answer["frames"], alone["frames"], "scene {k}");
     }
 }
 
@@ -117,11 +125,11 @@ fn fields_select_the_output() {
     let list =
         "verdict,frames.total_force,frames.interfaces.resultant.at,frames.proof,contact_tolerance";
     let ran = bench.run(&format!("batch falls.json --fields {list}"));
-    let told = lines(&ran.out).remove(0);
-    let keys: Vec<&String> = told.as_object().expect("an object").keys().collect();
+    let answers = lines(&ran.out).remove(0);
+    let keys: Vec<&String> = answers.as_object().expect("an object").keys().collect();
     assert_eq!(keys, ["contact_tolerance", "file", "frames", "verdict"]);
-    assert_eq!(told["contact_tolerance"], whole["contact_tolerance"]);
-    for (part, all) in [0, 1].map(|k| (&told["frames"][k], &whole["frames"][k])) {
+    assert_eq!(answers["contact_tolerance"], whole["contact_tolerance"]);
+    for (part, all) in [0, 1].map(|k| (&answers["frames"][k], &whole["frames"][k])) {
         assert_eq!(part.as_object().map(|o| o.len()), Some(3));
         assert_eq!(part["total_force"], all["total_force"]);
         assert_eq!(part["proof"], all["proof"]);
@@ -129,7 +137,7 @@ fn fields_select_the_output() {
         assert_eq!(at(part), at(all));
         assert_eq!(part["interfaces"][0].as_object().map(|o| o.len()), Some(1));
     }
-    // The names of all fields give the complete result.
+    // With the names of all fields, the result is complete.
     let ran = bench
         .run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,notes,frames");
     assert_eq!(lines(&ran.out).remove(0), whole);
@@ -151,7 +159,7 @@ fn fields_select_the_output() {
     assert!(ran.err.contains("did you mean frames.proof?") && ran.err.contains("no field x"));
 }
 
-/// For each list of margins, `batch` gives the same margins as `check`.
+/// For each list of margins, the margins of `batch` equal those of `check`.
 #[test]
 fn margins_are_those_of_check() {
     let bench = Bench::new();
@@ -177,10 +185,10 @@ fn margins_are_those_of_check() {
                 lines(&ran.out).remove(0)
             };
             // `--margins` alone adds only the margins to the output.
-            let told = batch("");
-            assert_eq!(margins(&told), margins(&checked), "{list}");
-            assert_eq!(told["frames"][0].as_object().map(|o| o.len()), Some(1));
-            assert_eq!(told["scene"], checked["scene"]);
+            let answers = batch("");
+            assert_eq!(margins(&answers), margins(&checked), "{list}");
+            assert_eq!(answers["frames"][0].as_object().map(|o| o.len()), Some(1));
+            assert_eq!(answers["scene"], checked["scene"]);
             assert_eq!(
                 margins(&batch("--fields verdict,frames.weight")),
                 margins(&checked)
@@ -189,14 +197,16 @@ fn margins_are_those_of_check() {
         }
     }
     let ran = bench.run("batch stands.json --margins --fields frames.margins.friction");
-    let told = lines(&ran.out).remove(0);
-    let margins = told["frames"][0]["margins"].as_object().expect("an object");
+    let answers = lines(&ran.out).remove(0);
+    let margins = answers["frames"][0]["margins"]
+        .as_object()
+        .expect("an object");
     assert!(
         margins.len() == 1 && margins["friction"].is_number(),
-        "{told}"
+        "{answers}"
     );
-    let told = lines(&bench.run("batch stands.json --wedging").out).remove(0);
-    assert_eq!(told["frames"], json!([{ "only_by_wedging": false }]));
+    let answers = lines(&bench.run("batch stands.json --wedging").out).remove(0);
+    assert_eq!(answers["frames"], json!([{ "only_by_wedging": false }]));
     assert_eq!(bench.run("batch stands.json --margins=lean").code, 2);
 }
 
@@ -211,8 +221,8 @@ fn a_folder_is_read_in_the_order_of_names() {
     ] {
         fs::write(bench.path(name), text).expect("writable");
     }
-    let told = lines(&bench.run("batch in stands.json").out);
-    let places: Vec<(String, Value)> = told
+    let answers = lines(&bench.run("batch in stands.json").out);
+    let places: Vec<(String, Value)> = answers
         .iter()
         .map(|t| (t["file"].to_string(), t["line"].clone()))
         .collect();
@@ -223,227 +233,6 @@ fn a_folder_is_read_in_the_order_of_names() {
     let ran = bench.run("batch nowhere in");
     assert_eq!((ran.code, &*ran.out), (2, ""));
     assert!(ran.err.contains("nowhere"), "{}", ran.err);
-}
-
-#[test]
-fn an_interrupted_run_continues_where_it_ended() {
-    let bench = Bench::new();
-    let input: String = (0..20)
-        .map(|k| tower(&format!("tower {k}"), 4, 0.02 * f64::from(k)))
-        .collect();
-    fs::write(bench.path("in.ndjson"), &input).expect("writable");
-    let whole = bench.run("batch in.ndjson -o whole.ndjson");
-    assert_eq!((whole.code, &*whole.out), (1, ""));
-    let whole = fs::read(bench.path("whole.ndjson")).expect("there");
-    let record = fs::read(bench.path("whole.ndjson.resume")).expect("there");
-    // The output is cut at several positions, within a line and between lines, from empty to complete.
-    for cut in [0, 1, 30, whole.len() / 2, whole.len() - 1, whole.len()] {
-        fs::write(bench.path("part.ndjson"), &whole[..cut]).expect("writable");
-        fs::write(bench.path("part.ndjson.resume"), &record).expect("writable");
-        let ran = bench.run("batch in.ndjson -o part.ndjson --resume --quiet");
-        assert_ne!(ran.code, 2, "{}", ran.err);
-        let resumed = fs::read(bench.path("part.ndjson")).expect("there");
-        assert!(resumed == whole, "cut at {cut}");
-        let kept = fs::read(bench.path("part.ndjson.resume")).expect("there");
-        assert!(kept == record, "cut at {cut}");
-    }
-    // The existing lines stay as they are, and the answers to the remaining scenes follow.
-    let ran = bench.run("batch in.ndjson -o part.ndjson --resume");
-    assert_eq!((ran.code, &*ran.out), (0, ""), "{}", ran.err);
-    assert!(
-        ran.err.contains("20 scenes are answered already"),
-        "{}",
-        ran.err
-    );
-    assert!(fs::read(bench.path("part.ndjson")).expect("there") == whole);
-    let more = format!("{input}{}", tower("last", 3, 0.1));
-    fs::write(bench.path("in.ndjson"), more).expect("writable");
-    bench.run("batch in.ndjson -o part.ndjson --resume");
-    let longer = fs::read_to_string(bench.path("part.ndjson")).expect("there");
-    assert!(longer.as_bytes().starts_with(&whole));
-    assert_eq!(lines(&longer)[20]["scene"], "last");
-    assert_eq!(bench.run("batch --resume").code, 2, "without an output");
-}
-
-/// Lines from other scenes, other options or another program are not taken for finished answers, and are not changed.
-#[test]
-fn output_of_other_scenes_or_options_is_not_resumed() {
-    let bench = Bench::new();
-    let towers: Vec<String> = (0..9)
-        .map(|k| tower(&format!("tower {k}"), 4, 0.02))
-        .collect();
-    let write = |name: &str, text: &str| fs::write(bench.path(name), text).expect("writable");
-    write("in.ndjson", &towers.concat());
-    assert_eq!(bench.run("batch in.ndjson -o out.ndjson").code, 0);
-    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("there");
-    let (whole, record) = (read("out.ndjson"), read("out.ndjson.resume"));
-
-    let mut other = towers.clone();
-    other[4] = tower("another", 4, 0.02);
-    write("other.ndjson", &other.concat());
-    write("short.ndjson", &towers[..7].concat());
-    write("style.json", "{}");
-    let first = whole.split_inclusive('\n').next().expect("a line");
-    let swapped = whole.replacen("tower 2", "tower 3", 1);
-    let cut = &whole[..whole.len() / 2];
-    let run = "batch in.ndjson -o out.ndjson --resume";
-    // The content of the output file, the command, and the expected texts of the refusal.
-    let cases: [(&str, &str, &[&str]); 13] = [
-        // Other scenes at the positions of those that were answered.
-        (
-            &whole,
-            "batch < other.ndjson",
-            &[
-                "line 1 ",
-                "answers in.ndjson, line 1",
-                "standard input, line 1",
-            ],
-        ),
-        (
-            &whole,
-            "batch other.ndjson",
-            &[
-                "line 1 ",
-                "answers in.ndjson, line 1",
-                "other.ndjson, line 1",
-            ],
-        ),
-        (
-            &whole,
-            "batch stands.json",
-            &["line 1 ", "stands.json at this place"],
-        ),
-        (&whole, "batch short.ndjson", &["answers in.ndjson"]),
-        // Other options.
-        (
-            &whole,
-            "batch in.ndjson --fields verdict",
-            &["--fields was scene,verdict and is now verdict"],
-        ),
-        (
-            cut,
-            "batch in.ndjson --fields all",
-            &["--fields was scene,verdict and is now all"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --accuracy proved",
-            &["--accuracy was standard and is now proved"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --contact-tolerance 1e-3",
-            &["--contact-tolerance was not given and is now 0.001 m"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --margins",
-            &["--margins was none and is now all", "frames.margins"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --render drawn",
-            &["pictures was none and is now png"],
-        ),
-        // Foreign text, and lines that were changed.
-        ("mine\n", "batch in.ndjson", &["line 1 ", "was changed"]),
-        (&swapped, "batch in.ndjson", &["line 3 ", "was changed"]),
-        (
-            &format!("{whole}{first}"),
-            "batch in.ndjson",
-            &["line 10 ", "more lines"],
-        ),
-    ];
-    for (output, line, said) in cases {
-        write("out.ndjson", output);
-        let line = format!("{line} -o out.ndjson --resume");
-        let ran = match line.contains('<') {
-            true => bench.run_with("batch -o out.ndjson --resume", other.concat().as_bytes()),
-            false => bench.run(&line),
-        };
-        assert_eq!((ran.code, &*ran.out), (2, ""), "{line}: {}", ran.err);
-        let words = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
-        for part in said {
-            assert!(words.contains(part), "{line}: {words}");
-        }
-        assert!(words.contains("leave out --resume"), "{words}");
-        assert_eq!(read("out.ndjson"), output, "{line}");
-        assert_eq!(read("out.ndjson.resume"), record, "{line}");
-    }
-    assert!(
-        !bench.path("drawn").exists(),
-        "a refused run makes no folder"
-    );
-
-    // An input file with the same name, but with other or fewer scenes.
-    write("out.ndjson", &whole);
-    for (input, said) in [
-        (
-            other.concat(),
-            "line 5 of out.ndjson answers another scene than in.ndjson, line 5 now contains",
-        ),
-        (
-            towers[..7].concat(),
-            "more lines than the input has scenes, 7",
-        ),
-    ] {
-        write("in.ndjson", &input);
-        let ran = bench.run(run);
-        let words = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(ran.code == 2 && words.contains(said), "{words}");
-        assert_eq!(read("out.ndjson"), whole);
-    }
-    write("in.ndjson", &towers.concat());
-
-    // Without a valid record it is not known which scenes the lines answer.
-    for (record, said) in [
-        (None, "is missing"),
-        (Some("{"), "drystone batch wrote"),
-        (Some(""), "drystone batch wrote"),
-    ] {
-        match record {
-            None => fs::remove_file(bench.path("out.ndjson.resume")).expect("there"),
-            Some(text) => write("out.ndjson.resume", text),
-        }
-        let ran = bench.run(run);
-        assert!(ran.code == 2 && ran.err.contains(said), "{}", ran.err);
-        assert_eq!(read("out.ndjson"), whole);
-    }
-    // The number of threads and the display of progress do not change the answers.
-    write("out.ndjson.resume", &record);
-    write("out.ndjson", cut);
-    let ran = bench.run(&format!("{run} --jobs 1 --progress 10"));
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    assert_eq!(read("out.ndjson"), whole);
-    // Output to a device cannot be resumed.
-    #[cfg(unix)]
-    assert_eq!(bench.run("batch in.ndjson -o /dev/null --resume").code, 2);
-}
-
-#[test]
-fn a_killed_run_leaves_complete_lines_and_can_be_resumed() {
-    let bench = Bench::new();
-    let mut command = bench.command("batch -o out.ndjson");
-    let mut child = command.stdin(Stdio::piped()).spawn().expect("starts");
-    let mut pipe = child.stdin.take().expect("piped");
-    let input: String = (0..6).map(|k| tower(&format!("{k}"), 3, 0.1)).collect();
-    pipe.write_all(input.as_bytes()).expect("read");
-    // An answer is written as soon as nothing else is ready, not when the input ends.
-    let whole = || fs::read_to_string(bench.path("out.ndjson")).unwrap_or_default();
-    for _ in 0..2000 {
-        if whole().lines().count() == 6 {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    child.kill().expect("killed");
-    child.wait().expect("ended");
-    assert_eq!(lines(&whole()).len(), 6);
-    let more = format!("{input}{}", tower("last", 3, 0.1));
-    let ran = bench.run_with("batch -o out.ndjson --resume", more.as_bytes());
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    let told = lines(&whole());
-    assert_eq!((told.len(), &told[6]["scene"]), (7, &json!("last")));
 }
 
 #[test]
@@ -472,10 +261,10 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
     let bench = Bench::new();
     let input = format!("{}broken\n{}", line(STANDS), line(FALLS));
     let ran = bench.run_with("batch --render drawn", input.as_bytes());
-    let told = lines(&ran.out);
-    assert_eq!(told[0]["picture"], "0000001.png");
-    assert!(told[1].get("picture").is_none());
-    assert_eq!(told[2]["picture"], "0000003.png");
+    let answers = lines(&ran.out);
+    assert_eq!(answers[0]["picture"], "0000001.png");
+    assert!(answers[1].get("picture").is_none());
+    assert_eq!(answers[2]["picture"], "0000003.png");
     for name in ["0000001.png", "0000003.png"] {
         let png = fs::read(bench.path("drawn").join(name)).expect("drawn");
         assert!(png.starts_with(b"\x89PNG"));
@@ -513,7 +302,7 @@ fn the_time_limit_applies_to_each_scene() {
     assert!(
         lines(&ran.out)
             .iter()
-            .all(|told| told["verdict"] == "undecided")
+            .all(|answer| answer["verdict"] == "undecided")
     );
     let ran = bench.run_with("batch --time-limit 100", input.as_bytes());
     assert_eq!(ran.code, 0, "{}", ran.out);
@@ -551,14 +340,14 @@ fn a_closed_output_ends_the_run_without_failure_while_the_input_is_open() {
     answers.read_line(&mut answer).expect("written");
     drop(answers);
     assert_eq!(child.wait().expect("ended").code(), Some(0));
-    let mut said = String::new();
+    let mut errors = String::new();
     child
         .stderr
         .take()
         .expect("piped")
-        .read_to_string(&mut said)
+        .read_to_string(&mut errors)
         .expect("text");
-    assert_eq!(said, "");
+    assert_eq!(errors, "");
     endless.join().expect("the pipe is closed");
 }
 
@@ -585,7 +374,7 @@ fn a_full_disk_is_reported() {
 }
 
 #[test]
-fn the_output_is_not_an_input() {
+fn an_output_that_is_also_an_input_is_refused() {
     let bench = Bench::new();
     let ran = bench.run("batch stands.json -o stands.json");
     assert_eq!(ran.code, 2, "{}", ran.err);

@@ -23,10 +23,10 @@ fn a_refused_scene_is_drawn_with_its_problems_and_ends_with_2() {
     let ran = bench.run("render --broken door.json -o door.svg");
     assert_eq!(ran.code, 2, "{}", ran.err);
     assert!(ran.err.contains("overlap by 0.195 m,"), "{}", ran.err);
-    let svg = fs::read_to_string(bench.path("door.svg")).expect("drawn all the same");
+    let svg = fs::read_to_string(bench.path("door.svg")).expect("drawn although it is refused");
     assert!(svg.contains("By hand: refused, with 2 problems"));
-    for told in ["overlap by 0.195 m,", "overlap by 0.3 m,", "0.0050 m"] {
-        assert!(svg.contains(told), "{told}");
+    for text in ["overlap by 0.195 m,", "overlap by 0.3 m,", "0.0050 m"] {
+        assert!(svg.contains(text), "{text}");
     }
     for mark in ["mark 1", "mark 2", "mark 3"] {
         assert!(svg.contains(&format!("<title>{mark}</title>")), "{mark}");
@@ -52,7 +52,7 @@ fn crossings_are_marked_and_problems_without_a_position_are_not() {
 }
 
 #[test]
-fn the_refusal_offers_the_picture_where_there_is_something_to_see() {
+fn the_refusal_mentions_render_broken_if_there_are_outlines() {
     let bench = Bench::new();
     fs::write(bench.path("door.json"), doorway("")).expect("written");
     let offer = "drystone render --broken draws the outlines";

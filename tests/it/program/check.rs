@@ -54,7 +54,7 @@ fn the_table_has_verdicts_numbers_and_failures() {
     );
     assert!(ran.out.contains("(b) Held"), "{}", ran.out);
     let limits = "Rigid blocks,\n          laid dry, at rest";
-    assert!(!ran.out.contains(limits), "only where it is asked for");
+    assert!(!ran.out.contains(limits), "only with --explain");
     let explained = bench.run("check --explain falls.json").out;
     assert!(explained.contains(limits), "{explained}");
     for line in explained.lines().rev().take(9) {
@@ -65,7 +65,7 @@ fn the_table_has_verdicts_numbers_and_failures() {
     let words =
         "lintel comes off left at (0, 3) m: holding them together would need a pull of 22 N";
     assert!(ran.out.contains(words), "{}", ran.out);
-    // At the foot of the post its own weight of 6 N, half a metre inside the edge, reduces the pull.
+    // At the foot of the post, the weight of the post reduces the pull: 6 N half a metre inside the edge.
     assert!(
         ran.out.contains(
             "left comes off ground at (0, 0) m: holding them together would need a pull of 19 N"
@@ -120,24 +120,27 @@ fn margins_are_present_on_request() {
         |line: &str| -> Value { serde_json::from_str(&bench.run(line).out).expect("JSON") };
     let plain = object("check --json falls.json");
     assert!(plain["frames"][0].get("margins").is_none());
-    let asked = object("check --json --margins falls.json");
-    let margins = |frame: usize| &asked["frames"][frame]["margins"];
-    assert!(margins(0)["tilt"]["left"].is_null(), "it falls unturned");
+    let result = object("check --json --margins falls.json");
+    let margins = |frame: usize| &result["frames"][frame]["margins"];
+    assert!(
+        margins(0)["tilt"]["left"].is_null(),
+        "it falls without a tilt"
+    );
     assert!(margins(1)["friction"].as_f64().expect("number") >= 0.0);
     // The scene lists no loads.
     assert!(margins(1)["load_factor"].is_null());
     assert!(margins(1)["intervals"].get("load_factor").is_none());
     let friction = &margins(1)["intervals"]["friction"];
     assert_eq!(friction[0], margins(1)["friction"]);
-    assert!(friction[1].is_null(), "more friction does no harm");
+    assert!(friction[1].is_null(), "it also stands with more friction");
     assert!(
         margins(1)["robots"]["crane"]["fy"]
             .as_f64()
             .expect("number")
             > 0.0
     );
-    let told = bench.run("check --margins stands.json").out;
-    assert!(told.contains("friction coefficient: stands "), "{told}");
+    let output = bench.run("check --margins stands.json").out;
+    assert!(output.contains("friction coefficient: stands "), "{output}");
 }
 
 #[test]
@@ -148,18 +151,18 @@ fn single_margins_can_be_requested() {
         "check --json --margins=friction,tilt falls.json",
         "check falls.json --json --margins tilt,friction",
     ] {
-        let asked: Value = serde_json::from_str(&bench.run(line).out).expect("JSON");
-        let margins = asked["frames"][1]["margins"].as_object().expect("margins");
+        let result: Value = serde_json::from_str(&bench.run(line).out).expect("JSON");
+        let margins = result["frames"][1]["margins"].as_object().expect("margins");
         let mut keys: Vec<&str> = margins.keys().map(String::as_str).collect();
         keys.sort_unstable();
         let expected = ["friction", "intervals", "mechanisms", "robots", "tilt"];
         assert_eq!(keys, expected, "{line}");
         assert!(margins["robots"].as_object().expect("an object").is_empty());
     }
-    let told = bench.run("check --margins kernel stands.json").out;
+    let output = bench.run("check --margins kernel stands.json").out;
     assert!(
-        told.contains("safety kernel: stands ") && !told.contains("friction coefficient: "),
-        "{told}"
+        output.contains("safety kernel: stands ") && !output.contains("friction coefficient: "),
+        "{output}"
     );
     let wrong = bench.run("check --margins fricton,tilt stands.json");
     assert_eq!(wrong.code, 2);
@@ -169,18 +172,21 @@ fn single_margins_can_be_requested() {
 #[test]
 fn the_most_effective_changes_of_a_margin_are_listed_in_words() {
     let bench = Bench::new();
-    let told = bench
+    let output = bench
         .run("check --sensitivity horizontal_load stands.json")
         .out;
-    assert!(told.contains("horizontal share to the right "), "{told}");
-    assert!(told.contains("; what changes it most:"), "{told}");
-    assert!(told.contains(" → "), "{told}");
-    let told = bench.run("check --sensitivity load_factor stands.json").out;
+    assert!(
+        output.contains("horizontal share to the right "),
+        "{output}"
+    );
+    assert!(output.contains("; what changes it most:"), "{output}");
+    assert!(output.contains(" → "), "{output}");
+    let output = bench.run("check --sensitivity load_factor stands.json").out;
     let reason = "no sensitivity of the load factor: there are no loads on placed blocks";
-    assert!(told.contains(reason), "{told}");
-    let asked = bench.run("check --json --sensitivity tilt stands.json").out;
-    let asked: Value = serde_json::from_str(&asked).expect("JSON");
-    let found = &asked["frames"][0]["sensitivity"];
+    assert!(output.contains(reason), "{output}");
+    let result = bench.run("check --json --sensitivity tilt stands.json").out;
+    let result: Value = serde_json::from_str(&result).expect("JSON");
+    let found = &result["frames"][0]["sensitivity"];
     assert_eq!(found["parameter"], "tilt");
     assert_eq!(found["ends"].as_array().map(Vec::len), Some(2));
     let vertices = &found["ends"][1]["vertices"];
@@ -190,29 +196,29 @@ fn the_most_effective_changes_of_a_margin_are_listed_in_words() {
 }
 
 #[test]
-fn the_verdict_alone_has_the_same_shape() {
+fn the_result_with_the_verdict_alone_has_the_same_keys() {
     let bench = Bench::new();
     let object =
         |line: &str| -> Value { serde_json::from_str(&bench.run(line).out).expect("JSON") };
     let whole = object("check --json --no-timing falls.json");
-    let asked = object("check --json --no-timing --verdict-only falls.json");
+    let result = object("check --json --no-timing --verdict-only falls.json");
     let keys = |value: &Value| -> Vec<String> {
         let keys = value.as_object().expect("an object").keys();
         keys.filter(|key| *key != "notices").cloned().collect()
     };
     for number in 0..2 {
-        let (whole, asked) = (&whole["frames"][number], &asked["frames"][number]);
-        assert_eq!(keys(whole), keys(asked));
-        assert_eq!(whole["verdict"], asked["verdict"]);
+        let (whole, result) = (&whole["frames"][number], &result["frames"][number]);
+        assert_eq!(keys(whole), keys(result));
+        assert_eq!(whole["verdict"], result["verdict"]);
     }
-    let notices = asked["frames"][0]["notices"].to_string();
+    let notices = result["frames"][0]["notices"].to_string();
     assert!(
         notices.contains("only the verdict was asked for"),
         "{notices}"
     );
-    let told = bench.run("check --verdict-only --verbose falls.json");
-    assert_eq!(told.code, 1);
-    assert!(told.out.contains("unknown"), "{}", told.out);
+    let output = bench.run("check --verdict-only --verbose falls.json");
+    assert_eq!(output.code, 1);
+    assert!(output.out.contains("unknown"), "{}", output.out);
 }
 
 #[test]
@@ -230,7 +236,7 @@ fn without_timing_the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn all_problems_of_a_scene_are_shown_where_they_are() {
+fn all_problems_of_a_scene_are_shown_with_their_positions() {
     let bench = Bench::new();
     let ran = bench.run("check wrong.json");
     assert_eq!(ran.code, 2);
@@ -252,7 +258,7 @@ fn all_problems_of_a_scene_are_shown_where_they_are() {
 }
 
 #[test]
-fn a_file_that_is_wrong_gets_its_problems_in_its_place_and_the_others_are_answered() {
+fn an_invalid_file_is_answered_with_its_problems_and_the_others_with_results() {
     let bench = Bench::new();
     for quiet in ["", "-q "] {
         let line = format!(
@@ -261,7 +267,7 @@ fn a_file_that_is_wrong_gets_its_problems_in_its_place_and_the_others_are_answer
         let ran = bench.run(&line);
         assert_eq!(ran.code, 2);
         let lines: Vec<Value> = (ran.out.lines())
-            .map(|line| serde_json::from_str(line).expect("nothing but JSON"))
+            .map(|line| serde_json::from_str(line).expect("only JSON"))
             .collect();
         let files: Vec<&str> = lines.iter().filter_map(|l| l["file"].as_str()).collect();
         assert_eq!(
@@ -298,7 +304,7 @@ fn a_file_that_is_wrong_gets_its_problems_in_its_place_and_the_others_are_answer
 }
 
 #[test]
-fn a_folder_stands_for_its_scenes() {
+fn a_folder_as_an_argument_means_its_scenes() {
     let bench = Bench::new();
     let ran = bench.run("check --json .");
     let files: Vec<Value> = (ran.out.lines())
@@ -322,7 +328,7 @@ fn a_folder_stands_for_its_scenes() {
     assert!(bench.path("out/falls.svg").exists() && bench.path("out/stands.svg").exists());
 }
 
-/// `src/doc/result.md` on files, folders and standard input.
+/// The statements of `src/doc/result.md` about files, folders and standard input.
 #[test]
 fn files_are_answered_in_the_order_of_the_result_page() {
     let bench = Bench::new();
@@ -348,12 +354,12 @@ fn files_are_answered_in_the_order_of_the_result_page() {
     let (code, lines, name) = files("stands.json");
     assert!(
         code == 0 && lines > 10 && name == "stands.json",
-        "over several lines"
+        "one scene is written over several lines"
     );
     let (code, lines, name) = files("one");
     assert!(
         code == 0 && lines > 10 && name == "one/a.json",
-        "a folder's only one, too"
+        "also for the only file of a folder"
     );
     assert_eq!(
         files("stands.json falls.json"),

@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 
 use super::Bench;
 
-/// Two bodies on three contacts with the ground: their masses, and the friction coefficients.
+/// Two bodies that touch each other and have three contacts with the ground, with the given masses and friction
+/// coefficients.
 fn assembly(masses: [f64; 2], friction: [f64; 4]) -> Value {
     let contact = |bodies: [&str; 2], at: [f64; 2], normal: f64, friction: f64| json!({ "bodies": bodies, "at": at, "normal": normal, "friction": friction });
     json!({ "drystone": 1, "title": "Two bodies",
@@ -24,7 +25,8 @@ fn stands(file: &Value) -> bool {
     Analysis::new(&scene).verdict() == Verdict::Stable
 }
 
-/// The value at which the verdict changes, between a value at which it falls and one at which it stands.
+/// The value at which the verdict changes, found by bisection between a value at which the structure falls and one at
+/// which it stands.
 fn threshold(mut falls: f64, mut holds: f64, is_stable: impl Fn(f64) -> bool) -> f64 {
     assert!(!is_stable(falls) && is_stable(holds));
     for _ in 0..40 {
@@ -125,7 +127,7 @@ fn figures_show_centres_contacts_normals_and_cones() {
 }
 
 #[test]
-fn a_session_takes_a_contact_list() {
+fn a_session_accepts_a_contact_list() {
     let file: SceneFile = {
         let mut file = Scene::builder().friction(0.5);
         let scene = assembly([2.0, 10.0], [0.5; 4]);

@@ -1,4 +1,4 @@
-//! An internal fault stays with its scene: the other scenes are answered, and the exit code is 2.
+//! An internal fault affects only its scene: the other scenes are answered, and the exit code is 2.
 
 use std::fs;
 
@@ -20,7 +20,7 @@ fn bench() -> Bench {
     bench
 }
 
-/// Runs a command that fails when it begins to work on `faulty.json` for the time with this number.
+/// Runs a command in which an internal fault occurs when `faulty.json` is processed for the `number`-th time.
 fn run(bench: &Bench, line: &str, number: usize) -> Ran {
     let mut command = bench.command(line);
     command.env("DRYSTONE_TEST_FAULT", format!("faulty#{number}"));
@@ -54,7 +54,7 @@ fn check_answers_the_other_scenes() {
 }
 
 #[test]
-fn check_and_batch_give_a_program_an_object_for_every_scene() {
+fn check_and_batch_write_an_object_for_every_scene() {
     for (line, numbers) in [("check --json all", &[1, 2][..]), ("batch all", &[1])] {
         for number in numbers {
             let ran = run(&bench(), line, *number);

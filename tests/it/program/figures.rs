@@ -45,13 +45,13 @@ fn the_gallery_is_drawn_in_every_format_with_captions() {
 }
 
 #[test]
-fn a_block_is_cut_free_by_its_name() {
+fn the_block_of_a_free_body_is_chosen_by_its_name() {
     let bench = Bench::new();
     let ran = bench.run("render stands.json -o free.svg --kind freebody --block lintel");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("free.svg")).expect("drawn");
     assert!(svg.contains("Force F_1^(2) on block lintel"));
-    for (line, said) in [
+    for (line, message) in [
         (
             "render stands.json -o a.svg --kind freebody",
             "add --block with one of these names: left, right, lintel",
@@ -67,7 +67,7 @@ fn a_block_is_cut_free_by_its_name() {
     ] {
         let ran = bench.run(line);
         assert_eq!(ran.code, 2, "{line}");
-        assert!(ran.err.contains(said), "{line}: {}", ran.err);
+        assert!(ran.err.contains(message), "{line}: {}", ran.err);
     }
     assert!(!bench.path("a.svg").exists());
 }
@@ -104,7 +104,7 @@ fn steps_follow_one_another_in_an_animated_png() {
 }
 
 #[test]
-fn each_panel_goes_to_a_file_of_its_own() {
+fn each_panel_is_written_to_a_separate_file() {
     let bench = Bench::new();
     let ran = bench.run("render falls.json -o step.svg --panels");
     assert_eq!(ran.code, 0, "{}", ran.err);
@@ -123,7 +123,7 @@ fn each_panel_goes_to_a_file_of_its_own() {
 }
 
 #[test]
-fn a_neighbourhood_is_drawn_by_the_name_of_its_block() {
+fn the_surroundings_of_a_block_are_chosen_by_its_name() {
     let bench = Bench::new();
     let ran = bench.run("render stands.json -o near.svg --zoom lintel --fill none");
     assert_eq!(ran.code, 0, "{}", ran.err);
@@ -135,7 +135,7 @@ fn a_neighbourhood_is_drawn_by_the_name_of_its_block() {
 }
 
 #[test]
-fn a_figure_for_latex_holds_its_words_and_pairs_its_groups() {
+fn a_figure_for_latex_contains_its_text_and_closes_its_groups() {
     let bench = Bench::new();
     let ran = bench.run("render stands.json -o a.tikz --width-mm 84");
     assert_eq!(ran.code, 0, "{}", ran.err);
@@ -177,7 +177,7 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
     assert!(ran.code == 0 && !ran.err.contains("warning"), "{}", ran.err);
     let svg = fs::read_to_string(bench.path("named.svg")).expect("drawn");
     assert!(svg.contains(">石塔</text>"));
-    for (line, said) in [
+    for (line, message) in [
         (
             "render stone.json -o s.png --font stone.json",
             "it is not a font",
@@ -186,7 +186,7 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
     ] {
         let ran = bench.run(line);
         assert!(
-            ran.code == 2 && ran.err.contains(said),
+            ran.code == 2 && ran.err.contains(message),
             "{line}: {}",
             ran.err
         );
@@ -243,7 +243,7 @@ fn two_scenes_are_compared_and_invalid_comparisons_are_reported() {
     let ran = bench.run("render stands.json other.json --kind compare -o no.svg");
     assert_eq!(ran.code, 2);
     assert!(
-        ran.err.contains("the ground of the second is another"),
+        ran.err.contains("the second scene has another ground"),
         "{}",
         ran.err
     );
@@ -270,7 +270,7 @@ fn a_strip_too_large_for_a_png_is_refused_with_options_to_split_it() {
 }
 
 #[test]
-fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
+fn a_long_strip_is_split_into_pages_and_a_margin_has_a_direction() {
     let bench = Bench::new();
     let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
     fs::copy(steps, bench.path("steps.json")).expect("copied");
@@ -291,7 +291,7 @@ fn a_long_strip_goes_to_pages_and_a_margin_has_a_direction() {
         assert!(number("height") <= 1.42 * number("width"), "page {pages}");
     }
     assert_eq!(frames, 30);
-    assert_eq!(pages, 2, "two files are named, more as from–to");
+    assert_eq!(pages, 2, "with two pages, the message lists both files");
     let files = "steps-1.svg and steps-2.svg: 30 frames";
     assert!(ran.err.contains(files), "{}", ran.err);
     let ran = bench.run("render stands.json --zoom elephant -o no.svg");

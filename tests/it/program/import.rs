@@ -25,7 +25,7 @@ fn bench() -> Bench {
 }
 
 #[test]
-fn a_drawing_becomes_a_scene_that_check_takes() {
+fn a_drawing_becomes_a_scene_that_check_accepts() {
     let bench = bench();
     let ran = bench.run("import drawing.svg -o scene.json --friction 0.6 --density 2000 --kernel 0.1 --gravity 9.81 --thickness 0.2");
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
@@ -62,15 +62,15 @@ fn standard_input_and_output_need_the_format() {
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     assert!(ran.out.starts_with("{\n  \"drystone\": 1,"), "{}", ran.out);
     let again = bench.run_with("import - --format svg -o -", DRAWING.as_bytes());
-    assert_eq!(again.out, ran.out, "same drawing, same bytes");
-    let untold = bench.run_with("import -", DRAWING.as_bytes());
-    assert_eq!(untold.code, 2);
+    assert_eq!(again.out, ran.out, "the same drawing has the same bytes");
+    let unspecified = bench.run_with("import -", DRAWING.as_bytes());
+    assert_eq!(unspecified.code, 2);
     assert!(
-        untold
+        unspecified
             .err
             .contains("give --format svg, dxf, geojson, wkt, contacts or compas"),
         "{}",
-        untold.err
+        unspecified.err
     );
     let wkt = bench.run_with("import - --format wkt", b"a; POLYGON ((0 0, 2 0, 2 1))");
     assert!(
@@ -84,10 +84,10 @@ fn standard_input_and_output_need_the_format() {
 fn the_json_output_describes_the_import() {
     let bench = bench();
     let ran = bench.run("import drawing.svg -o scene.json --json --quiet");
-    let told: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
-    assert_eq!(told["blocks"], 1);
-    assert_eq!(told["snapped"][0]["body"], "post");
-    assert_eq!(told["snapped"][0]["to"], serde_json::json!(["ground[0]"]));
+    let result: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(result["blocks"], 1);
+    assert_eq!(result["snapped"][0]["body"], "post");
+    assert_eq!(result["snapped"][0]["to"], serde_json::json!(["ground[0]"]));
     assert_eq!(bench.run("import drawing.svg --json").code, 2);
     assert_eq!(bench.run("import drawing.svg --json -o -").code, 2);
 }
@@ -97,11 +97,11 @@ fn doubts_are_warnings_unless_strict() {
     let bench = bench();
     let ran = bench.run("import doubtful.svg -o scene.json");
     assert_eq!(ran.code, 0);
-    for told in [
+    for warning in [
         "warning: doubtful.svg: text \"words\": a text cannot become a block",
         "warning: doubtful.svg: <path> in line 2: it is open",
     ] {
-        assert!(ran.err.contains(told), "{}", ran.err);
+        assert!(ran.err.contains(warning), "{}", ran.err);
     }
     let strict = bench.run("import doubtful.svg -o strict.json --strict");
     assert_eq!(strict.code, 2);
@@ -156,7 +156,7 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
 }
 
 #[test]
-fn a_figure_is_read_back_frame_by_frame() {
+fn single_frames_of_a_figure_can_be_imported() {
     let bench = bench();
     assert_eq!(bench.run("render falls.json -o figure.svg").code, 0);
     let held = bench.run("import figure.svg -o held.json --friction 0.6");
@@ -189,7 +189,7 @@ fn a_figure_is_read_back_frame_by_frame() {
 }
 
 #[test]
-fn a_dwg_is_refused_with_the_remedy_and_old_letters_are_read() {
+fn a_dwg_is_refused_with_a_remedy_and_windows_1252_is_read() {
     let bench = bench();
     let ran = bench.run("import bridge.dwg");
     assert!(

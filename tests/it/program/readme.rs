@@ -14,12 +14,12 @@ fn fenced(page: &'static str, language: &str, words: &str) -> &'static str {
     let mut blocks = blocks.filter_map(|rest| rest.split("```").next());
     blocks
         .find(|block| block.contains(words))
-        .expect("the page has it")
+        .expect("the page contains such a block")
 }
 
 /// Runs each `$ drystone …` line in order, in an initially empty folder. Its output must equal the text below it.
 #[test]
-fn the_readmes_console_prints_what_it_shows() {
+fn the_commands_of_the_readme_print_what_it_shows() {
     let bench = Bench::empty();
     let shown = fenced(README, "console", "$ drystone new");
     let mut printed = String::new();
@@ -44,7 +44,7 @@ fn the_readmes_console_prints_what_it_shows() {
 
 /// Runs the commands in a folder with the scene of the page, a second version of it, and a drawing.
 #[test]
-fn every_command_of_the_page_does_its_work() {
+fn every_command_of_the_page_succeeds() {
     let bench = Bench::new();
     let scene = fenced(README, "json", "\"steps\"");
     let other = scene.replace("\"friction\": 0.6", "\"friction\": 0.5");
@@ -83,7 +83,7 @@ fn every_command_of_the_page_does_its_work() {
     let mut seen = 0;
     for command in commands {
         let typed = command.split(" # ").next().expect("a part").trim();
-        // The first runs until it is stopped, and the second communicates with mdBook.
+        // A command with `--watch` runs until it is stopped, and `mdbook` communicates with mdBook.
         if typed.contains("--watch") || typed.ends_with("mdbook") {
             continue;
         }

@@ -26,7 +26,7 @@ fn render_ends_with_0_if_the_picture_is_written_unless_strict() {
     );
     assert!(
         bench.path("strict.svg").exists(),
-        "strict tells, and still draws"
+        "with --strict the picture is still written"
     );
     assert_eq!(
         bench.run("render stands.json -o strict.svg --strict").code,
@@ -35,7 +35,7 @@ fn render_ends_with_0_if_the_picture_is_written_unless_strict() {
     assert_eq!(
         bench.made(),
         ["falls.svg", "strict.svg"],
-        "nothing else is left lying about"
+        "no other file is left"
     );
 }
 
@@ -114,7 +114,7 @@ fn several_scenes_fill_a_folder() {
 }
 
 #[test]
-fn one_wrong_scene_leaves_everything_unwritten() {
+fn if_one_scene_is_invalid_nothing_is_written() {
     let bench = Bench::new();
     let ran = bench.run("render stands.json wrong.json falls.json -o out/");
     assert_eq!(ran.code, 2);
@@ -250,7 +250,7 @@ fn invalid_command_lines_are_refused_with_a_remedy() {
 }
 
 #[test]
-fn every_kind_of_figure_says_what_it_shows() {
+fn every_kind_of_figure_states_what_it_shows() {
     let bench = Bench::new();
     for (kind, falls, stands) in [
         (
@@ -276,11 +276,8 @@ fn every_kind_of_figure_says_what_it_shows() {
     ] {
         let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));
         assert_eq!(ran.code, 0, "{kind}: {}", ran.err);
-        let said = ran.out.replace('\u{a0}', " ");
-        assert!(
-            said.contains(&falls.replace('\u{a0}', " ")),
-            "{kind}: {said}"
-        );
+        let svg = ran.out.replace('\u{a0}', " ");
+        assert!(svg.contains(&falls.replace('\u{a0}', " ")), "{kind}: {svg}");
         let ran = bench.run(&format!("render stands.json -o - --kind {kind}"));
         assert!(ran.out.contains(stands), "{kind}: {}", ran.out);
     }

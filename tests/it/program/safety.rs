@@ -1,4 +1,4 @@
-//! Nothing is lost: inputs are not overwritten, links and permissions stay, and nothing half-written is left.
+//! No data are lost: inputs are not overwritten, links and permissions are kept, and no incomplete file is left.
 
 use std::fs;
 #[cfg(unix)]
@@ -9,7 +9,7 @@ use super::{Bench, STANDS};
 const SQUARE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><rect width="4" height="4"/></svg>"#;
 
 #[test]
-fn an_input_is_not_overwritten_by_whatever_name() {
+fn an_input_is_not_overwritten_under_any_name() {
     let bench = Bench::new();
     let write = |name: &str, text: &str| fs::write(bench.path(name), text).expect("writable");
     write("scene.svg", STANDS);
@@ -68,10 +68,10 @@ fn a_link_stays_a_link_and_a_file_keeps_its_permissions() {
     assert_eq!(mode & 0o777, 0o604);
 }
 
-/// Sends a signal at later and later times of a run that writes many files. At some of these times it is writing.
+/// Sends signals at different times to runs that write many files. Some of them are writing a file at that time.
 #[cfg(unix)]
 #[test]
-fn a_signal_leaves_nothing_half_written() {
+fn a_signal_leaves_no_incomplete_file() {
     let bench = Bench::new();
     fs::create_dir(bench.path("out")).expect("made");
     for (number, signal) in ["-INT", "-TERM"].into_iter().cycle().take(8).enumerate() {
@@ -109,11 +109,11 @@ fn a_file_size_limit_is_a_failure_to_write() {
         .current_dir(bench.folder.path())
         .output()
         .expect("starts");
-    let said = String::from_utf8_lossy(&ran.stderr);
-    assert_eq!(ran.status.code(), Some(4), "{said}");
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(4), "{errors}");
     assert!(
-        said.contains("cannot write a.png") && !said.contains(".part"),
-        "{said}"
+        errors.contains("cannot write a.png") && !errors.contains(".part"),
+        "{errors}"
     );
     assert!(bench.made().is_empty(), "{:?}", bench.made());
 }

@@ -25,8 +25,8 @@ fn bench() -> Bench {
     bench
 }
 
-/// Runs a command, and checks its exit code and the words on standard error.
-fn says(bench: &Bench, line: &str, code: i32, words: &[&str]) {
+/// Runs a command, and asserts its exit code and that standard error contains the words.
+fn assert_run(bench: &Bench, line: &str, code: i32, words: &[&str]) {
     let ran = bench.run(line);
     assert_eq!(ran.code, code, "{line}: {}", ran.err);
     for words in words {
@@ -38,7 +38,7 @@ fn says(bench: &Bench, line: &str, code: i32, words: &[&str]) {
 fn weights_of_the_default_density_are_noted_once() {
     let bench = bench();
     let note = "the weights of 3 blocks come from the default density of 1 kg/m³";
-    says(
+    assert_run(
         &bench,
         "import drawing.svg -o a.json",
         0,
@@ -64,7 +64,7 @@ fn weights_of_the_default_density_are_noted_once() {
         ran.out
     );
     let unknown = "the known materials are basalt, concrete, gneiss, granite, limestone, sandstone";
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --material cheese",
         2,
@@ -73,11 +73,11 @@ fn weights_of_the_default_density_are_noted_once() {
 }
 
 #[test]
-fn a_scene_is_replaced_only_by_force() {
+fn a_scene_is_replaced_only_with_force() {
     let bench = bench();
     fs::write(bench.path("mine.json"), "edited by hand").expect("writable");
     for line in ["import drawing.svg -o mine.json", "new arch -o mine.json"] {
-        says(
+        assert_run(
             &bench,
             line,
             4,
@@ -85,15 +85,15 @@ fn a_scene_is_replaced_only_by_force() {
         );
         let kept = fs::read_to_string(bench.path("mine.json")).expect("there");
         assert_eq!(kept, "edited by hand");
-        says(&bench, &format!("{line} --force"), 0, &[]);
+        assert_run(&bench, &format!("{line} --force"), 0, &[]);
         fs::write(bench.path("mine.json"), "edited by hand").expect("writable");
     }
 }
 
 #[test]
-fn ground_is_named_guessed_or_missed_in_words() {
+fn ground_is_found_by_name_or_layer_and_its_absence_is_reported() {
     let bench = bench();
-    says(
+    assert_run(
         &bench,
         "import drawing.svg -o a.json",
         0,
@@ -103,7 +103,7 @@ fn ground_is_named_guessed_or_missed_in_words() {
         ],
     );
     assert_eq!(bench.run("check a.json").code, 0);
-    says(
+    assert_run(
         &bench,
         "import other.svg -o b.json",
         0,
@@ -113,19 +113,19 @@ fn ground_is_named_guessed_or_missed_in_words() {
             "the drawing has Felsen, Stones",
         ],
     );
-    says(
+    assert_run(
         &bench,
         "import other.svg --strict",
         2,
         &["no part of the drawing is ground"],
     );
-    says(
+    assert_run(
         &bench,
         "import other.svg -o c.json --ground-layer felsen",
         0,
         &["3 blocks, 1 part of the ground"],
     );
-    says(
+    assert_run(
         &bench,
         "import other.svg --ground-layer Felse",
         2,
@@ -136,37 +136,37 @@ fn ground_is_named_guessed_or_missed_in_words() {
 #[test]
 fn scales_and_units_are_read_as_people_write_them() {
     let bench = bench();
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --scale 1:50",
         2,
         &["add --unit mm, cm, m, in or ft"],
     );
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --scale 1:50 --unit mm -o a.json",
         0,
         &["a unit of the drawing is 0.05 m"],
     );
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --unit cm -o b.json",
         0,
         &["a unit of the drawing is 0.01 m"],
     );
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --scale 0.1 --unit mm",
         2,
         &["--scale 0.1 is already in metres per unit"],
     );
-    says(
+    assert_run(
         &bench,
         "import drawing.svg --scale 1:0",
         2,
         &["give a ratio such as 1:50, or metres per unit"],
     );
-    says(
+    assert_run(
         &bench,
         "import degrees.geojson",
         2,
@@ -175,7 +175,7 @@ fn scales_and_units_are_read_as_people_write_them() {
             "--unit m",
         ],
     );
-    says(
+    assert_run(
         &bench,
         "import degrees.geojson --unit m -o c.json",
         0,
@@ -223,7 +223,7 @@ fn a_csv_file_is_csv() {
             "the same columns in every run",
         ),
     ] {
-        says(&bench, line, 2, &[words]);
+        assert_run(&bench, line, 2, &[words]);
     }
 }
 
@@ -248,10 +248,10 @@ fn damaged_scenes_in_a_snapshot_folder_fail() {
         ),
     ] {
         fs::write(bench.path("scenes/bad.json"), text).expect("writable");
-        says(&bench, "snapshot scenes", 2, &[words, "bad.json"]);
+        assert_run(&bench, "snapshot scenes", 2, &[words, "bad.json"]);
     }
     fs::write(bench.path("scenes/bad.json"), b"\xff\xfe{\0").expect("writable");
-    says(&bench, "snapshot scenes", 2, &["is not UTF-8 text"]);
+    assert_run(&bench, "snapshot scenes", 2, &["is not UTF-8 text"]);
 }
 
 #[test]
@@ -335,7 +335,7 @@ fn mistakes_of_newcomers_get_the_remedy() {
     let scene = r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1]],
         "friction": "granite", "cohesion": 3 }], "loads": [{ "block": "a", "force": -10 }] }"#;
     fs::write(bench.path("new.json"), scene).expect("writable");
-    says(
+    assert_run(
         &bench,
         "check new.json",
         2,
@@ -345,7 +345,7 @@ fn mistakes_of_newcomers_get_the_remedy() {
             "10 downwards is [0, -10]",
         ],
     );
-    says(
+    assert_run(
         &bench,
         "batch stands.json --fields frames.forces",
         2,
@@ -356,5 +356,5 @@ fn mistakes_of_newcomers_get_the_remedy() {
         "{ \"drystone\": 1 }\n{ \"drystone\": 1 }\n",
     )
     .expect("writable");
-    says(&bench, "check two.ndjson", 2, &["drystone batch FILE"]);
+    assert_run(&bench, "check two.ndjson", 2, &["drystone batch FILE"]);
 }

@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 
 use super::Bench;
 
-/// A lintel on two posts with a robot and a load, in units that are `length` metres and `force` newtons large.
+/// A lintel on two posts with a robot and a load. The unit of length is `length` metres, that of force `force`
+/// newtons.
 fn lintel(length: f64, force: f64, units: Value) -> Value {
     let at = |x: f64, y: f64| json!([x / length, y / length]);
     let box_of = |x: f64, y: f64, w: f64, h: f64| {
@@ -40,7 +41,7 @@ fn assert_near(a: &Value, b: &Value, at: &str) {
     match (a, b) {
         (Value::Number(x), Value::Number(y)) => {
             let (x, y) = (x.as_f64().expect("a float"), y.as_f64().expect("a float"));
-            // Proofs and margins are only as exact as the solver.
+            // The tolerance is that of the solver, on which proofs and margins depend.
             let tolerance = 1e-3 * x.abs().max(y.abs()) + 1e-8;
             assert!((x - y).abs() <= tolerance, "{at}: {x} {y}");
         }
@@ -65,7 +66,7 @@ fn results_are_the_same_in_all_units() {
         let written = to_json(&analysis(file), Timing::LeftOut, Layout::OneLine);
         let mut result: Value = serde_json::from_str(&written).expect("JSON");
         for frame in result["frames"].as_array_mut().expect("frames") {
-            // Motions are only as exact as the solver, and may not be unique.
+            // Motions and proofs depend on the solver, and motions may not be unique.
             frame["mechanism"].take();
             frame["margins"]["mechanisms"].take();
             frame["margins"]["excluded"].take();
@@ -153,7 +154,7 @@ fn problems_name_the_units_of_the_file() {
     );
 }
 
-/// Texts of capacity and sensitivity, on the terminal, in figures and in their keys.
+/// The output of capacity and sensitivity on the terminal and in figures.
 #[test]
 fn capacities_and_sensitivities_have_the_units_of_the_file() {
     let file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{Bench, Ran, STANDS, ran};
 
 #[test]
-fn colour_is_for_terminals_and_for_those_who_ask() {
+fn output_is_coloured_only_in_terminals_or_on_request() {
     let bench = Bench::new();
     let plain = |ran: &Ran| !ran.out.contains('\u{1b}') && !ran.err.contains('\u{1b}');
     for line in [
@@ -49,11 +49,11 @@ fn quiet_leaves_the_exit_code_and_errors() {
     assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "", ""));
     assert!(
         bench.run("-q check --json falls.json").out.starts_with('{'),
-        "JSON was asked for"
+        "requested JSON is written"
     );
     assert!(
         bench.run("-q check wrong.json").err.contains("wrong.json"),
-        "errors are told"
+        "errors are written"
     );
 }
 
@@ -99,13 +99,13 @@ fn the_schema_names_every_key_of_the_starter() {
     for key in starter.as_object().expect("an object").keys() {
         assert!(
             schema["properties"][key]["description"].is_string(),
-            "{key} is described"
+            "{key} has no description"
         );
     }
 }
 
 #[test]
-fn shapes_are_drawn_and_shells_are_helped() {
+fn shapes_are_drawn_and_completions_are_written_for_every_shell() {
     let bench = Bench::new();
     assert_eq!(bench.run("shapes -o shapes.svg").code, 0);
     let sheet = fs::read_to_string(bench.path("shapes.svg")).expect("written");
@@ -183,7 +183,7 @@ fn the_readmes_figure_is_what_the_program_draws() {
     }
     assert!(
         fs::read(&shown).expect("in the repository") == drawn,
-        "look at it, and run once with UPDATE_SNAPSHOTS=1"
+        "the figure differs: inspect it, and run once with UPDATE_SNAPSHOTS=1"
     );
 }
 
@@ -200,8 +200,8 @@ fn the_readmes_gallery_is_what_the_program_draws() {
         "gabled-wall",
     ] {
         // The same options as in `examples/gallery.py`.
-        let look = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict -o picture.png";
-        let mut command = bench.command(look);
+        let line = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict -o picture.png";
+        let mut command = bench.command(line);
         command.arg(folder.join(format!("{name}.json")));
         let ran = ran(command);
         assert_eq!(ran.code, 0, "{name} stands: {}", ran.err);
@@ -213,13 +213,13 @@ fn the_readmes_gallery_is_what_the_program_draws() {
         }
         assert!(
             fs::read(&shown).is_ok_and(|shown| shown == drawn),
-            "{name}: look at it, and run once with UPDATE_SNAPSHOTS=1"
+            "{name} differs: inspect it, and run once with UPDATE_SNAPSHOTS=1"
         );
     }
 }
 
 #[test]
-fn the_readmes_scene_stands_as_it_says() {
+fn the_readmes_scene_stands() {
     let readme = include_str!("../../../README.md");
     let bench = Bench::new();
     let scene = readme
@@ -252,7 +252,7 @@ fn themes_and_styles_change_the_picture() {
         ran.err
     );
 
-    // The printed style, read back, gives the same picture.
+    // With the printed style as a style file, the picture is the same.
     let printed = bench.run("style --theme dark").out;
     fs::write(bench.path("dark.json"), printed).expect("writable");
     assert_eq!(
@@ -314,22 +314,22 @@ fn an_invalid_style_is_reported_with_all_other_errors_and_nothing_is_written() {
 }
 
 #[test]
-fn notes_stand_below_the_table_and_in_json_and_can_be_left_out() {
+fn notes_are_written_below_the_table_and_in_json_and_can_be_left_out() {
     let bench = Bench::new();
     let text = STANDS.replace("0.6", "6");
     fs::write(bench.path("noted.json"), text).expect("writable");
-    let told = bench.run("check noted.json");
-    assert_eq!(told.code, 0);
+    let ran = bench.run("check noted.json");
+    assert_eq!(ran.code, 0);
     assert!(
-        told.out
+        ran.out
             .contains("note: line 1, friction: a friction coefficient of 6"),
         "{}",
-        told.out
+        ran.out
     );
     assert!(
-        told.out.contains("\"silence\": [\"friction_high\"]"),
+        ran.out.contains("\"silence\": [\"friction_high\"]"),
         "{}",
-        told.out
+        ran.out
     );
     let object: Value =
         serde_json::from_str(&bench.run("check --json noted.json").out).expect("JSON");
@@ -351,7 +351,7 @@ fn notes_stand_below_the_table_and_in_json_and_can_be_left_out() {
 }
 
 #[test]
-fn new_writes_structures_to_measure() {
+fn new_writes_structures_with_given_dimensions() {
     let bench = Bench::new();
     for (line, blocks, code) in [
         ("new arch --voussoirs 9 --span 3 -o a.json", 9, 0),

@@ -1,4 +1,5 @@
-//! Checks a calculation sheet from its printed numbers only: forces and moments of the structure and of one block.
+//! Checks the equilibrium tables of a report from their printed numbers alone: forces and moments of the structure
+//! and of one block.
 
 use super::{FALLS, Folder, STANDS};
 
@@ -15,7 +16,7 @@ fn number(words: &str) -> Option<(f64, f64)> {
     Some((value, 0.5 * libm::pow(10.0, -(decimals as f64))))
 }
 
-/// The equilibrium tables of a Markdown page: their captions, heads and rows.
+/// The equilibrium tables of a Markdown page: the caption, the head and the rows of each.
 fn balances(page: &str) -> Vec<(String, String, Vec<Row>)> {
     let mut found = Vec::new();
     let mut lines = page.lines();
@@ -49,7 +50,8 @@ fn factor(head: &str, column: usize) -> f64 {
     }
 }
 
-fn check((caption, head, rows): &(String, String, Vec<Row>)) {
+/// Asserts that the forces of a table sum to zero, and that each moment follows from its force and its position.
+fn assert_balances((caption, head, rows): &(String, String, Vec<Row>)) {
     let (sum, forces) = rows.split_last().expect("rows");
     assert_eq!(sum.name, "sum", "{caption}");
     for column in 2..5 {
@@ -65,14 +67,14 @@ fn check((caption, head, rows): &(String, String, Vec<Row>)) {
             "{caption}: the printed sum is {stated}"
         );
     }
-    // The first row of a block cut free is its weight, at its centroid.
+    // The first row of the table of a block is its weight, which acts at its centroid.
     let about = match caption.contains("its centroid") {
         true => [forces[0].values[0], forces[0].values[1]].map(|v| v.expect("a place").0),
         false => [0.0, 0.0],
     };
     let (force, moment) = (factor(head, 2), factor(head, 4));
     for row in forces {
-        // A torque adds to the moment of its force.
+        // The moment in a row with a torque is not that of the force alone.
         if row.name.contains("torque") {
             continue;
         }
@@ -82,7 +84,7 @@ fn check((caption, head, rows): &(String, String, Vec<Row>)) {
         let (dx, dy) = (x.0 - about[0], y.0 - about[1]);
         let (fx, fy) = (force * right.0, force * up.0);
         let expected = dx * fy - dy * fx;
-        // The error of each printed number, also of the centroid, is at most half a unit of its last digit.
+        // The rounding error of each printed number is at most half a unit of its last digit.
         let slack = 2.0 * x.1 * fy.abs()
             + 2.0 * y.1 * fx.abs()
             + force * (dx.abs() * up.1 + dy.abs() * right.1)
@@ -142,9 +144,9 @@ fn the_printed_forces_balance_and_their_moments_follow_from_them() {
     let balances = balances(&folder.text("r.md"));
     assert!(
         balances.len() >= 2 * files.len() - 2,
-        "two for nearly each of {} scenes: {}",
+        "expected two tables for nearly all of {} scenes, found {}",
         files.len(),
         balances.len()
     );
-    balances.iter().for_each(check);
+    balances.iter().for_each(assert_balances);
 }

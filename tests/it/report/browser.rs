@@ -64,8 +64,8 @@ impl Browser {
             .iter()
             .find(|t| t["type"] == "page")
             .expect("a page");
-        let told = json!({ "targetId": page["targetId"], "flatten": true });
-        let attached = browser.call("Target.attachToTarget", told);
+        let parameters = json!({ "targetId": page["targetId"], "flatten": true });
+        let attached = browser.call("Target.attachToTarget", parameters);
         browser.session = attached["sessionId"].as_str().map(str::to_owned);
         for domain in ["Page", "Runtime", "Network", "Log"] {
             browser.call(&format!("{domain}.enable"), json!({}));
@@ -88,7 +88,7 @@ impl Browser {
         bytes.push(0);
         self.commands
             .write_all(&bytes)
-            .expect("the browser listens");
+            .expect("the browser reads its input");
         loop {
             let answer = self.next();
             if answer["id"] == id {
@@ -127,8 +127,9 @@ impl Browser {
 
     /// The value of a JavaScript expression on the page.
     pub fn eval(&mut self, expression: &str) -> Value {
-        let told = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
-        let answer = self.call("Runtime.evaluate", told);
+        let parameters =
+            json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let answer = self.call("Runtime.evaluate", parameters);
         assert!(
             answer["exceptionDetails"].is_null(),
             "{expression}: {}",
@@ -140,8 +141,8 @@ impl Browser {
     /// The number of elements that match a selector. This works also if scripts are disabled.
     pub fn count(&mut self, selector: &str) -> usize {
         let root = self.call("DOM.getDocument", json!({}))["root"]["nodeId"].clone();
-        let told = json!({ "nodeId": root, "selector": selector });
-        let found = self.call("DOM.querySelectorAll", told);
+        let parameters = json!({ "nodeId": root, "selector": selector });
+        let found = self.call("DOM.querySelectorAll", parameters);
         found["nodeIds"].as_array().map_or(0, Vec::len)
     }
 

@@ -68,7 +68,7 @@ fn the_page_marks_related_parts_and_enlarges_figures() {
     let Some(mut browser) = opened(&folder) else {
         return;
     };
-    // From the figure to the table: the mouse moves to the middle of an interface.
+    // If the mouse moves to the middle of an interface in the figure, its row in the table is marked.
     browser.eval("document.querySelector('#scene-1 .plate').scrollIntoView()");
     let place = "(r => [r.x + r.width / 2, r.y + r.height / 2])(document.querySelector('#scene-1 g.touch[data-mark=i0] path').getBoundingClientRect())";
     let at = browser.eval(place);
@@ -82,7 +82,7 @@ fn the_page_marks_related_parts_and_enlarges_figures() {
         readout.contains("normal force") && readout.contains(" N"),
         "{readout}"
     );
-    // From the table to the figure: a row gets the keyboard focus.
+    // If a row of the table gets the keyboard focus, its interface in the figure is marked.
     browser.eval("document.querySelector('#scene-1 tr[data-mark=i1]').focus()");
     assert_eq!(browser.eval(on), json!(["g i1", "g i1", "TR i1"]));
     assert_eq!(browser.complaints(), Vec::<String>::new());
@@ -103,7 +103,7 @@ fn without_scripts_the_page_is_complete() {
     assert_eq!(
         browser.count("noscript section.step"),
         3,
-        "bodies are read as they are"
+        "the figures are in noscript elements"
     );
     // Each figure is drawn for light and for dark pages.
     let figures = browser.count("noscript figure.plate");
@@ -176,7 +176,7 @@ fn axe_finds_no_violation_in_light_dark_and_on_a_phone() {
     }
 }
 
-/// Measures the time to open and lay out a page of very many scenes, and to scroll to its end.
+/// Opening a page of very many scenes and scrolling to its end takes less than a minute.
 #[test]
 fn a_thousand_scenes_open_and_scroll() {
     let Some(name) = installed() else { return };

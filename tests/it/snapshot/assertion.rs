@@ -11,7 +11,7 @@ use super::{Folder, lintel};
 /// The environment variable with the folder of the crate for the test below.
 const FOLDER: &str = "DRYSTONE_TEST_FOLDER";
 
-/// The other tests run this one in a separate process.
+/// The other tests run this test in a separate process.
 #[test]
 #[ignore = "called by the other tests, with a folder"]
 fn a_scene_a_folder_and_a_figure() {
@@ -42,10 +42,10 @@ fn run(folder: &Folder, environment: &[(&str, &str)]) -> (bool, String) {
         .env(FOLDER, folder.path(""))
         .envs(environment.iter().copied());
     let output = command.output().expect("starts");
-    let said = String::from_utf8_lossy(&output.stdout).into_owned()
+    let output_text = String::from_utf8_lossy(&output.stdout).into_owned()
         + &String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("running 1 test"), "{said}");
-    (output.status.success(), said)
+    assert!(output_text.contains("running 1 test"), "{output_text}");
+    (output.status.success(), output_text)
 }
 
 #[test]
@@ -56,27 +56,27 @@ fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
         &[("CI", "true")][..],
         &[("CI", "true"), ("UPDATE_SNAPSHOTS", "1")],
     ] {
-        let (passed, said) = run(&folder, environment);
+        let (passed, output_text) = run(&folder, environment);
         assert!(
-            !passed && said.contains("CI is set, so nothing was written"),
-            "{said}"
+            !passed && output_text.contains("CI is set, so nothing was written"),
+            "{output_text}"
         );
         assert_eq!(folder.files(), before);
     }
-    let (passed, said) = run(&folder, &[]);
+    let (passed, output_text) = run(&folder, &[]);
     assert!(
-        !passed && said.contains("scenes/arch.json differs from its references"),
-        "{said}"
+        !passed && output_text.contains("scenes/arch.json differs from its references"),
+        "{output_text}"
     );
     assert!(
-        said.contains("arch.new.txt") && said.contains("UPDATE_SNAPSHOTS=1"),
-        "{said}"
+        output_text.contains("arch.new.txt") && output_text.contains("UPDATE_SNAPSHOTS=1"),
+        "{output_text}"
     );
     assert!(
         folder.path("scenes/arch.new.png").exists() && !folder.path("scenes/arch.png").exists()
     );
-    let (passed, said) = run(&folder, &[("UPDATE_SNAPSHOTS", "1")]);
-    assert!(passed, "{said}");
+    let (passed, output_text) = run(&folder, &[("UPDATE_SNAPSHOTS", "1")]);
+    assert!(passed, "{output_text}");
     assert!(
         folder
             .path("tests/snapshots/deep/a thrust line.svg")
@@ -84,16 +84,16 @@ fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
     );
     assert!(!folder.path("scenes/arch.new.png").exists());
     for environment in [&[][..], &[("CI", "true")], &[("UPDATE_SNAPSHOTS", "0")]] {
-        let (passed, said) = run(&folder, environment);
-        assert!(passed, "{said}");
+        let (passed, output_text) = run(&folder, environment);
+        assert!(passed, "{output_text}");
     }
     folder.write("scenes/arch.json", &lintel("A lintel", 1.2));
-    let (passed, said) = run(&folder, &[]);
+    let (passed, output_text) = run(&folder, &[]);
     assert!(
-        !passed && said.contains("interface left–ground: N "),
-        "{said}"
+        !passed && output_text.contains("interface left–ground: N "),
+        "{output_text}"
     );
-    assert!(said.contains("arch.diff.png"), "{said}");
+    assert!(output_text.contains("arch.diff.png"), "{output_text}");
 }
 
 #[test]

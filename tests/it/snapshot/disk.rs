@@ -11,7 +11,7 @@ use drystone::snapshot::picture::Picture;
 use super::{Folder, accepted, lintel};
 
 #[test]
-fn a_place_that_cannot_be_written_changes_no_answer_and_refuses_acceptance() {
+fn a_file_that_cannot_be_written_is_reported_and_prevents_acceptance() {
     let folder = accepted();
     folder.write("a/arch.json", &lintel("A lintel", 1.3));
     // If a folder has the name of the file, not even the superuser can write the file.
@@ -35,10 +35,11 @@ fn a_place_that_cannot_be_written_changes_no_answer_and_refuses_acceptance() {
     assert_eq!(
         fs::read(folder.path("a/arch.txt")).expect("there"),
         before,
-        "all of a snapshot or nothing"
+        "either all files of a snapshot are written or none"
     );
 }
 
+/// A folder with twelve scenes.
 fn twelve() -> Folder {
     let names: Vec<String> = (0..12).map(|k| format!("s{k}.json")).collect();
     let scenes: Vec<(&str, String)> = names
@@ -50,7 +51,7 @@ fn twelve() -> Folder {
 }
 
 #[test]
-fn runs_at_once_take_turns() {
+fn simultaneous_runs_wait_for_each_other() {
     let folder = twelve();
     let runs: Vec<_> = (0..4)
         .map(|k| {
@@ -70,7 +71,7 @@ fn runs_at_once_take_turns() {
 
 #[test]
 fn an_interrupted_acceptance_leaves_complete_files() {
-    let mut seen = 0;
+    let mut complete = 0;
     for wait in [0, 1, 3, 8, 20] {
         let folder = twelve();
         let mut command = folder.command(&["--accept"]);
@@ -98,13 +99,13 @@ fn an_interrupted_acceptance_leaves_complete_files() {
                 Some("svg") => assert!(bytes.ends_with(b"</svg>\n"), "{name}"),
                 _ => continue,
             }
-            seen += 1;
+            complete += 1;
         }
         assert_eq!(
             folder.run(&["--accept"]).code,
             0,
-            "the lock went with the run"
+            "the lock ended with the process"
         );
     }
-    assert!(seen > 0, "no run wrote anything");
+    assert!(complete > 0, "no run wrote anything");
 }

@@ -38,7 +38,7 @@ fn foreign(
 }
 
 #[test]
-fn every_sort_of_png_is_read_as_the_same_pixels() {
+fn every_kind_of_png_is_read_as_the_same_pixels() {
     use png::BitDepth::{Eight, Four, One, Sixteen};
     use png::ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
     // Two rows: black, white, black, white; and the reverse.
@@ -122,13 +122,16 @@ fn every_sort_of_png_is_read_as_the_same_pixels() {
         assert_eq!(Picture::decode(&bytes).as_ref(), Ok(&expected), "{what}");
     }
     let clear = foreign(Rgba, Eight, None, None, &[9, 9, 9, 0].repeat(8));
-    let also = Picture::decode(&foreign(Rgba, Eight, None, None, &[200, 3, 3, 0].repeat(8)));
+    let clear_too = Picture::decode(&foreign(Rgba, Eight, None, None, &[200, 3, 3, 0].repeat(8)));
     let difference = Difference::new(
         &Picture::decode(&clear).expect("read"),
-        &also.expect("read"),
+        &clear_too.expect("read"),
         PixelTolerance::default(),
     );
-    assert!(difference.is_none(), "what is clear has no colour");
+    assert!(
+        difference.is_none(),
+        "the colour of transparent pixels does not matter"
+    );
 }
 
 #[test]
@@ -189,11 +192,12 @@ fn each_kind_of_invalid_png_has_its_own_message() {
         seconds: 0.5,
     };
     let pages = [page("#f00"), page("#00f")];
-    let moving = animation::apng(&pages, ours::Size::Natural, &ours_fonts()).expect("an animation");
+    let moving =
+        animation::apng(&pages, ours::Size::Natural, &default_fonts()).expect("an animation");
     assert_eq!(Picture::decode(&moving), Err(PictureError::Animation(2)));
 }
 
-fn ours_fonts() -> drystone::output::fonts::Fonts {
+fn default_fonts() -> drystone::output::fonts::Fonts {
     drystone::output::fonts::Fonts::default()
 }
 
@@ -259,7 +263,7 @@ fn pictures_of_different_sizes_are_reported_with_both_sizes() {
     assert_eq!(
         image.pixel(22, 10),
         [0xb8, 0xd4, 0xf0, 255],
-        "only one of them reaches here"
+        "only one of the pictures has this pixel"
     );
     // A page with an additional white row is a different page.
     let white = |w, h| Picture::new(w, h, vec![[255; 4]; (w * h) as usize]);

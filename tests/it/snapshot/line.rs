@@ -20,27 +20,31 @@ fn a_new_snapshot_is_written_next_to_the_reference_until_it_is_accepted() {
         ran.out
     );
     assert!(
-        ran.err.contains("1 snapshot: 0 hold, 0 changed, 1 new"),
+        ran.err.contains("1 snapshot: 0 match, 0 changed, 1 new"),
         "{}",
         ran.err
     );
-    let beside = [
+    let new_files = [
         "a/arch.json",
         "a/arch.new.png",
         "a/arch.new.svg",
         "a/arch.new.txt",
         "drystone-snapshots.toml",
     ];
-    assert_eq!(folder.files(), beside);
+    assert_eq!(folder.files(), new_files);
     assert_eq!(folder.run(&["a", "--accept"]).code, 0);
-    let there = [
+    let accepted_files = [
         "a/arch.json",
         "a/arch.png",
         "a/arch.svg",
         "a/arch.txt",
         "drystone-snapshots.toml",
     ];
-    assert_eq!(folder.files(), there, "nothing is left beside");
+    assert_eq!(
+        folder.files(),
+        accepted_files,
+        "no new files are left next to the references"
+    );
     let before = fs::metadata(folder.path("a/arch.png"))
         .and_then(|m| m.modified())
         .expect("there");
@@ -49,7 +53,10 @@ fn a_new_snapshot_is_written_next_to_the_reference_until_it_is_accepted() {
     let after = fs::metadata(folder.path("a/arch.png"))
         .and_then(|m| m.modified())
         .expect("there");
-    assert_eq!(before, after, "what holds is not written again");
+    assert_eq!(
+        before, after,
+        "a reference that agrees is not written again"
+    );
 }
 
 #[test]
@@ -69,7 +76,7 @@ fn a_change_is_reported_with_a_picture_that_is_removed_with_the_change() {
     }
     assert!(
         ran.err
-            .contains("to look: drystone snapshot a --review review.html"),
+            .contains("to review: drystone snapshot a --review review.html"),
         "{}",
         ran.err
     );
@@ -80,7 +87,7 @@ fn a_change_is_reported_with_a_picture_that_is_removed_with_the_change() {
 }
 
 #[test]
-fn orphans_and_lost_references_fail() {
+fn references_without_scenes_and_missing_references_fail() {
     let folder = accepted();
     fs::remove_file(folder.path("a/arch.svg")).expect("there");
     let ran = folder.run(&["a"]);
@@ -95,7 +102,7 @@ fn orphans_and_lost_references_fail() {
     assert_eq!(folder.run(&["a", "--accept"]).code, 0);
     folder.write("a/notes.txt", "The words of a person.\n");
     folder.write("a/logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
-    assert_eq!(folder.run(&["a"]).code, 0, "files of others are let be");
+    assert_eq!(folder.run(&["a"]).code, 0, "other files are ignored");
     folder.write(
         "a/arch.dark.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\"/>",
@@ -119,7 +126,7 @@ fn orphans_and_lost_references_fail() {
 }
 
 #[test]
-fn a_filter_leaves_the_others_alone() {
+fn a_filter_selects_scenes_by_a_part_of_their_name() {
     let folder = Folder::with(&[
         ("one.json", lintel("One", 1.0)),
         ("two.json", lintel("Two", 1.0)),
@@ -152,7 +159,7 @@ fn a_complete_name_selects_only_that_scene() {
     assert_eq!(folder.run(&[".", "--accept", "--only", "arc"]).code, 0);
     assert!(
         folder.path("arch2.txt").exists(),
-        "a part of a name is of both"
+        "a part of a name selects both scenes"
     );
 }
 
@@ -240,7 +247,7 @@ fn names_that_are_equal_on_some_disks_are_refused() {
         ("arch.json", lintel("Two", 1.0)),
     ]);
     if folder.files().len() < 3 {
-        // This disk treats both names as one.
+        // This file system ignores case, so both names are one file.
         return;
     }
     let ran = folder.run(&["--accept"]);
@@ -327,7 +334,7 @@ fn a_page_a_report_and_annotations_are_written() {
     assert_eq!(
         page.matches("data:image/png;base64,").count(),
         3 + 2 + 1,
-        "three, two in the stack, and the new one"
+        "the changed scene: three, and two on top of each other; the new scene: one"
     );
     assert!(
         page.contains("drystone snapshot . --accept --only a/arch")
@@ -336,7 +343,7 @@ fn a_page_a_report_and_annotations_are_written() {
     assert!(page.contains("A &lt;b&gt;lintel") && !page.contains("<b>lintel"));
     assert!(
         !page.contains("http://") && !page.contains("https://"),
-        "nothing comes from elsewhere"
+        "the page loads nothing from other addresses"
     );
     let xml = fs::read_to_string(folder.path("out.xml")).expect("there");
     let document = roxmltree::Document::parse(&xml).expect("XML");

@@ -14,39 +14,39 @@ use super::lintel;
 use crate::random::Random;
 
 /// The facts, the drawing and the picture of one scene.
-struct Take {
+struct Sample {
     facts: Facts,
     svg: String,
     picture: Picture,
 }
 
-impl Take {
-    fn of(analysis: &Analysis, drawing: &Drawing) -> Take {
+impl Sample {
+    fn of(analysis: &Analysis, drawing: &Drawing) -> Sample {
         let svg = svg::write(drawing);
         let raster = png::rgba(&svg, png::Size::Natural).expect("a picture");
-        Take {
+        Sample {
             facts: Facts::new(analysis, DIGITS),
             picture: Picture::new(raster.width, raster.height, raster.rgba),
             svg,
         }
     }
 
-    fn drawn(text: &str, change: impl FnOnce(&mut Drawing)) -> Take {
+    fn drawn(text: &str, change: impl FnOnce(&mut Drawing)) -> Sample {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::new(&scene);
         let mut drawing = figure::forces(&analysis, &Options::default());
         change(&mut drawing);
-        Take::of(&analysis, &drawing)
+        Sample::of(&analysis, &drawing)
     }
 
-    fn scene(text: &str) -> Take {
-        Take::drawn(text, |_| {})
+    fn scene(text: &str) -> Sample {
+        Sample::drawn(text, |_| {})
     }
 }
 
-/// The messages of each layer if `found` is compared with the references of `expected` in the form in which they are
-/// stored.
-fn said(expected: &Take, found: &Take) -> [Vec<String>; 3] {
+/// The messages of each layer if `found` is compared with the references of `expected`. The references are packed and
+/// read back first, as if from a file.
+fn messages(expected: &Sample, found: &Sample) -> [Vec<String>; 3] {
     let kept = Facts::read(&expected.facts.text()).expect("what was written is read");
     let facts = kept.changes(&found.facts).into_iter().map(|c| c.words);
     let packed = expected
@@ -83,9 +83,9 @@ fn points(outline: &mut Outline, change: &dyn Fn(PagePoint) -> PagePoint) {
     }
 }
 
-/// Turns the arrow with a title about its tail, anticlockwise on the page.
-fn turn(drawing: &mut Drawing, title: &str, degrees: f64) {
-    let mut turned = 0;
+/// Rotates the arrow with a title about its tail, anticlockwise on the page.
+fn rotate(drawing: &mut Drawing, title: &str, degrees: f64) {
+    let mut rotated = 0;
     groups(&mut drawing.items, &mut |group| {
         if !group.title.starts_with(title) {
             return;
@@ -100,37 +100,38 @@ fn turn(drawing: &mut Drawing, title: &str, degrees: f64) {
                     let (x, y) = (p.x - tail.x, p.y - tail.y);
                     tail.moved(cos * x - sin * y, sin * x + cos * y)
                 });
-                turned += 1;
+                rotated += 1;
             }
         }
     });
-    assert!(turned > 0, "there is no {title}");
+    assert!(rotated > 0, "there is no arrow {title:?}");
 }
 
-fn words(drawing: &mut Drawing, change: &mut dyn FnMut(&mut Vec<Item>)) {
+/// Calls `change` with the items of the drawing and with those of each group.
+fn each_list(drawing: &mut Drawing, change: &mut dyn FnMut(&mut Vec<Item>)) {
     change(&mut drawing.items);
     groups(&mut drawing.items, &mut |group| change(&mut group.items));
 }
 
 /// Removes the label of a block.
-fn lose(drawing: &mut Drawing, label: &str) {
-    let mut lost = 0;
+fn remove_label(drawing: &mut Drawing, label: &str) {
+    let mut removed = 0;
     groups(&mut drawing.items, &mut |group| {
         if group.class != "name" {
             return;
         }
         group.items.retain(|item| {
             let is = matches!(item, Item::Text(text) if text.words == label);
-            lost += usize::from(is);
+            removed += usize::from(is);
             !is
         });
     });
-    assert_eq!(lost, 1, "{label}");
+    assert_eq!(removed, 1, "{label}");
 }
 
 /// Moves the label with this text by some pixels.
 fn shift(drawing: &mut Drawing, label: &str, x: f64, y: f64) {
-    words(drawing, &mut |items| {
+    each_list(drawing, &mut |items| {
         for item in items {
             if let Item::Text(text) = item
                 && text.words == label
@@ -157,10 +158,11 @@ fn recolour(drawing: &mut Drawing, title: &str, by: u8) {
     });
 }
 
-/// A row: the mutation, and the expected message of facts, drawing and pixels. An empty string means no message.
+/// A row of the table: the mutation, and a part of the expected message of each layer. An empty string means that the
+/// layer reports nothing.
 struct Row {
     what: &'static str,
-    found: Take,
+    found: Sample,
     facts: &'static str,
     svg: &'static str,
     pixels: &'static str,
@@ -169,14 +171,14 @@ struct Row {
 #[test]
 fn every_mutation_is_reported_by_the_expected_layers() {
     let text = lintel("A lintel", 1.0);
-    let expected = Take::scene(&text);
+    let expected = Sample::scene(&text);
     let arrow = "Force on block lintel from block left";
     let without_a_post = {
         let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         file["blocks"].as_array_mut().expect("blocks").remove(1);
         file.to_string()
     };
-    let mut one_pixel_right = Take::scene(&text);
+    let mut one_pixel_right = Sample::scene(&text);
     one_pixel_right.picture = shifted(&expected.picture);
     let rows = [
         Row {
@@ -188,68 +190,68 @@ fn every_mutation_is_reported_by_the_expected_layers() {
         },
         Row {
             what: "a label moved by a pixel",
-            found: Take::drawn(&text, |d| shift(d, "lintel", 1.0, 0.0)),
+            found: Sample::drawn(&text, |d| shift(d, "lintel", 1.0, 0.0)),
             facts: "",
             svg: "text \"lintel\": moved by 1 px to the right",
             pixels: "pixels differ, by up to",
         },
         Row {
-            what: "an arrow turned by three degrees",
-            found: Take::drawn(&text, |d| turn(d, arrow, 3.0)),
+            what: "an arrow rotated by three degrees",
+            found: Sample::drawn(&text, |d| rotate(d, arrow, 3.0)),
             facts: "",
             svg: "path in force \"Force on block lintel from block left\": turned by 3° anticlockwise",
             pixels: "pixels differ, by up to",
         },
         Row {
-            what: "a lost label",
-            found: Take::drawn(&text, |d| lose(d, "lintel")),
+            what: "a missing label",
+            found: Sample::drawn(&text, |d| remove_label(d, "lintel")),
             facts: "",
             svg: "text \"lintel\": vanished",
             pixels: "pixels differ, by up to",
         },
         Row {
             what: "a block in another colour",
-            found: Take::drawn(&text, |d| recolour(d, "Block left", 90)),
+            found: Sample::drawn(&text, |d| recolour(d, "Block left", 90)),
             facts: "",
             svg: "path in block \"Block left\": fill #",
             pixels: "pixels differ, by up to 90 of 255",
         },
         Row {
             what: "a block in nearly the same colour",
-            found: Take::drawn(&text, |d| recolour(d, "Block left", 2)),
+            found: Sample::drawn(&text, |d| recolour(d, "Block left", 2)),
             facts: "",
             svg: "path in block \"Block left\": fill #",
             pixels: "pixels differ, by up to 2 of 255",
         },
         Row {
-            what: "a load of 1 % more",
-            found: Take::scene(&lintel("A lintel", 1.01)),
+            what: "a load larger by 1 %",
+            found: Sample::scene(&lintel("A lintel", 1.01)),
             facts: "interface left–lintel: N ",
             svg: "force \"Load on block lintel\": title",
             pixels: "pixels differ, by up to",
         },
         Row {
-            what: "a lost block",
-            found: Take::scene(&without_a_post),
+            what: "a missing block",
+            found: Sample::scene(&without_a_post),
             facts: "frame 1: stable → unstable",
             svg: "block \"Block right\": vanished",
             pixels: "found",
         },
     ];
     for row in rows {
-        let said = said(&expected, &row.found);
-        for ((layer, words), wanted) in ["facts", "svg", "pixels"]
+        let messages = messages(&expected, &row.found);
+        for ((layer, words), part) in ["facts", "svg", "pixels"]
             .iter()
-            .zip(&said)
+            .zip(&messages)
             .zip([row.facts, row.svg, row.pixels])
         {
-            if wanted.is_empty() {
+            if part.is_empty() {
                 assert!(words.is_empty(), "{}, {layer}: {words:#?}", row.what);
             } else {
-                let told = words.iter().any(|w| w.contains(wanted));
+                let found = words.iter().any(|w| w.contains(part));
                 assert!(
-                    told,
-                    "{}, {layer} must say {wanted:?}, says {words:#?}",
+                    found,
+                    "{}, {layer}: {part:?} expected in {words:#?}",
                     row.what
                 );
             }
@@ -258,11 +260,11 @@ fn every_mutation_is_reported_by_the_expected_layers() {
 }
 
 #[test]
-fn a_lost_block_is_named_and_what_it_carried_falls() {
+fn a_missing_block_is_reported_before_the_blocks_that_fall_without_it() {
     let text = lintel("A lintel", 1.0);
     let mut file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     file["blocks"].as_array_mut().expect("blocks").remove(1);
-    let [facts, ..] = said(&Take::scene(&text), &Take::scene(&file.to_string()));
+    let [facts, ..] = messages(&Sample::scene(&text), &Sample::scene(&file.to_string()));
     assert_eq!(facts[0], "block right is gone: weight 60 N", "the cause");
     assert_eq!(facts[1], "frame 1: stable → unstable", "its effect");
     assert!(
@@ -275,7 +277,7 @@ fn a_lost_block_is_named_and_what_it_carried_falls() {
     ] {
         assert!(facts.iter().any(|w| w.starts_with(gone)), "{facts:#?}");
     }
-    let [back, ..] = said(&Take::scene(&file.to_string()), &Take::scene(&text));
+    let [back, ..] = messages(&Sample::scene(&file.to_string()), &Sample::scene(&text));
     assert!(
         back.contains(&"block lintel no longer falls".into()),
         "{back:#?}"
@@ -287,6 +289,7 @@ fn a_lost_block_is_named_and_what_it_carried_falls() {
     );
 }
 
+/// The picture moved right by one pixel. The first column is repeated.
 fn shifted(picture: &Picture) -> Picture {
     let wide = picture.width as usize;
     let mut pixels = Vec::with_capacity(picture.pixels().len());
@@ -344,7 +347,7 @@ fn gallery() -> Vec<(String, Scene)> {
 }
 
 #[test]
-fn forces_off_by_a_billionth_are_no_change_in_facts_or_drawing() {
+fn forces_that_differ_by_a_billionth_change_neither_facts_nor_drawing() {
     let mut random = Random::new(7);
     let scenes = gallery();
     assert!(scenes.len() >= 30, "{}", scenes.len());
@@ -362,12 +365,12 @@ fn forces_off_by_a_billionth_are_no_change_in_facts_or_drawing() {
 }
 
 #[test]
-fn pixels_off_by_one_are_no_change_and_by_two_are() {
-    let expected = Take::scene(&lintel("A lintel", 1.0));
+fn a_difference_of_two_in_a_colour_is_a_change_but_not_of_one() {
+    let expected = Sample::scene(&lintel("A lintel", 1.0));
     let packed = expected.picture.encode(None).expect("packed");
     let packed = Picture::decode(&packed).expect("read");
     let mut random = Random::new(3);
-    let mut off = |most: u64| {
+    let mut changed_by_up_to = |most: u64| {
         let pixels = expected.picture.pixels().iter().map(|p| {
             let mut p = *p;
             for channel in &mut p[..3] {
@@ -382,15 +385,15 @@ fn pixels_off_by_one_are_no_change_and_by_two_are() {
             pixels.collect(),
         )
     };
-    let by_one = Difference::new(&packed, &off(1), PixelTolerance::default());
+    let by_one = Difference::new(&packed, &changed_by_up_to(1), PixelTolerance::default());
     assert!(by_one.is_none(), "{}", by_one.words());
-    let by_two = Difference::new(&packed, &off(2), PixelTolerance::default());
+    let by_two = Difference::new(&packed, &changed_by_up_to(2), PixelTolerance::default());
     assert!(by_two.changed > by_two.of / 2, "{}", by_two.words());
 }
 
 #[test]
-fn one_pixel_is_enough() {
-    let expected = Take::scene(&lintel("A lintel", 1.0)).picture;
+fn a_single_changed_pixel_is_reported() {
+    let expected = Sample::scene(&lintel("A lintel", 1.0)).picture;
     let packed = Picture::decode(&expected.encode(None).expect("packed")).expect("read");
     let mut pixels = expected.pixels().to_vec();
     // A pixel of the white page, which has no rounding errors.

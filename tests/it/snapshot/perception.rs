@@ -2,7 +2,8 @@
 
 use drystone::snapshot::picture::{Difference, Picture, PixelTolerance};
 
-/// Another disc, a threshold, the number of differing pixels and that of smoothed pixels.
+/// The centre and the radius of the second disc, the threshold, the number of differing pixels, and the number of
+/// pixels that differ only in their smoothing.
 type Count = ([f64; 3], f64, u64, u64);
 
 const PIXELMATCH: &[Count] = &[
@@ -34,7 +35,7 @@ fn perceptual(threshold: f64) -> PixelTolerance {
     }
 }
 
-/// Differing and smoothed pixels of discs moved and grown, as pixelmatch 7 counts them at the same threshold.
+/// The second disc is moved or larger. The expected counts are those of pixelmatch 7 at the same threshold.
 #[test]
 fn counts_are_those_of_pixelmatch() {
     let base = disc(31.7, 30.2, 17.3);
@@ -54,8 +55,12 @@ fn another_smoothing_of_the_same_edge_is_ignored_only_on_request() {
     let (one, other) = (disc(32.0, 32.0, 16.0), disc(32.2, 32.1, 16.0));
     let strict = Difference::new(&one, &other, PixelTolerance::default());
     assert!(strict.changed > 80, "{}", strict.words());
-    let seen = Difference::new(&one, &other, perceptual(0.1));
-    assert!(seen.is_none() && seen.smoothed > 0, "{}", seen.words());
+    let lenient = Difference::new(&one, &other, perceptual(0.1));
+    assert!(
+        lenient.is_none() && lenient.smoothed > 0,
+        "{}",
+        lenient.words()
+    );
     let moved = Difference::new(&one, &disc(35.0, 32.0, 16.0), perceptual(0.1));
     assert!(moved.changed > 50, "{}", moved.words());
 }

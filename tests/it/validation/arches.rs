@@ -1,4 +1,4 @@
-//! Arches under their own weight, tilted, and pushed sideways.
+//! Arches under their own weight, on a tilted ground, and with a horizontal load.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::measure::{frame, friction, horizontal, limit, tilt};
 use crate::structure::{rectangle, scene};
 
-/// An arch of `n` voussoirs with radial joints over `embrace` degrees, mean radius 1.
+/// An arch of `n` voussoirs with radial joints. It spans an angle of `embrace` degrees, and its mean radius is 1.
 pub struct Arch {
     pub n: usize,
     pub thickness: f64,
@@ -50,7 +50,7 @@ impl Arch {
         ]
     }
 
-    /// The ground behind the joint at a springing, 0.3 thick.
+    /// The ground behind the joint at a springing. It is 0.3 thick.
     fn abutment(&self, k: usize) -> Value {
         let [inner, outer] = self.joint(k);
         let side = if k == 0 { -1.0 } else { 1.0 };
@@ -104,10 +104,10 @@ pub fn least_thickness_on_the_line() -> f64 {
     limit([0.106, 0.109], 1e-7, |t| on_the_line(t, 2.0))
 }
 
-/// The thickness at which the forces of an arch are unique, within 10⁻⁵.
+/// The least thickness of the arch, rounded up to 10⁻⁵. There the forces are unique, up to about 10⁻⁵.
 const THIN: f64 = 0.10741;
 
-/// The horizontal thrust of the thinnest arch, over weight per length times radius.
+/// The horizontal thrust of the thinnest arch, divided by weight per length times radius.
 pub fn thrust_of_the_thinnest() -> f64 {
     let frame = frame(&on_the_line(THIN, 2.0));
     let crown = frame
@@ -192,7 +192,7 @@ fn circle(radius: f64, from: f64, to: f64, parts: usize) -> Vec<[f64; 2]> {
     points
 }
 
-/// A semicircular arch, mean radius 1, cut by `cuts` vertical joints.
+/// A semicircular arch with mean radius 1 and vertical joints, at most `cuts`.
 pub fn cut_vertically(thickness: f64, cuts: usize) -> Value {
     let (inner, outer) = (1.0 - thickness / 2.0, 1.0 + thickness / 2.0);
     let mut at: Vec<f64> = (0..=cuts)
@@ -230,7 +230,8 @@ pub fn least_thickness_cut_vertically() -> f64 {
     limit([0.107, 0.112], 1e-7, |t| cut_vertically(t, 60))
 }
 
-/// Oppenheim's arch over 157.5°, thickness 0.15 of the radius; his has seven voussoirs.
+/// Oppenheim's arch, which spans an angle of 157.5°. Its thickness is 0.15 of the radius. The published arch has
+/// seven voussoirs.
 pub fn oppenheim(voussoirs: usize) -> Value {
     let mut arch = Arch::semicircle(voussoirs, 0.15, 2.0);
     arch.embrace = 157.5;
@@ -241,7 +242,8 @@ pub fn oppenheim_pushed() -> f64 {
     horizontal(&oppenheim(7))
 }
 
-/// The sample arch of LACT3: 25 of 27 voussoirs of a semicircle, radii 317 and 373.3 mm, on skewbacks; φ = 30°.
+/// The sample arch of LACT3: the 25 middle voussoirs of a semicircle of 27, with radii of 317 and 373.3 mm and φ =
+/// 30°. The ground has the shape of the two outer voussoirs.
 pub fn lact3() -> Value {
     let at = |radius: f64, k: usize| {
         let (sin, cos) = libm::sincos(PI * k as f64 / 27.0);

@@ -1,4 +1,4 @@
-//! A few blocks: columns, frames, ladders, slopes, toppling rock columns.
+//! Scenes of a few blocks: a column, a frame, a ladder, a slope, toppling rock columns, and wedged bars.
 
 use serde_json::{Value, json};
 
@@ -56,10 +56,13 @@ pub fn ladder() -> Value {
 pub fn ladder_on_its_wall() -> f64 {
     let frame = frame(&ladder());
     let wall = frame.contacts.iter().find(|c| c.resultant.at.y > 1.0);
-    wall.expect("it leans on the wall").resultant.force.norm()
+    wall.expect("the ladder touches the wall")
+        .resultant
+        .force
+        .norm()
 }
 
-/// tan 31° over the least friction on a plane of 34°.
+/// tan 31° divided by the least friction on a plane of 34°.
 pub fn plane_safety() -> f64 {
     let file = on_slope(34.0, 4.0, 1.0, 0.9, 0.0);
     libm::tan(31f64.to_radians()) / friction(&file)
@@ -69,7 +72,7 @@ pub fn plane_safety() -> f64 {
 /// horizontal force of `newtons` supports the lowest column.
 pub fn toppling(newtons: f64) -> Value {
     let (sin, cos) = libm::sincos(30f64.to_radians());
-    let turned = |along: f64, up: f64| [along * cos - up * sin, along * sin + up * cos];
+    let rotated = |along: f64, up: f64| [along * cos - up * sin, along * sin + up * cos];
     let (mut steps, mut blocks) = (Vec::new(), Vec::new());
     for k in 0..16 {
         let (left, right, foot) = (10.0 * k as f64, 10.0 * (k + 1) as f64, k as f64);
@@ -80,19 +83,19 @@ pub fn toppling(newtons: f64) -> Value {
         };
         let head = foot + height;
         let corners = [
-            turned(left, foot),
-            turned(right, foot),
-            turned(right, head),
-            turned(left, head),
+            rotated(left, foot),
+            rotated(right, foot),
+            rotated(right, head),
+            rotated(left, head),
         ];
         blocks.push(json!({ "id": format!("{}", k + 1), "polygon": corners }));
         steps.extend([corners[0], corners[1]]);
     }
-    steps.extend([turned(160.0, -20.0), turned(0.0, -20.0)]);
+    steps.extend([rotated(160.0, -20.0), rotated(0.0, -20.0)]);
     let mut file = json!({ "drystone": 1, "friction": 0.9, "density": 2500, "gravity": [0, -10],
         "ground": [{ "polygon": steps }], "blocks": blocks });
     if newtons > 0.0 {
-        file["loads"] = json!([{ "block": "1", "force": [newtons, 0], "at": turned(0.0, 4.0) }]);
+        file["loads"] = json!([{ "block": "1", "force": [newtons, 0], "at": rotated(0.0, 4.0) }]);
     }
     file
 }
@@ -105,7 +108,7 @@ pub fn toppling_supported() -> f64 {
     friction(&toppling(2.013e6))
 }
 
-/// tan 38.15° over the least friction.
+/// tan 38.15° divided by the least friction.
 pub fn toppling_safety() -> f64 {
     libm::tan(38.15f64.to_radians()) / toppling_alone()
 }

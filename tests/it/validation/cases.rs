@@ -1,4 +1,4 @@
-//! The published values and how ours are computed. Each case is one row of the page.
+//! The published values, and the functions that compute the values of drystone. Each case is one row of the page.
 
 use super::{arches, blocks, panels, stacks, walls};
 
@@ -12,20 +12,22 @@ pub enum Unit {
     Answer,
 }
 
-/// A published value and ours.
+/// A published value, and the function that computes it with drystone.
 pub struct Case {
     /// The section of the page.
     pub group: &'static str,
+    /// The structure and the quantity.
     pub what: &'static str,
     pub unit: Unit,
     /// The value as published, with all its digits.
     pub published: &'static str,
     /// A key of `SOURCES`.
     pub source: &'static str,
-    /// Whether we have seen the value in a stored text, by the authors or about them.
+    /// Whether the value was found in a text, either by its authors or about their work.
     pub seen: bool,
     /// The largest allowed difference, percent.
     pub within: f64,
+    /// Computes the value with drystone.
     pub ours: fn() -> f64,
 }
 

@@ -1,4 +1,4 @@
-//! How a value of drystone is computed: one margin, one verdict, or a search between two values.
+//! How a value of drystone is computed: from a margin, from a verdict, or by bisection between two values.
 
 use drystone::Analysis;
 use drystone::analysis::{
@@ -14,11 +14,11 @@ pub fn frame(file: &Value) -> FrameAnalysis {
 }
 
 fn margins(file: &Value, kind: MarginKind) -> Margins {
-    let asked = Options::default()
+    let options = Options::default()
         .margins(true)
         .margin_kinds(MarginKinds::new(&[kind]));
-    let mut frames = Analysis::with(scene(file), &asked).frames;
-    frames.remove(0).margins.expect("margins were asked for")
+    let mut frames = Analysis::with(scene(file), &options).frames;
+    frames.remove(0).margins.expect("margins were requested")
 }
 
 fn at(margin: &Margin) -> f64 {
@@ -35,7 +35,7 @@ pub fn tilt(file: &Value) -> f64 {
     at(&margins(file, MarginKind::Tilt).tilt.right)
 }
 
-/// The largest horizontal load to the right, as a share of the weights.
+/// The largest horizontal load to the right, as a fraction of the weights.
 pub fn horizontal(file: &Value) -> f64 {
     at(&margins(file, MarginKind::HorizontalLoad)
         .horizontal_load
@@ -44,20 +44,21 @@ pub fn horizontal(file: &Value) -> f64 {
 
 /// 1 if the first frame stands only by wedging, otherwise 0.
 pub fn only_by_wedging(file: &Value) -> f64 {
-    let asked = Options::default().wedging(true);
-    let frame = Analysis::with(scene(file), &asked).frames.remove(0);
+    let options = Options::default().wedging(true);
+    let frame = Analysis::with(scene(file), &options).frames.remove(0);
     f64::from(u8::from(frame.only_by_wedging == Some(true)))
 }
 
-/// Whether the first frame stands; neither forces nor failures are computed.
+/// Whether the first frame stands. Neither forces nor failures are computed.
 pub fn stands(file: &Value) -> bool {
-    let asked = Options::default().verdict_only(true);
-    let frame = Analysis::with(scene(file), &asked).frames.remove(0);
+    let options = Options::default().verdict_only(true);
+    let frame = Analysis::with(scene(file), &options).frames.remove(0);
     assert_ne!(frame.verdict, Verdict::Undecided, "{}", frame.doubt());
     frame.verdict == Verdict::Stable
 }
 
-/// The value between one that `falls` and one that `stands` at which the verdict changes, to `within`.
+/// The value at which the verdict changes, between a value with which the scene falls and one with which it stands.
+/// The error is at most `within`.
 pub fn limit([falls, stood]: [f64; 2], within: f64, file: impl Fn(f64) -> Value) -> f64 {
     let (mut falls, mut stood) = (falls, stood);
     while (stood - falls).abs() > within {

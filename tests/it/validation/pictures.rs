@@ -1,4 +1,4 @@
-//! The pictures of the page: each a scene just beyond its limit, or at it.
+//! The pictures of the page. Each shows a scene just beyond its limit or at its limit.
 
 use drystone::Analysis;
 use drystone::figure::{self, Kind, Options};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::{arches, blocks, stacks, walls};
 use crate::structure::{scene, tilted};
 
-/// Gravity to the right as well, as a share of the weight.
+/// The scene with an additional horizontal gravity to the right, `share` times the vertical gravity.
 fn pushed(mut file: Value, share: f64) -> Value {
     file["gravity"] = json!([9.81 * share, -9.81]);
     file
@@ -18,9 +18,9 @@ fn arch(thickness: f64, friction: f64) -> Value {
     arches::Arch::semicircle(30, thickness, friction).file()
 }
 
+/// The name of a picture, its kind, and its scene.
 type Picture = (&'static str, Kind, fn() -> Value);
 
-/// Name, kind, and the scene.
 pub const PICTURES: &[Picture] = &[
     ("arch-thin", Kind::Mechanism, || arch(0.1065, 2.0)),
     ("arch-slides", Kind::Mechanism, || arch(0.25, 0.30)),
@@ -69,8 +69,8 @@ pub fn links() -> String {
         .collect()
 }
 
-/// A link definition that contains the picture itself. rustdoc has no folder for pictures, and it uses the first
-/// definition of a name.
+/// A link definition that contains the picture itself. It is needed because rustdoc does not copy pictures. If a name
+/// has several definitions, rustdoc uses the first one.
 pub fn inline(name: &str, svg: &str) -> String {
     format!(
         "[{name}]: data:image/svg+xml;base64,{}\n",

@@ -1,4 +1,4 @@
-//! Where the published values come from, in full.
+//! The sources of the published values, with full references.
 
 /// Key, reference, and where the value was found. A text with "not checked" means that no value of this source was
 /// checked.

@@ -5,14 +5,15 @@ use serde_json::{Value, json};
 use super::measure::limit;
 use crate::structure::{harmonic, rectangle};
 
-/// The reach of a stack with one block on another: all its offsets grow by one factor until it falls.
+/// The reach of a stack with one block on another. All overhangs of the harmonic stack are multiplied by the largest
+/// factor with which the stack stands.
 pub fn one_on_one<const N: usize>() -> f64 {
     let reach: f64 = (1..=N).map(|k| 0.5 / k as f64).sum();
     reach * limit([1.001, 0.999], 1e-9, |share| harmonic(N, share))
 }
 
-/// The left ends of the blocks, level by level, of the stacks with the largest reach. The table ends at 0. We
-/// computed them with a separate nonlinear program, without drystone.
+/// The left ends of the blocks, level by level, in the stacks of three to six blocks with the largest reach. The
+/// table ends at x = 0. The positions were computed with a separate nonlinear program, without drystone.
 const BEST: [&[&[f64]]; 4] = [
     &[&[-0.5], &[-1.0, 0.0]],
     &[
@@ -46,7 +47,7 @@ pub fn best(n: usize, by: f64) -> Value {
     json!({ "drystone": 1, "friction": 0, "ground": [{ "polygon": rectangle(-2.0, -0.5, 2.0, 0.5) }], "blocks": blocks })
 }
 
-/// Its reach when it is moved to the right until it falls.
+/// The reach of the best stack, moved to the right as far as possible without falling.
 pub fn several_on_one<const N: usize>() -> f64 {
     let ends = BEST[N - 3].concat();
     let reach = ends.into_iter().fold(f64::MIN, f64::max) + 1.0;

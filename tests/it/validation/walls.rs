@@ -1,11 +1,12 @@
-//! Walls of Ferris and Tin-Loi (2001), pushed by a share of each brick's weight.
+//! Walls of Ferris and Tin-Loi (2001). The horizontal load on each brick is the same fraction of its weight.
 
 use serde_json::{Value, json};
 
 use super::measure::horizontal;
 use crate::structure::rectangle;
 
-/// Bricks of 0.4 m by 0.175 m; a course lists the lengths of its bricks, a negative one is a gap.
+/// A wall of bricks of 0.4 m by 0.175 m. Each course lists the lengths of its bricks, in bricks. A negative length is
+/// a gap.
 fn wall(courses: &[&[f64]]) -> Value {
     let (length, height) = (0.4, 0.175);
     let mut blocks = Vec::new();
@@ -34,7 +35,7 @@ fn running_bond(courses: usize) -> Value {
     wall(&rows)
 }
 
-/// Number 1 to 5.
+/// The wall with this number, from 1 to 5.
 pub fn ferris(number: usize) -> Value {
     match number {
         1 => running_bond(6),

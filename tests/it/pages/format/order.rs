@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Shown::{Refused, Result};
-use super::{Claim, ENDS, MU, WEIGHT, block, cells, file, hold, put, stands};
+use super::{Claim, ENDS, MU, WEIGHT, assert_claims, block, cells, file, put, stands};
 use crate::structure::rectangle;
 
 #[test]
@@ -29,7 +29,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
         block(json!({ "material": "oak", "friction": own }), scene)
     };
     let hole = json!({ "holes": [rectangle(0.25, 0.25, 0.5, 0.5)] });
-    hold(vec![
+    assert_claims(vec![
         Claim(
             "its `weight` in newtons",
             without(&[]),
@@ -85,7 +85,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(1.5)),
         ),
         Claim(
-            "in any order; the same name twice for a material against itself",
+            "If both names are equal, the coefficient applies between two bodies of this material",
             pair(["oak", "oak"], 0.1),
             Result(MU, json!(1.5)),
         ),
@@ -182,7 +182,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
     ]);
     let mut file = cells(json!({}));
     file["contact_tolerance"] = json!(0.1);
-    hold(vec![Claim(
+    assert_claims(vec![Claim(
         "`contact_tolerance` has no effect",
         file,
         Result("/contact_tolerance/gap", json!(0)),

@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use super::Shown::{Refused, Result};
-use super::{Claim, WEIGHT, file, hold};
+use super::{Claim, WEIGHT, assert_claims, file};
 use crate::structure::rectangle;
 
-/// Three blocks, one of them on another; two robots; and steps.
+/// A scene with the given steps, three blocks, one of them on another, and two robots.
 fn steps(steps: Value) -> Value {
     let at = |id: &str, x: f64, y: f64| json!({ "id": id, "polygon": rectangle(x, y, 1.0, 1.0) });
     file(
@@ -19,7 +19,7 @@ fn steps(steps: Value) -> Value {
 fn steps_work_as_the_page_says() {
     let holding = json!({ "place": ["a", "c"], "hold": { "r": "a" } });
     let two = json!({ "place": ["a"], "hold": { "r": "a", "q": "a" } });
-    hold(vec![
+    assert_claims(vec![
         Claim(
             "Each step makes one frame",
             steps(json!([{ "title": "t" }, {}, {}])),
@@ -76,7 +76,7 @@ fn steps_work_as_the_page_says() {
             Result(WEIGHT, json!(3.0 * 9.81)),
         ),
         Claim(
-            "each robot holds its `holds`",
+            "each robot holds the block in its key `holds`",
             steps(json!([])),
             Result("/frames/0/robots/0/id", json!("q")),
         ),
@@ -122,15 +122,15 @@ fn steps_work_as_the_page_says() {
             json!({ "blocks": blocks, "loads": [{ "block": "b", "force": [0, -5] }], "steps": steps }),
         )
     };
-    let says = "A load acts in every frame in which its block is placed";
+    let phrase = "A load acts in every frame in which its block is placed";
     let steps = json!([{ "place": ["a"] }, { "place": ["b"] }, {}]);
     for (pointer, force) in [
         ("/frames/0/total_force", 9.81),
         ("/frames/1/total_force", 24.62),
         ("/frames/2/total_force", 24.62),
     ] {
-        hold(vec![Claim(
-            says,
+        assert_claims(vec![Claim(
+            phrase,
             loaded(steps.clone()),
             Result(pointer, json!(force)),
         )]);
