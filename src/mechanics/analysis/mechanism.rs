@@ -336,17 +336,13 @@ impl<'a> FallingPart<'a> {
     /// block velocities.
     fn power(&self, start: &[f64]) -> Row {
         let mut power = Row::new();
+        let applied = self.scene.applied_forces();
         for motion in &self.motions {
-            let block = &self.scene.blocks[motion.block.0];
             let body = BodyId::Block(motion.block);
-            // Add the power of the weight and of the listed loads.
-            let weight = self.scene.down() * block.weight;
-            power.extend(self.velocity_row(body, block.centroid, weight, 1.0));
-            let loads = self.scene.loads.iter().filter(|l| l.block == motion.block);
-            for load in loads {
-                power.extend(self.velocity_row(body, load.at, load.force, 1.0));
-                let place = self.index_of_block[&motion.block];
-                power.push((3 * place + 2, load.torque / self.length));
+            let place = self.index_of_block[&motion.block];
+            for applied in &applied[motion.block.0] {
+                power.extend(self.velocity_row(body, applied.at, applied.force, 1.0));
+                power.push((3 * place + 2, applied.torque / self.length));
             }
         }
         for (row, limit) in self.grips() {

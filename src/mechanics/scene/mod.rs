@@ -4,6 +4,7 @@
 //! have been converted to [`Frame`]s, and no block overlaps another body in any frame, except for
 //! [`Scene::penetrations`].
 
+mod applied_force;
 mod body;
 mod collision;
 mod crowd;
@@ -30,6 +31,7 @@ mod syntax;
 mod tree;
 mod unit;
 
+pub use applied_force::{AppliedForce, ForceCause};
 pub use body::{
     Block, BlockId, Body, BodyId, Grip, Ground, Limits, ListedContact, Load, Material, Rgb, Robot,
     RobotId,

@@ -17,7 +17,7 @@
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
-use crate::scene::{Block, BlockId, BodyId, Frame, RobotId, Scene};
+use crate::scene::{AppliedForce, Block, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
 /// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
 /// accuracy of about 1e-9, so rounding errors are far smaller.
@@ -135,34 +135,24 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfActi
 /// Returns the weight and the loads of each block with their lines of action, indexed by block. A load that is only a
 /// torque shifts the line of action of the weight.
 fn loads(scene: &Scene) -> Vec<Vec<LineOfAction>> {
-    let mut torques = vec![0.0; scene.blocks.len()];
-    for load in scene.loads.iter().filter(|l| l.force.norm() == 0.0) {
-        torques[load.block.0] += load.torque;
-    }
-    let weight = |(block, torque): (&Block, &f64)| {
-        let force = scene.down() * block.weight;
-        let line = LineOfAction {
-            origin: ForceOrigin::Resultant,
-            at: shifted_by_torque(block.centroid, force, *torque),
-            force,
+    let of_block = |applied: Vec<AppliedForce>| {
+        let pure_torques = applied.iter().filter(|a| a.force.norm() == 0.0);
+        let pure_torque: f64 = pure_torques.map(|a| a.torque).sum();
+        let forces = applied.iter().filter(|a| a.force.norm() > 0.0);
+        let line = |applied: &AppliedForce| {
+            let (origin, torque) = match applied.cause {
+                ForceCause::Weight => (ForceOrigin::Resultant, pure_torque),
+                ForceCause::Load(number) => (ForceOrigin::Load(number), applied.torque),
+            };
+            LineOfAction {
+                origin,
+                at: shifted_by_torque(applied.at, applied.force, torque),
+                force: applied.force,
+            }
         };
-        if block.weight > 0.0 {
-            vec![line]
-        } else {
-            Vec::new()
-        }
+        forces.map(line).collect()
     };
-    let mut lines: Vec<Vec<LineOfAction>> = scene.blocks.iter().zip(&torques).map(weight).collect();
-    for (number, load) in scene.loads.iter().enumerate() {
-        if load.force.norm() > 0.0 {
-            lines[load.block.0].push(LineOfAction {
-                origin: ForceOrigin::Load(number),
-                at: shifted_by_torque(load.at, load.force, load.torque),
-                force: load.force,
-            });
-        }
-    }
-    lines
+    scene.applied_forces().into_iter().map(of_block).collect()
 }
 
 /// Returns a point on the line of action of a force at `at` combined with a torque. The combination acts along a line

@@ -10,7 +10,7 @@ use super::line::{self, LineOfAction};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene};
+use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
 /// If the component of a force along gravity is below this fraction of the force, the component across gravity
 /// decides whether the force enters or leaves the block.
@@ -133,14 +133,18 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
             act(body, Origin::Missing(number), failure.at(), force);
         }
     }
-    for load in scene.loads.iter().filter(|l| l.force.norm() > 0.0) {
-        act(BodyId::Block(load.block), Origin::Load, load.at, load.force);
-    }
-    for id in &frame.placed {
-        let block = &scene.blocks[id.0];
-        if block.weight > 0.0 {
-            let weight = scene.down() * block.weight;
-            act(BodyId::Block(*id), Origin::Weight, block.centroid, weight);
+    let applied = scene.applied_forces();
+    let (weights, loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
+        (frame.placed.iter().flat_map(|id| &applied[id.0]))
+            .partition(|applied| applied.cause == ForceCause::Weight);
+    for applied in loads.into_iter().chain(weights) {
+        let origin = match applied.cause {
+            ForceCause::Weight => Origin::Weight,
+            ForceCause::Load(_) => Origin::Load,
+        };
+        if applied.force.norm() > 0.0 {
+            let on = BodyId::Block(applied.block);
+            act(on, origin, applied.at, applied.force);
         }
     }
     acting

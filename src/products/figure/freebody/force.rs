@@ -8,7 +8,7 @@ use crate::drawing::Colour;
 use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::scene::format::UnitsEntry;
-use crate::scene::{BlockId, BodyId};
+use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause};
 
 /// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
 /// select another level of detail.
@@ -93,8 +93,7 @@ pub(super) fn forces(
         contacts,
         options,
     };
-    let mut forces: Vec<Force> = source.weight().into_iter().collect();
-    forces.extend(source.loads());
+    let mut forces = source.applied();
     for (number, contact) in contacts.iter().enumerate() {
         forces.extend(source.interface(number + 1, contact));
     }
@@ -114,48 +113,59 @@ struct ForceSource<'a> {
 }
 
 impl ForceSource<'_> {
-    /// Returns the weight of the block; `None` if the weight is 0.
-    fn weight(&self) -> Option<Force> {
-        let scene = &self.analysis.scene;
-        let block = &scene.blocks[self.block.0];
-        (block.weight > 0.0).then(|| Force {
+    /// Returns the weight of the block and the loads on it. A load with a force and a torque has two entries, one for
+    /// each.
+    fn applied(&self) -> Vec<Force> {
+        let mut forces = Vec::new();
+        let mut load_count = 0;
+        for applied in &self.analysis.scene.applied_forces()[self.block.0] {
+            forces.extend(match applied.cause {
+                ForceCause::Weight => vec![self.weight(applied)],
+                ForceCause::Load(_) => {
+                    load_count += 1;
+                    self.load(applied, load_count)
+                }
+            });
+        }
+        forces
+    }
+
+    /// Returns the weight as an entry of the diagram.
+    fn weight(&self, applied: &AppliedForce) -> Force {
+        Force {
             symbol: weight(),
             what: "Weight",
             from: "weight".to_owned(),
-            at: block.centroid,
-            force: scene.down() * block.weight,
+            at: applied.at,
+            force: applied.force,
             torque: 0.0,
             colour: self.options.theme.ink,
-        })
+        }
     }
 
-    /// Returns the loads on the block. A load with a force and a torque has two entries, one for each.
-    fn loads(&self) -> Vec<Force> {
-        let loads = self.analysis.scene.loads.iter();
-        let loads = loads.filter(|load| load.block == self.block);
-        let mut forces = Vec::new();
-        for (number, load) in loads.enumerate() {
-            let below = (number + 1).to_string();
-            let push = Force {
-                symbol: Symbol::new("Q", Accent::Arrow, &below),
-                what: "Load",
-                from: "load".to_owned(),
-                at: load.at,
-                force: load.force,
-                torque: 0.0,
-                colour: self.options.theme.load,
-            };
-            let turn = Force {
-                symbol: Symbol::new("M", Accent::None, &format!("Q{below}")),
-                what: "Torque of a load",
-                force: Vector::zeros(),
-                torque: load.torque,
-                ..push.clone()
-            };
-            forces.extend((load.force.norm() > 0.0).then_some(push));
-            forces.extend((load.torque != 0.0).then_some(turn));
-        }
-        forces
+    /// Returns the force and the torque of a load, without those that are 0. `number` is the number of the load on this
+    /// block, from 1.
+    fn load(&self, applied: &AppliedForce, number: usize) -> Vec<Force> {
+        let below = number.to_string();
+        let push = Force {
+            symbol: Symbol::new("Q", Accent::Arrow, &below),
+            what: "Load",
+            from: "load".to_owned(),
+            at: applied.at,
+            force: applied.force,
+            torque: 0.0,
+            colour: self.options.theme.load,
+        };
+        let turn = Force {
+            symbol: Symbol::new("M", Accent::None, &format!("Q{below}")),
+            what: "Torque of a load",
+            force: Vector::zeros(),
+            torque: applied.torque,
+            ..push.clone()
+        };
+        let push = (push.force.norm() > 0.0).then_some(push);
+        let turn = (turn.torque != 0.0).then_some(turn);
+        push.into_iter().chain(turn).collect()
     }
 
     /// Returns the forces of an interface on the block, at the level of detail of the figure. `number` is the number of

@@ -6,7 +6,7 @@ use super::part::parts;
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::drawing::Colour;
 use crate::geometry::{Point, Vector};
-use crate::scene::{BodyId, Frame, Scene};
+use crate::scene::{BodyId, ForceCause, Frame, Scene};
 
 /// Forces below this fraction of the largest force are not drawn, because they may be errors of the solver. Forces
 /// have a relative accuracy of about 1e-9.
@@ -132,16 +132,18 @@ impl ArrowMaker<'_> {
     pub(super) fn blocks(&self, frame: &Frame, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
         let (scene, theme) = (self.scene, &self.options.theme);
         let touching = self.contacts_of_blocks(frame_analysis);
+        let applied = scene.applied_forces();
         for (place, id) in frame.placed.iter().enumerate() {
-            let block = &scene.blocks[id.0];
             let on = BodyId::Block(*id);
             let look = (theme.arrow(place + 1), theme.widths.force);
-            let weight = scene.down() * block.weight;
-            self.straight(marks, ArrowKind::Weight, on, block.centroid, weight, look);
             let load_look = (theme.load, theme.widths.robot);
-            for load in scene.loads.iter().filter(|l| l.block == *id) {
-                self.straight(marks, ArrowKind::Load, on, load.at, load.force, load_look);
-                self.torque(marks, TurnKind::Load, on, load.at, load.torque, load_look);
+            for applied in &applied[id.0] {
+                let (kind, look) = match applied.cause {
+                    ForceCause::Weight => (ArrowKind::Weight, look),
+                    ForceCause::Load(_) => (ArrowKind::Load, load_look),
+                };
+                self.straight(marks, kind, on, applied.at, applied.force, look);
+                self.torque(marks, TurnKind::Load, on, applied.at, applied.torque, look);
             }
             for contact in &touching[id.0] {
                 let [first, second] = contact.interface.bodies;

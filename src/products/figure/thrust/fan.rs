@@ -9,7 +9,7 @@ use crate::drawing::{
     Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
-use crate::scene::{Frame, Scene};
+use crate::scene::{AppliedForce, ForceCause, Frame, Scene};
 
 use super::super::view;
 use super::super::words::{force, quantity, round_below_in};
@@ -250,12 +250,14 @@ impl Fan {
     /// Draws the load line: the weight, the loads and the robot forces of each block, from the tip of one ray to the
     /// tip of the next.
     fn draw_load_line(&self, scene: &Scene, camera: &Camera, theme: &Theme, group: &mut Group) {
+        let applied = scene.applied_forces();
         for (k, id) in self.chain.blocks.iter().enumerate() {
             let block = &scene.blocks[id.0];
-            let loads = scene.loads.iter().filter(|l| l.block == *id);
-            let loads = loads.map(|l| (l.force, theme.load, "Load"));
-            let weight = (scene.down() * block.weight, theme.ink, "Weight");
-            let mut pieces: Vec<_> = [weight].into_iter().chain(loads).collect();
+            let piece = |applied: &AppliedForce| match applied.cause {
+                ForceCause::Weight => (applied.force, theme.ink, "Weight"),
+                ForceCause::Load(_) => (applied.force, theme.load, "Load"),
+            };
+            let mut pieces: Vec<_> = applied[id.0].iter().map(piece).collect();
             let sum = self.chain.forces[k + 1] - self.chain.forces[k];
             let held: Vector = sum - pieces.iter().map(|p| p.0).sum::<Vector>();
             if held.norm() > ROBOT_TOL * sum.norm() {

@@ -5,7 +5,7 @@ use super::unit::Units;
 use super::{Grid, TableCell};
 use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::geometry::{Point, Vector, cross};
-use crate::scene::{BlockId, BodyId, Load, Scene};
+use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
 use crate::text::line;
 use crate::wording::failure::named;
 
@@ -68,24 +68,14 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     let mut forces = reactions(scene, frame_analysis, about);
     forces.extend(robots(scene, frame_analysis, None, about));
     forces.extend(missing(scene, frame_analysis, &supported, about));
-    let weights: Vec<(Point, f64)> = supported
-        .iter()
-        .map(|id| (scene.blocks[id.0].centroid, scene.blocks[id.0].weight))
-        .collect();
-    let weight: f64 = weights.iter().map(|w| w.1).sum();
-    if weight > 0.0 {
-        let middle: Vector = weights.iter().map(|(at, w)| at.coords * (w / weight)).sum();
-        let what = format!("weight of {} blocks", weights.len());
-        let what = if weights.len() == 1 {
-            "weight of the block".to_owned()
-        } else {
-            what
-        };
-        let force = scene.down() * weight;
-        forces.push(Force::new(what, Point::from(middle), force, 0.0, about));
-    }
-    let loads = scene.loads.iter().filter(|l| supported.contains(&l.block));
-    forces.extend(listed_loads(scene, loads, about));
+    let all = scene.applied_forces();
+    let applied = supported.iter().flat_map(|id| &all[id.0]);
+    let (weights, mut loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
+        applied.partition(|applied| applied.cause == ForceCause::Weight);
+    // List the loads in the order of the scene.
+    loads.sort_by_key(|load| load.cause);
+    forces.extend(total_weight(&weights, about));
+    forces.extend(listed_loads(scene, &loads, about));
     let caption = "Reactions, weights and loads; moments about the origin";
     table(caption, &forces, Units::new(scene, frame_analysis))
 }
@@ -95,15 +85,13 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
     let about = own.centroid;
-    let mut forces = vec![Force::new(
-        "weight",
-        about,
-        scene.down() * own.weight,
-        0.0,
-        about,
-    )];
-    let loads = scene.loads.iter().filter(|l| l.block == block);
-    forces.extend(listed_loads(scene, loads, about));
+    let all = scene.applied_forces();
+    let loads: Vec<&AppliedForce> = (all[block.0].iter())
+        .filter(|applied| applied.cause != ForceCause::Weight)
+        .collect();
+    let weight = scene.down() * own.weight;
+    let mut forces = vec![Force::new("weight", about, weight, 0.0, about)];
+    forces.extend(listed_loads(scene, &loads, about));
     let body = BodyId::Block(block);
     for contact in &frame_analysis.contacts {
         let [a, b] = contact.interface.bodies;
@@ -221,17 +209,29 @@ fn missing(
     forces
 }
 
+/// Returns one row for the weights of several blocks, at their common centre of gravity; `None` if there are none.
+fn total_weight(weights: &[&AppliedForce], about: Point) -> Option<Force> {
+    let force: Vector = weights.iter().map(|w| w.force).sum();
+    let total = force.norm();
+    let middle: Vector = weights
+        .iter()
+        .map(|w| w.at.coords * (w.force.norm() / total))
+        .sum();
+    let what = match weights.len() {
+        0 => return None,
+        1 => "weight of the block".to_owned(),
+        count => format!("weight of {count} blocks"),
+    };
+    Some(Force::new(what, Point::from(middle), force, 0.0, about))
+}
+
 /// Returns one force for each load. If there are more than [`MAX_LOADS`] loads, returns only their sum.
-fn listed_loads<'l>(
-    scene: &Scene,
-    loads: impl Iterator<Item = &'l Load>,
-    about: Point,
-) -> Vec<Force> {
-    let force = |load: &Load| {
+fn listed_loads(scene: &Scene, loads: &[&AppliedForce], about: Point) -> Vec<Force> {
+    let force = |load: &&AppliedForce| {
         let what = format!("load on {}", line(&scene.blocks[load.block.0].id));
         Force::new(what, load.at, load.force, load.torque, about)
     };
-    let forces: Vec<Force> = loads.map(force).collect();
+    let forces: Vec<Force> = loads.iter().map(force).collect();
     if forces.len() > MAX_LOADS {
         return vec![Force::sum(format!("{} loads", forces.len()), &forces)];
     }

@@ -1,0 +1,63 @@
+//! [`AppliedForce`]: a force that acts on a block from outside the structure.
+
+use super::{BlockId, Point, Scene, Vector};
+
+/// A force that acts on a block whatever the joints and the robots do: its weight or a load.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct AppliedForce {
+    /// The block on which the force acts.
+    pub block: BlockId,
+    /// The reason why the force acts.
+    pub cause: ForceCause,
+    /// The point where the force acts, metres.
+    pub at: Point,
+    /// The force, N.
+    pub force: Vector,
+    /// A torque that acts together with the force, N·m, anticlockwise positive.
+    pub torque: f64,
+}
+
+/// The reason why a force acts on a block. Weights come before loads, and loads have the order of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum ForceCause {
+    /// The weight of the block, at its centroid.
+    Weight,
+    /// A load that the scene lists, with its index in [`Scene::loads`].
+    Load(usize),
+}
+
+impl Scene {
+    /// Returns the forces that act on each block from outside the structure, indexed by block: first its weight, if it
+    /// is not 0, and then the loads on it.
+    ///
+    /// Mechanisms, figures and reports take the forces from here. A new effect that adds a force to blocks therefore
+    /// adds this force here too.
+    pub fn applied_forces(&self) -> Vec<Vec<AppliedForce>> {
+        let weight = |(number, block): (usize, &super::Block)| AppliedForce {
+            block: BlockId(number),
+            cause: ForceCause::Weight,
+            at: block.centroid,
+            force: self.down() * block.weight,
+            torque: 0.0,
+        };
+        let weights = self.blocks.iter().enumerate().map(weight);
+        let mut forces: Vec<Vec<AppliedForce>> = weights
+            .map(|weight| match weight.force.norm() > 0.0 {
+                true => vec![weight],
+                false => Vec::new(),
+            })
+            .collect();
+        for (number, load) in self.loads.iter().enumerate() {
+            forces[load.block.0].push(AppliedForce {
+                block: load.block,
+                cause: ForceCause::Load(number),
+                at: load.at,
+                force: load.force,
+                torque: load.torque,
+            });
+        }
+        forces
+    }
+}
