@@ -319,8 +319,9 @@ fn the_starter_scene_is_short_and_has_robots_materials_loads_and_steps() {
     assert_eq!(verdicts, [Verdict::Stable; 5], "the first example stands");
 }
 
+/// `cargo bench --bench large` measures how long this takes.
 #[test]
-fn a_wall_of_ten_thousand_blocks_is_read_quickly() {
+fn a_wall_of_ten_thousand_blocks_is_read() {
     let mut blocks = Vec::new();
     for row in 0..100 {
         for column in 0..100 {
@@ -333,11 +334,5 @@ fn a_wall_of_ten_thousand_blocks_is_read_quickly() {
         "ground": [{{ "polygon": [[-1, -1], [202, -1], [202, 0], [-1, 0]] }}], "blocks": [{}] }}"#,
         blocks.join(",")
     );
-    let began = std::time::Instant::now();
     assert_eq!(scene(&text).blocks().len(), 10_000);
-    let seconds = began.elapsed().as_secs_f64();
-    assert!(
-        seconds < 5.0,
-        "{seconds} s: reading seems to compare all pairs of blocks"
-    );
 }

@@ -178,7 +178,5 @@ fn times_do_not_exceed_the_time_of_the_call() {
         let [assembly, solution, wedging, margins] = stages;
         assert!(assembly > 0.0 && solution > 0.0, "{solve}");
         assert_eq!([wedging > 0.0, margins > 0.0], [requested; 2], "{solve}");
-        // The time outside all stages is small.
-        assert!(stages.iter().sum::<f64>() > 0.5 * seconds, "{solve}");
     }
 }

@@ -210,7 +210,6 @@ fn a_thousand_scenes_open_and_scroll() {
         "{elements} elements"
     );
     let seconds = start.elapsed().as_secs_f64();
-    assert!(seconds < 60.0, "{seconds} s");
     let _ = std::io::Write::write_all(
         &mut std::io::stderr(),
         format!("1000 scenes: {size} bytes, open and scrolled in {seconds:.1} s\n").as_bytes(),
