@@ -56,12 +56,16 @@
 //!
 //! # From a scene to a picture
 //!
+// Rows of modules with a feature appear only if the feature is on; otherwise their links would be broken.
 //! | function or module | output | input |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
 //! | [`Scene::builder`] | [`Scene`], checked | method calls, one for each entry of a scene file |
 //! | [`starter`] | a scene file | a few lengths and counts |
-//! | [`import`](mod@import) | a scene file | a drawing: SVG, DXF, GeoJSON or WKT |
+#![cfg_attr(
+    feature = "import",
+    doc = "| [`import`](mod@import) | a scene file | a drawing: SVG, DXF, GeoJSON or WKT |"
+)]
 //! | [`interface`] | pairs of bodies that touch, and where | a scene |
 //! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, with the effects that it needs |
 //! | [`program`] | the equilibrium equations in dimensionless numbers | an assembly |
@@ -71,12 +75,24 @@
 //! | [`Analysis`] | verdict, forces, failures, motion and margins | a scene |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
-//! | [`output::png::render`] | PNG bytes | SVG text |
-//! | [`output::pdf::write`] | a PDF page | a drawing |
-//! | [`study::study`] | times and errors of solvers and tolerances | scenes |
+#![cfg_attr(
+    feature = "png",
+    doc = "| [`output::png::render`] | PNG bytes | SVG text |"
+)]
+#![cfg_attr(
+    feature = "pdf",
+    doc = "| [`output::pdf::write`] | a PDF page | a drawing |"
+)]
+#![cfg_attr(
+    feature = "report",
+    doc = "| [`study::study`] | times and errors of solvers and tolerances | scenes |"
+)]
 //! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
-//! | [`snapshot`] | a comparison with stored references | scenes and their figures |
+#![cfg_attr(
+    feature = "snapshot",
+    doc = "| [`snapshot`] | a comparison with stored references | scenes and their figures |"
+)]
 //! | [`text`] | escaped text for each output format | untrusted text |
 //!
 //! [`doc::design`] gives the reasons for this structure, [`doc::conventions`] axes, units and signs, and

@@ -1,4 +1,5 @@
-//! [`Proof`]: the certificate of a verdict, computed from geometry and forces alone.
+//! [`Proof`]: the certificate of a verdict, computed from an assembly and from forces or a motion, without the linear
+//! program.
 //!
 //! This module uses no programs, columns or solvers. It sums the balance again in metres and newtons, from the
 //! assembly's bodies, contacts and grips. It also checks the contact law for each force. A mistake in the program is

@@ -73,8 +73,9 @@ pub fn dual(
     from_kinematic_answer(loads, columns, &conic, &row_of, &answer)
 }
 
-/// Converts a solver's answer for a kinematic dual to velocities, and to the amounts and slacks of the columns.
-/// `row_of` contains the row of each column.
+/// Converts a solver's answer for the kinematic dual `conic` to a [`Dual`]: velocities, the amount, slack and limit
+/// multiplier of each column, and the objective. `row_of` contains, for each column, the index of its row in `conic`, or
+/// `usize::MAX` for the second column of an opposite pair that shares one equality.
 pub(super) fn from_kinematic_answer(
     loads: &[f64],
     columns: &[Column],

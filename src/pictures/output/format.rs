@@ -1,5 +1,6 @@
-//! [`Format`]: the file formats in which the command line writes a drawing. This file declares the file ending, the
-//! help text and the writer of each format. The writers are in other files.
+//! [`Format`]: the file formats in which the command line writes a drawing. This file lists the properties
+//! of each format, such as its file ending and help text, and calls the module that writes it: `svg`, `png`,
+//! `animation`, `pdf` or `tikz`.
 
 use super::animation::{self, Step};
 use super::fonts::Fonts;

@@ -212,7 +212,8 @@ impl<'a> Picture<'a> {
         self.scene.frames[self.pen.number].placed.len() > MAX_SINGLE_STRANDS
     }
 
-    /// Draws the bands: first weights, then carried forces over them, and missing forces on top.
+    /// Draws the bands in three layers: at the bottom the bands of weights, above them the bands of the forces that blocks
+    /// transmit, and on top the bands of missing forces.
     fn flow(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("flow");
         let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];

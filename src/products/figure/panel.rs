@@ -51,8 +51,8 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     group
 }
 
-/// Draws diamonds at the joints at their limit. If there are none, draws an open diamond at the joint nearest to its
-/// limit.
+/// Draws filled diamonds at the joints that are at their limit. If there are none, draws an open diamond at the joint
+/// nearest to its limit if the text of the figure names this joint. Draws nothing for a frame that does not stand.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");

@@ -82,7 +82,8 @@ impl PanelContent for ThrustLine {
         let scene = &context.analysis.scene;
         let frame_analysis = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
-        // Draw the line of thrust of the most central state if it is known, otherwise that of the analysis.
+        // Draw the line of thrust of the most central forces, those farthest from the ends of the joints, if they are
+        // known. Otherwise draw the line of thrust of the forces that the analysis found.
         let frame_analysis = family
             .central
             .as_ref()

@@ -18,7 +18,8 @@ fn folder(stem: &str) -> String {
     format!("{}-figures", slug(stem))
 }
 
-/// Writes the part of a report above its scenes: title, summary, notes, invalid files, and the table of all scenes.
+/// Writes the part of a report above its scenes: title, summary, notes, the list of invalid files if there are any, and
+/// an overview table if there is more than one scene.
 pub(super) fn head(head: &Head<'_>) -> String {
     let mut out = format!("# {}\n\n{}.\n\n", markdown(head.title), head.summary);
     for note in head.notes {

@@ -1,7 +1,7 @@
-//! Reports for people: many scenes on one [`page`], scenes in an mdBook ([`book`]), and the [`accuracy`] study.
+//! Reports for people: many scenes on one page (`page`), scenes in an mdBook (`book`), and the study of `accuracy`.
 //!
-//! [`entry`] collects the text, numbers and drawings of one scene. `html`, `markdown` and `print` write it in three
-//! formats. [`result`](crate::result) writes results as JSON for programs.
+//! The module `entry` collects the text, numbers and drawings of one scene. The modules `html`, `markdown` and `print`
+//! write them in three formats. The module [`result`](crate::result) writes results as JSON for programs.
 
 #[cfg(feature = "report")]
 pub mod accuracy;

@@ -6,8 +6,10 @@ use std::path::Path;
 
 use crate::scene::{Code, Scene, isolate};
 
-/// True if a file is a scene or a damaged scene. A scene has the key `"drystone"`. A damaged scene is not valid JSON,
-/// but looks like a scene.
+/// True if a file counts as a scene or as a damaged scene.
+///
+/// A file counts as a scene if it contains the text `"drystone"`, with the quotation marks. A file that is not valid
+/// JSON counts as a damaged scene if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`.
 pub(super) fn looks_like_scene(bytes: &[u8]) -> bool {
     let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
     if has(b"\"drystone\"") {
