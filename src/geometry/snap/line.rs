@@ -104,7 +104,8 @@ impl Lines {
         for i in 0..sets.len() {
             joined.entry(root(&group, i)).or_default().push(i);
         }
-        // Make one line for each group. If one line does not fit the whole group, make one for each of its sides.
+        // Make one line for each group of sides. If no single line fits all sides of a group, make one line for each of
+        // these sides.
         let mut lines = Vec::new();
         for members in joined.into_values() {
             let line = |members: &[usize]| {

@@ -84,16 +84,27 @@ impl Proof {
     /// True if the errors of the proof are within the threshold.
     pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
+            Proof::Forces { .. } => {
+                (self.force_error()).is_some_and(|error| error <= threshold.imbalance)
+            }
+            Proof::Mechanism {
+                power,
+                worst_violation,
+            } => power > 1e-12 && power >= threshold.power_ratio * worst_violation,
+        }
+    }
+
+    /// Returns the largest error of forces: the imbalance of a body, or the pull or the slip at a joint, each relative to
+    /// the forces there. `None` for a proof by a motion.
+    pub fn force_error(&self) -> Option<f64> {
+        match *self {
             Proof::Forces {
                 worst_imbalance,
                 worst_pull,
                 worst_slip,
                 ..
-            } => worst_imbalance.max(worst_pull).max(worst_slip) <= threshold.imbalance,
-            Proof::Mechanism {
-                power,
-                worst_violation,
-            } => power > 1e-12 && power >= threshold.power_ratio * worst_violation,
+            } => Some(worst_imbalance.max(worst_pull).max(worst_slip)),
+            Proof::Mechanism { .. } => None,
         }
     }
 

@@ -51,7 +51,7 @@ const COST_TOL: f64 = 2e-8;
 /// With very high friction the solver loses digits, and the cost of a balance is then more accurate than its objective.
 const ROUGH_COST_TOL: f64 = 1e-6;
 
-/// The residual that the least squares may leave, relative to the largest load: half of what a proof allows.
+/// The residual that the least-squares problem may leave, relative to the largest load: half of what a proof allows.
 const BALANCE_TOL: f64 = 5e-8;
 
 /// From this number of blocks on, an attempt with plain conditioning stops early, and full conditioning is not tried.
@@ -75,8 +75,8 @@ const MAX_ITERATIONS_FIRST_LOOK: usize = 15;
 /// tolerance.
 ///
 /// In walls whose coordinates have 4 decimals, thousands of columns have an amount and a slack of about the same size,
-/// 10⁻⁴ of the other amounts. The face of optima found from them has no balance, and least squares take long to show
-/// that.
+/// 10⁻⁴ of the other amounts. The face of optima found from them has no balance, and the least-squares
+/// problem takes long to show that.
 const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 
 /// The finer tolerance, as a fraction of the normal one.
@@ -200,8 +200,8 @@ fn balance_by_levels(
     })
 }
 
-/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least squares on the face of its
-/// optima.
+/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least-squares problem on
+/// the face of its optima.
 fn solve_dual(
     program: &Program,
     whole: &Face,
@@ -241,10 +241,10 @@ fn solve_dual(
     (solved, settings)
 }
 
-/// Steps 2 to 4: finds the balance of least Σ force² among the balances of least cost. `None` if none of the
+/// Steps 2 to 4: among the balances of least cost, finds the one of least Σ force². `None` if none of the
 /// [`ACTIVE_MARGINS`] leads to such a balance.
 ///
-/// `settings` contains the settings for the repair of a balance, followed by the settings for the least squares.
+/// `settings[0]` is for removing the residual of a balance, and `settings[1]` is for the least-squares problem.
 fn least_squares_balance(
     program: &Program,
     whole: &Face,
@@ -266,7 +266,7 @@ fn least_squares_balance(
             continue;
         }
         tried.push(counts);
-        // Step 3: solve the least squares on the face.
+        // Step 3: solve the least-squares problem on the face.
         let Some(mut amounts) =
             least_squares_amounts(&face.loads, &face.columns, face_settings, effort)
         else {

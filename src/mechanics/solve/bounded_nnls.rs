@@ -1,4 +1,4 @@
-//! [`BoundedNnls`]: least squares with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
+//! [`BoundedNnls`]: solves the least-squares problem with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
 //! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance
 //! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work. The reason: at
@@ -193,7 +193,7 @@ impl BoundedNnls {
         let (loads, columns) = (search.loads, search.columns);
         let mut progress = Progress::Stayed;
         loop {
-            // Step 3: solve the least squares on the passive set. Step 4: do the ratio test.
+            // Step 3: solve the least-squares problem on the passive set. Step 4: do the ratio test.
             let optimum = self.least_squares(loads, columns, digits);
             let Some((step, first)) = self.ratio_test(&optimum, columns) else {
                 self.amounts = optimum;
@@ -313,8 +313,8 @@ impl BoundedNnls {
     }
 }
 
-/// How precisely the least squares of the passive set are solved. All digits are needed only when no candidates are
-/// left.
+/// How precisely the least-squares problem on the passive set is solved. All digits are needed only when no
+/// candidates are left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Digits {
     Half,

@@ -22,7 +22,7 @@ const PIVOT_TOL: f64 = 1e-7;
 /// tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
 
-/// The tolerance for residuals and negative amounts in the least squares, as a fraction of the largest load.
+/// The tolerance for residuals and negative amounts in the least-squares problem, as a fraction of the largest load.
 ///
 /// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if it fails.
 const STRICT_TOL: f64 = 1e-12;

@@ -44,8 +44,8 @@ const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
 
 /// [`DROP_TOL`] for many blocks.
 ///
-/// At 10⁻⁵ a needed column was dropped in a wall of 4 128 bricks, and the least squares took 1.8 s to show it. At
-/// 10⁻⁹ adhesion that is only the solver's rounding is kept too, so the result has up to 40 % more points.
+/// At 10⁻⁵ a needed column was dropped in a wall of 4 128 bricks, and the least-squares problem took 1.8 s to show it.
+/// At 10⁻⁹ adhesion that is only the solver's rounding is kept too, so the result has up to 40 % more points.
 const DROP_TOL_MANY: [f64; 2] = [1e-6, 1e-9];
 
 /// Whether a program has few or many blocks. This decides how it is scaled and solved.
@@ -411,8 +411,8 @@ fn concentrate(
         let solved = solve_stage(&face, size, settings, effort, |c| {
             if c.force.is_adhesion() { c.cost } else { 0.0 }
         });
-        // These columns cannot balance the loads. The least squares of stage 4 would take ten times as long to show
-        // this.
+        // These columns cannot balance the loads. The least-squares problem of stage 4 would take ten times
+        // as long to show this.
         if size == Size::Many && solved.status == Status::Unbounded {
             return None;
         }

@@ -139,7 +139,7 @@ fn at_end(bearing: &Bearing) -> bool {
         .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
-/// Returns the width of the line of a safe part, pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line of a safe part, in pixels. `unit` is the unit edge in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = SAFE_LINE_WIDTH;
     (width * unit).clamp(least, most)

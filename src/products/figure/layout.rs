@@ -80,7 +80,7 @@ impl Layout {
         }
     }
 
-    /// Returns lower bounds for the width and the height of the page, pixels.
+    /// Returns lower bounds for the width and the height of the page, in pixels.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -140,7 +140,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Returns the width available for each panel in a row of `columns` panels, pixels.
+    /// Returns the width available for each panel in a row of `columns` panels, in pixels.
     fn room(&self, columns: usize) -> f64 {
         ((self.across - (columns - 1) as f64 * self.gap) / columns as f64).max(1.0)
     }

@@ -177,7 +177,7 @@ fn open_sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
 }
 
-/// Returns half the diagonal of the diamond, pixels. In small pictures it is larger than a dot.
+/// Returns half the diagonal of the diamond, in pixels. In small pictures it is larger than a dot.
 pub(crate) fn reach(radius: f64) -> f64 {
     (1.5 * radius).max(LEAST_DIAMOND)
 }

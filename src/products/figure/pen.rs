@@ -183,7 +183,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns the radius of a robot's disc, pixels.
+    /// Returns the radius of a robot's disc, in pixels.
     pub(crate) fn disc(&self) -> f64 {
         self.context.options.theme.widths.disc * self.unit()
     }

@@ -313,7 +313,7 @@ fn format_change(kind: MarginKind, amount: f64) -> String {
     }
 }
 
-/// Returns the width of the shaft of an arrow, pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the shaft of an arrow, in pixels. `unit` is the unit edge in pixels.
 fn width(unit: f64, is_numbered: bool) -> f64 {
     let width = (0.045 * unit).clamp(1.4, 2.6);
     match is_numbered {

@@ -197,7 +197,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     }
 }
 
-/// Returns the width of the line of an interface, pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line of an interface, in pixels. `unit` is the unit edge in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = LINE_WIDTH;
     (width * unit).clamp(least, most)
@@ -327,7 +327,7 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
     drawn.with(Path::stroked(bar, Stroke::new(theme.ink, bar_width(bold))))
 }
 
-/// Returns the width of the border on each side of a line, pixels. `bold` is the width of the line in pixels.
+/// Returns the width of the border on each side of a line, in pixels. `bold` is the width of the line in pixels.
 fn rim(bold: f64) -> f64 {
     (0.16 * bold).clamp(0.4, 0.9)
 }

@@ -1,4 +1,5 @@
-//! Limits for drawings with too many overlapping outlines.
+//! Limits on the number of outlines in a drawing, on the number of outlines that overlap, and on the number of corners
+//! in one path.
 //!
 //! Tests for contact, holes and overlap compare pairs of outlines. For blocks that lie next to each other, an index
 //! finds the few pairs that matter. A thousand outlines in one place are half a million pairs, and they are not a

@@ -5,7 +5,7 @@
 //! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, roles follow from layers and names | `svg`, `dxf`, `geojson`, `wkt` |
 //! | 2. flatten curves into chords, and close open ends | `subpath` |
 //! | 3. find regions and their holes by the fill rule | `region` |
-//! | 4. refuse drawings with too many overlapping outlines | `limit` |
+//! | 4. refuse drawings with too many outlines, or with too many that overlap | `limit` |
 //! | 5. snap corners and edges that nearly touch, so that interfaces are found | `outline` |
 //! | 6. write the scene file, and check it like any other | `scene_file` |
 //!

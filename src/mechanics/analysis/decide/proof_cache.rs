@@ -49,6 +49,17 @@ impl ProofCache {
         self.motions.push(motion);
     }
 
+    /// Returns the error of the most exact forces in the cache that balance a component, as [`proof::Proof::force_error`]
+    /// defines it. `None` if no forces in the cache balance it.
+    pub(super) fn least_error(&self, component: &Component) -> Option<f64> {
+        let errors = self.forces.iter().filter_map(|cached| {
+            let forces = cached.transfer_to(component.assembly)?;
+            let proof = proof::check_forces(component.assembly, &forces);
+            proof.force_error().filter(|_| component.accepts(&proof))
+        });
+        errors.min_by(f64::total_cmp)
+    }
+
     /// True if some forces in the cache balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
         // The latest forces are tried first, because a search changes the component in small steps.

@@ -41,6 +41,21 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (decision.verdict, decision.mechanism)
 }
 
+/// Returns the error of the most exact known forces that balance an assembly, as [`Proof::force_error`] defines it.
+/// Known are the forces in the cache, and the forces that the balance equations alone determine. `None` if no such
+/// forces are known.
+pub(in crate::mechanics::analysis) fn least_force_error(
+    assembly: &Assembly,
+    cache: &ProofCache,
+) -> Option<f64> {
+    let component = Component::new(assembly, VERDICT_ONLY);
+    let program = Program::new(assembly, component.scale);
+    let determinate = component.in_closed_form(&program);
+    let determinate = determinate.and_then(|found| found.proof.force_error());
+    let cached = cache.least_error(&component);
+    cached.into_iter().chain(determinate).min_by(f64::total_cmp)
+}
+
 /// Returns the verdict that the forces and motions in the cache prove, and the mechanism if it is unstable. Solves no
 /// program. The verdict is undecided if they prove nothing.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(

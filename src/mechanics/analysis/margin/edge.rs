@@ -75,6 +75,8 @@ impl Threshold {
     /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong
     /// enough.
     const OFFSET_GROWTH: f64 = 16.0;
+    /// The largest number of times that an end is moved inward by [`Threshold::sharpened`]. Each time costs a program.
+    const MAX_SHARPENINGS: usize = 8;
     /// The largest relative distance from the threshold at which verdicts are computed to confirm it.
     const MAX_OFFSET: f64 = 256e-6;
 
@@ -127,7 +129,41 @@ impl Threshold {
         if let Some(root) = root {
             self.enclose(trial, setting, &mut bracket, root);
         }
-        self.interval(self.bisect(trial, setting, bracket, root))
+        let mut end = self.bisect(trial, setting, bracket, root);
+        if trial.has_slight_loads() {
+            end = self.sharpened(trial, setting, end);
+        }
+        self.interval(end)
+    }
+
+    /// Returns an end moved inward if a mechanism proves a fall just inside it. The verdict there is stable only within
+    /// the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some loads are slight.
+    fn sharpened(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, end: End) -> End {
+        let End::At {
+            mut value,
+            mut mechanism,
+        } = end
+        else {
+            return end;
+        };
+        for _ in 0..Self::MAX_SHARPENINGS {
+            let Some(inside) = self.test_values(value, Side::Inside).next() else {
+                break;
+            };
+            let Some(tangent) = trial.tangent(&setting(inside)) else {
+                break;
+            };
+            let Some(motion) = trial.proved_motion(&tangent, &setting(inside)) else {
+                break;
+            };
+            let farther = inside + (inside - value);
+            let root = trial.root(&tangent, setting, [inside, farther]);
+            let is_inward = (root - inside) * (inside - value) > 0.0;
+            let next = if is_inward { root } else { inside };
+            value = next.clamp(0.0, self.max_value);
+            mechanism = motion;
+        }
+        End::At { value, mechanism }
     }
 
     /// Computes verdicts on both sides of `root`, the threshold according to Newton's method, as near to it as

@@ -93,7 +93,7 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         min_value: 0.0,
         typical_small: unit * Scale::HEAVIEST,
         typical_large: unit * Scale::HEAVIEST,
-        unsure: 0.0,
+        load_ratio: 0.0,
     };
     // If the component stands, the limit in the scene is sufficient, and the search starts there.
     let given = program.grips[grip].limits[component] * unit;

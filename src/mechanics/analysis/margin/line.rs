@@ -12,7 +12,7 @@ use super::interval::End;
 use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::analysis::decide::LimitDistance;
-use crate::proof::Motion;
+use crate::proof::{Motion, Proof};
 
 /// A parameter, and how a component changes with it.
 pub(super) struct Line<'a> {
@@ -24,9 +24,10 @@ pub(super) struct Line<'a> {
     pub typical_small: f64,
     /// A typical large size of the parameter: a load of 10⁻⁵ N equals a weight of 1 N at the factor 10⁵.
     pub typical_large: f64,
-    /// The change of the parameter that changes the loads by half of the tolerance of the proofs. It matters if the
-    /// parameter belongs to loads far smaller than the others.
-    pub unsure: f64,
+    /// The largest load that the parameter does not change, divided by the largest load that the parameter adds per unit.
+    /// If forces balance with a relative error of 10⁻⁷, the end may be off by 10⁻⁷ times this ratio. This matters only
+    /// for loads far smaller than the others.
+    pub load_ratio: f64,
 }
 
 /// Two values between which an end lies.
@@ -60,8 +61,13 @@ const END_TOL: f64 = 1e-6;
 const CONFIRMATION_TOL: f64 = 256e-6;
 /// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.
 const STABLE_BEYOND: f64 = 4e-6;
-/// Smaller values of [`Line::unsure`], relative to the natural size of the parameter, are ignored.
+/// The possible error of an end is ignored if it is at most this share of the natural size of the parameter.
 const MIN_UNSURE: f64 = 1e-3;
+/// If no forces are known near an end, this is taken for their relative error: half of the tolerance of the proofs.
+const UNKNOWN_ERROR: f64 = 0.5 * Proof::IMBALANCE_TOL;
+/// The least relative error of forces from which the error of an end follows. The error of the contact forces counts, but
+/// the loads may be smaller than these. With a tenth of this value, one end of a random scene was 2·10⁻⁶ too far out.
+const LEAST_ERROR: f64 = 2e-10;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const OFFSET_GROWTH: f64 = 16.0;
 /// The largest number of steps of one search.
@@ -155,7 +161,7 @@ impl Line<'_> {
     ///
     /// If this mechanism excludes even the value `from`, then the component stands there only within the tolerance of
     /// the proofs: the loads that the parameter changes are too small. The end is then not confirmed. If they are small
-    /// and `from` lies farther inside, the end is moved inward by `unsure`, to the safe side.
+    /// and `from` lies farther inside, the end is moved inward by its possible error, to the safe side.
     fn enclosed(
         &self,
         trial: &mut Trial,
@@ -177,7 +183,7 @@ impl Line<'_> {
             .max(self.min_value);
         if (from - value) * outward <= END_TOL * self.size(value) {
             return End::At {
-                value: self.on_the_safe_side(value, from, outward),
+                value: self.on_the_safe_side(trial, value, [from, inside], outward),
                 mechanism: fall.mechanism,
             };
         }
@@ -194,15 +200,26 @@ impl Line<'_> {
         }
     }
 
-    /// Returns an end moved inward by `unsure`, but not beyond `from`. Returns the end unchanged if `unsure` is small
-    /// compared with it or with the parameter's natural size.
-    fn on_the_safe_side(&self, end: f64, from: f64, outward: f64) -> f64 {
-        let is_sure = self.unsure <= MIN_UNSURE * self.typical_small
-            || self.unsure <= END_TOL * self.size(end);
+    /// Returns an end moved inward by its possible error, but not beyond `from`. The forces that balance the component
+    /// at the value `inside` determine the error. Returns the end unchanged if even the largest possible error is small.
+    fn on_the_safe_side(
+        &self,
+        trial: &Trial,
+        end: f64,
+        [from, inside]: [f64; 2],
+        outward: f64,
+    ) -> f64 {
+        let unsure = UNKNOWN_ERROR * self.load_ratio;
+        let is_sure =
+            unsure <= MIN_UNSURE * self.typical_small || unsure <= END_TOL * self.size(end);
         if is_sure || (end - from) * outward <= 0.0 {
             return end;
         }
-        let inward = end - outward * self.unsure;
+        let known = trial.least_force_error(&(self.setting)(inside));
+        let error = known.map_or(UNKNOWN_ERROR, |error| {
+            (2.0 * error).clamp(LEAST_ERROR, UNKNOWN_ERROR)
+        });
+        let inward = end - outward * error * self.load_ratio;
         if (inward - from) * outward > 0.0 {
             inward
         } else {

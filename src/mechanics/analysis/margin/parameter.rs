@@ -10,10 +10,6 @@ use super::linear::linear;
 use super::margins::Margins;
 use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
-use crate::proof::Proof;
-
-/// Half of the tolerance of a proof by forces, relative to the loads.
-const HALF_TOLERANCE: f64 = 0.5 * Proof::IMBALANCE_TOL;
 
 /// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
 /// stands. `with_tilt` is true if its whole frame stands; only then are its tilts around 0 computed.
@@ -71,7 +67,7 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
         min_value: f64::NEG_INFINITY,
         typical_small: 1.0,
         typical_large: (1.0 / trial.weights_to_loads()).max(1.0),
-        unsure: HALF_TOLERANCE / trial.weights_to_loads(),
+        load_ratio: 1.0 / trial.weights_to_loads(),
     };
     let alone = |side: f64| Setting {
         along: 0.0,
@@ -92,7 +88,7 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
         min_value: 0.0,
         typical_small: trial.weights_to_loads().min(1.0),
         typical_large: trial.weights_to_loads().max(1.0),
-        unsure: HALF_TOLERANCE * trial.weights_to_loads(),
+        load_ratio: trial.weights_to_loads(),
     };
     let alone = |side: f64| Setting {
         along: 0.0,

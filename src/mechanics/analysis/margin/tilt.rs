@@ -314,7 +314,7 @@ fn limit_of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
                 min_value: 0.0,
                 typical_small: 1.0,
                 typical_large: 1.0,
-                unsure: 0.0,
+                load_ratio: 0.0,
             };
             let alone = |_: f64| Setting {
                 along: -1.0,

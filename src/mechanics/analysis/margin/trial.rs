@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
 use crate::analysis::decide::{
-    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, proved_motion,
-    verdict_from_cache,
+    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, least_force_error,
+    proved_motion, verdict_from_cache,
 };
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
@@ -131,6 +131,12 @@ impl<'a> Trial<'a> {
         }
     }
 
+    /// True if the largest listed load and the heaviest weight differ by a factor of more than a thousand. The tolerance
+    /// of a proof by forces then is more than 10⁻⁴ of the slighter ones.
+    pub fn has_slight_loads(&self) -> bool {
+        !(1e-3..=1e3).contains(&self.weights_to_loads())
+    }
+
     /// Returns the verdict on the component with the parameters `setting`, and its mechanism if it falls (otherwise an
     /// empty list).
     pub fn decide(&mut self, setting: &Setting) -> (Verdict, Vec<Motion>) {
@@ -175,6 +181,12 @@ impl<'a> Trial<'a> {
         let program = Program::new(&changed, Scale::from_assembly(&changed));
         let (motion, _) = proved_motion(&changed, &program, &tangent.motion())?;
         Some(motion)
+    }
+
+    /// Returns the error of the most exact known forces that balance the changed component, relative to the forces on a
+    /// body or at a joint. `None` if no such forces are known.
+    pub fn least_force_error(&self, setting: &Setting) -> Option<f64> {
+        least_force_error(&self.changed(setting), &self.proofs)
     }
 
     fn count(&mut self) {

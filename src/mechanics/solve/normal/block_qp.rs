@@ -1,5 +1,5 @@
-//! An interior-point method for the least squares of force amounts with lower bounds: a quadratic program with a
-//! block-diagonal matrix.
+//! An interior-point method that minimises the sum of squares of force amounts with lower bounds: a quadratic
+//! program with a block-diagonal matrix.
 //!
 //! ```text
 //! min ½ xᵀPx + linearᵀx   s.t.   A x = loads,   s = x + floor ≥ 0,   multipliers z ≥ 0 of the bounds
@@ -51,7 +51,7 @@ const MAX_IDLE_STEPS: usize = 3;
 /// ends without an optimum.
 ///
 /// The method also solves long chains of blocks, such as an arch of 10 000 stones, whose thrust is thousands of times a
-/// stone's weight. clarabel reports that the least squares of this arch are infeasible.
+/// stone's weight. clarabel reports that the least-squares problem of this arch is infeasible.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     if !has_only_floors(problem) {
         return None;

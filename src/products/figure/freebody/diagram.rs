@@ -30,7 +30,7 @@ const NAMING_SWEEP: f64 = 3.4;
 /// A block whose diagonal is at least this long on the page, pixels, has arrows of full length.
 const FULL_LENGTH_DIAGONAL: f64 = 300.0;
 
-/// Returns the length of the longest arrow of the diagram, pixels. A small block has shorter arrows, because long
+/// Returns the length of the longest arrow of the diagram, in pixels. A small block has shorter arrows, because long
 /// arrows would cross each other.
 pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     length_factor(analysis, block, camera) * MAX_LENGTH

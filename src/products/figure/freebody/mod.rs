@@ -164,7 +164,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Returns the y coordinate of the lower edge of the picture on the page, pixels.
+    /// Returns the y coordinate of the lower edge of the picture on the page, in pixels.
     fn floor(&self) -> f64 {
         self.picture.at.y + self.picture.height
     }

@@ -58,7 +58,7 @@ impl Piece {
     }
 }
 
-/// Returns the width of a row of symbols and texts, pixels. `size` is the font size in pixels.
+/// Returns the width of a row of symbols and texts, in pixels. `size` is the font size in pixels.
 pub(super) fn width(row: &[Piece], size: f64) -> f64 {
     row.iter().map(|p| p.width(size)).sum()
 }

@@ -20,7 +20,7 @@ const EDGE_SHARE: f64 = 0.6;
 /// If the edge of a block is longer than this, in unit edges, its name has a larger font size.
 const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 
-/// Returns the font size of a block's name, pixels. `edge` is the length of an edge of the block in pixels.
+/// Returns the font size of a block's name, in pixels. `edge` is the length of an edge of the block in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
         .max(MIN_SIZE)

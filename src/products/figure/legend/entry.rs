@@ -80,7 +80,7 @@ impl Entry {
         }
     }
 
-    /// Returns the width of the symbol to the left of the text, including the gap between symbol and text, pixels.
+    /// Returns the width of the symbol to the left of the text, including the gap between symbol and text, in pixels.
     pub(super) fn sign_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {

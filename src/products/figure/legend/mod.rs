@@ -39,7 +39,7 @@ pub(crate) fn single(entry: &Entry, at: PagePoint, theme: &Theme) -> Vec<Item> {
     entry.draw(at, theme)
 }
 
-/// Returns the width of the widest of these legend entries, pixels.
+/// Returns the width of the widest of these legend entries, in pixels.
 pub(crate) fn widest(entries: &[Entry], theme: &Theme) -> f64 {
     let widths = entries.iter().map(|entry| entry.width(theme));
     widths.fold(0.0, f64::max)

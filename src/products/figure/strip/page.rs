@@ -95,7 +95,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     }
 }
 
-/// Returns the width of a page without its margins, pixels. If the options set no width, the page is wide enough for
+/// Returns the width of a page without its margins, in pixels. If the options set no width, the page is wide enough for
 /// the legend even if the picture is narrow.
 fn inner_width(options: &Options, layout: &Layout, entries: &[Entry]) -> f64 {
     match options.width {
@@ -125,7 +125,7 @@ impl PageWriter<'_> {
         self.inner + 2.0 * self.layout.margin
     }
 
-    /// Returns the x coordinate of the middle of the page, pixels.
+    /// Returns the x coordinate of the middle of the page, in pixels.
     fn middle(&self) -> f64 {
         self.width() / 2.0
     }

@@ -218,7 +218,7 @@ impl Strip<'_> {
     }
 }
 
-/// Returns the radius of the symbol of a verdict, pixels. `size` is the font size of the verdict.
+/// Returns the radius of the symbol of a verdict, in pixels. `size` is the font size of the verdict.
 fn mark_radius(size: f64) -> f64 {
     size * 7.5 / 13.5
 }

@@ -40,7 +40,7 @@ pub(super) fn widest(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the drawn width of a segment of the line of thrust, pixels. A larger force has a wider line.
+/// Returns the drawn width of a segment of the line of thrust, in pixels. A larger force has a wider line.
 pub(super) fn width(pen: &Pen<'_>, segment: &ThrustSegment) -> f64 {
     let share = segment.force.norm() / largest(pen.context).max(f64::MIN_POSITIVE);
     let share = share.min(1.0);

@@ -1,12 +1,12 @@
-//! Draws the signs of interfaces in the legend of a utilisation figure.
+//! Draws the symbols of interfaces in the legend of a utilisation figure.
 
 use super::{idle_stroke, rimmed};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 
-/// Length of the line of a sign, pixels.
+/// Length of the line of a symbol, pixels.
 pub(super) const SIGN_WIDTH: f64 = 26.0;
 
-/// Draws the legend sign of an interface that uses all its friction.
+/// Draws the legend symbol of an interface that uses all its friction.
 pub(super) fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     let middle = at.moved(SIGN_WIDTH / 2.0, 0.0);
@@ -18,7 +18,7 @@ pub(super) fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-/// Draws the legend sign of an interface without friction.
+/// Draws the legend symbol of an interface without friction.
 pub(super) fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![
@@ -27,7 +27,7 @@ pub(super) fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-/// Draws the legend sign of an interface without force.
+/// Draws the legend symbol of an interface without force.
 pub(super) fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
     vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]

@@ -269,7 +269,7 @@ impl Flow {
         self.y = end + 0.4 * TEXT_SIZE;
     }
 
-    /// Adds a caption below a picture. Returns the y coordinate of its lower end, pixels.
+    /// Adds a caption below a picture. Returns the y coordinate of its lower end, in pixels.
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
         for row in wrap(&words, Face::Sans, SMALL_TEXT_SIZE, wide) {

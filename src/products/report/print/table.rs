@@ -167,7 +167,7 @@ impl Layout {
         caption * TEXT_SIZE + self.height(&self.head) + rows
     }
 
-    /// Returns the height of a row, pixels.
+    /// Returns the height of a row, in pixels.
     fn height(&self, row: &[TableCell]) -> f64 {
         let cells = row.iter().zip(&self.widths);
         let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
