@@ -81,8 +81,8 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     Some(y)
 }
 
-/// Returns the null space of the power and of the rows that are tight at `y`, and the list of the other rows, which are
-/// open.
+/// Returns the null space of the vector `power` and of all rows that are tight at `y`, and a list of the open rows: those
+/// that are not tight.
 fn tight_rows_removed<'r>(
     rows: &'r [Row],
     power: &[(usize, f64)],

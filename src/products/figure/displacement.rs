@@ -92,8 +92,9 @@ impl Course {
         displaced
     }
 
-    /// Returns a box, in metres, that contains the moving blocks and all arrows at every position along the path.
-    /// Returns `None` if no block moves. `marks` are the arrows before the motion.
+    /// Returns a box, in metres, around the moving blocks, the force arrows and the points of torques at the start of the
+    /// path and at its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves. `marks` are the arrows
+    /// before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=TESTED_POSITIONS)
             .map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
@@ -104,8 +105,10 @@ impl Course {
                 let moved = displacement.as_ref()?;
                 Some(outline.map(|p| moved.moved(*p)))
             });
-            let arrows = moved_marks(marks, &displaced).arrows.into_iter();
+            let moved = moved_marks(marks, &displaced);
+            let arrows = moved.arrows.iter();
             let ends = arrows.flat_map(|arrow| [arrow.at, arrow.at + arrow.reach()]);
+            let ends = ends.chain(moved.turns.iter().map(|turn| turn.at));
             let points: Vec<Point> = corners.flatten().collect();
             (!points.is_empty()).then(|| Bounds::from_points(points.into_iter().chain(ends)))?
         });

@@ -1,4 +1,4 @@
-//! The output of a batch: standard output, or a file that a later run can continue.
+//! The output of a batch: standard output or a file. A later run can continue a regular file, except a CSV file.
 
 use std::fs::File;
 use std::io::{self, Write};

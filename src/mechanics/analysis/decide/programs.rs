@@ -67,8 +67,8 @@ impl Progress {
 }
 
 impl Component<'_> {
-    /// Tries the strategies in order, and returns the first decision that is proved. If no strategy gives a proof, the
-    /// decision is undecided.
+    /// Tries the strategies in order, and returns the first decision that is proved. If no strategy gives a proof
+    /// before the deadline, the decision is undecided.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
         let strategies = Strategy::in_order(

@@ -36,8 +36,8 @@ pub(super) fn robots(trial: &mut Trial, stands: bool) -> Vec<RobotIntervals> {
 }
 
 /// Computes, for each robot limit with an index in `first..end`, the values of this limit at which the component
-/// stands, and appends the intervals to `found`. Limit 3g + c is component c of grip g. `stands` is true if the
-/// component stands with the limits of the scene.
+/// stands, and appends the intervals to `found`. Limits 3g, 3g + 1 and 3g + 2 are those of
+/// force x, force y and torque of grip g. `stands` is true if the component stands with the limits of the scene.
 fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut Vec<Interval>) {
     let count = end - first;
     if count < MIN_GROUP {

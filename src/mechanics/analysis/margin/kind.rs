@@ -1,4 +1,4 @@
-//! [`MarginKinds`]: the set of requested margins.
+//! [`MarginKind`]: one margin. [`MarginKinds`]: the set of requested margins.
 
 /// One margin of a frame, or a pair of them, by its name in results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -50,8 +50,8 @@ pub(super) enum LimitChange {
     None,
     /// Every finite limit becomes 0. The unlimited forces remain, with which robots resist loads of any size.
     FiniteToZero,
-    /// Consecutive limits, counted over all grips: limit 3g + c is component c of grip g. Component 0 is force x, 1 is
-    /// force y, 2 is the torque.
+    /// Consecutive limits, counted over all grips: limits 3g, 3g + 1 and 3g + 2 are those of force x, force y and torque
+    /// of grip g.
     Replace {
         /// The index of the first limit.
         first: usize,
@@ -160,8 +160,9 @@ impl<'a> Trial<'a> {
         verdict_from_cache(&self.changed(setting), &self.proofs)
     }
 
-    /// Returns the least residual force of the changed component, with its derivative. `None` if the program could not
-    /// be solved.
+    /// Solves the program of least residual for the changed component. The result contains the least Σ |residual|, and can
+    /// estimate how it changes with the friction coefficient and the kernel. `None` if there are no loads or the program
+    /// could not be solved.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))

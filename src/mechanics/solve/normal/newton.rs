@@ -213,7 +213,8 @@ impl Newton {
         let mut both: Vec<[f64; 2]> = tau_side.iter().zip(&side).map(|(a, b)| [*a, *b]).collect();
         system.factor.solve(&mut both);
 
-        // First right-hand side: velocities and amounts for dτ = 1, and the pivot of dτ.
+        // First right-hand side: compute the changes of the velocities and of the force amounts per unit of dτ, and the
+        // pivot of dτ.
         let part = &mut self.tau_direction;
         part.y.iter_mut().zip(&both).for_each(|(y, v)| *y = v[0]);
         lp.columns.transpose_product(&part.y, &mut part.f);

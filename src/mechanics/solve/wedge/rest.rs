@@ -192,7 +192,8 @@ impl Springs<'_> {
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {
-                // Faces: the friction force is −ρ · slip, limited to ±μ(N₁ + N₂), up to the tolerance.
+                // Faces: within the tolerance, the friction force must be −ρ · slip, limited to ±μ(N₁ + N₂), where N₁ and
+                // N₂ are the normal forces at the points of the face.
                 let limit = c.friction * normal[k].max(0.0);
                 let law = (-self.tangential_stiffness * slip[k]).clamp(-limit, limit);
                 (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)

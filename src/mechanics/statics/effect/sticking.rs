@@ -1,5 +1,5 @@
-//! Sticking: the forces that mortar, or stronger robots, would have to exert for a falling structure to stand. They
-//! show where it fails.
+//! The effect *sticking*: the missing forces, also called adhesion. With these additional forces, from mortar or from
+//! stronger robots, a falling structure would stand. They show where it fails.
 //!
 //! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum
 //! of all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.

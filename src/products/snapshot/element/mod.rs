@@ -190,7 +190,7 @@ fn colour(text: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// Splits a text into numbers and the text between them.
+/// Splits a text into numbers and the text between them, without the full stops at the end of each piece.
 fn pieces(text: &str) -> Vec<&str> {
     let mut pieces = Vec::new();
     let mut begin = 0;
@@ -203,7 +203,8 @@ fn pieces(text: &str) -> Vec<&str> {
         }
     }
     pieces.push(&text[begin..]);
-    // Remove a full stop after a number: it ends the sentence, and is not a decimal point.
+    // Remove full stops at the end of each piece: after a number, a full stop ends the sentence and is not a decimal
+    // point.
     pieces.iter_mut().for_each(|p| {
         if p.len() > 1 {
             *p = p.trim_end_matches('.');
