@@ -41,8 +41,8 @@ impl Side {
         self.edge.bounds()
     }
 
-    /// Returns a point that this side and a later side of the polygon share; `None` if they share none. The common
-    /// corner of two neighbouring sides is allowed and not returned.
+    /// Returns a point that this side and a later side of the polygon share; `None` if they share none. Neighbouring sides
+    /// always share a corner; for them, returns this corner only if one side folds back onto the other.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
         // Neighbouring sides share a corner. They share more than this corner only if one side folds back onto the

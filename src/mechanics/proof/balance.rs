@@ -112,8 +112,8 @@ impl BodyForces {
         self.generators.push([0.0, 0.0, self.total]);
         let rounding = ROUNDING_TOL / MIN_THRESHOLD * self.total;
         for cone in &self.cones {
-            // Along each contact, friction may change by the rounding error if the cone allows it. The friction force
-            // itself is a generator already; add only the difference.
+            // Along each contact, friction may change by the rounding error, but at most by the available friction. The
+            // friction force is already a generator; add only what exceeds it.
             let spare = rounding.min(cone.available) - cone.given;
             if spare > 0.0 {
                 self.generators.push(cone.along.map(|v| v * spare));

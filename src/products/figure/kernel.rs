@@ -119,7 +119,7 @@ impl PanelContent for Kernel {
         let pair = description::pair(scene, contact.interface.bodies);
         if at_end == 1 {
             return format!(
-                "in the forces shown, the resultant between {pair} acts at the end of the safe part"
+                "in the forces shown, the resultant between {pair} acts at an end of the safe part"
             );
         }
         if most < 0.005 {

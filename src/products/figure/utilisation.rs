@@ -191,7 +191,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         )),
     }
     if stated.is_empty() {
-        "no interface has friction and no robot has limits".to_owned()
+        "no friction is available, and no robot has limits".to_owned()
     } else {
         stated.join("; ")
     }

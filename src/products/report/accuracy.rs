@@ -161,7 +161,7 @@ fn mark(mark: Mark) -> &'static str {
 /// Returns the summary as a Markdown table with one row for each combination of method and tolerance.
 pub fn markdown(study: &Study) -> String {
     let mut text = String::from(
-        "| method | tolerance | time | iterations | error of total: median | worst | of largest force: worst | wrong | undecided |\n\
+        "| method | tolerance | relative time | iterations | median error of total | worst error of total | worst error of largest force | wrong | undecided |\n\
          |---|---|---|---|---|---|---|---|---|\n",
     );
     for line in summary(study) {
@@ -224,8 +224,8 @@ fn lines(lines: &[Summary]) -> maud::Markup {
     html! {
         table {
             tr {
-                th { "method" } th { "tolerance" } th { "time" } th { "iterations" } th { "median error" }
-                th { "worst error" } th { "worst of largest force" } th { "wrong" } th { "undecided" }
+                th { "method" } th { "tolerance" } th { "relative time" } th { "iterations" }
+                th { "median error of total" } th { "worst error of total" } th { "worst error of largest force" } th { "wrong" } th { "undecided" }
             }
             @for line in lines {
                 tr.best[line.best].wrong[line.wrong > 0] {

@@ -8,20 +8,25 @@ use crate::text;
 /// Describes a load capacity in words: where the force acts, and how large it may be in each direction.
 pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
-    let what = match capacity.shape() {
-        CapacityShape::Empty => format!("it falls under any force {place}"),
-        CapacityShape::Everything => format!("every force {place} is carried"),
-        _ => match sides(scene, capacity) {
-            Some(sides) => format!("{place} it carries {sides}"),
-            None => format!(
-                "without a force {place} it falls; it stands with {} in some combinations",
-                ranges(scene, capacity)
-            ),
-        },
+    let for_all = match capacity.cases {
+        1 => "",
+        _ => " for all values in the given ranges",
     };
-    match capacity.cases {
-        1 => what,
-        _ => format!("{what}, for all values in the given ranges"),
+    match (capacity.shape(), sides(scene, capacity)) {
+        (CapacityShape::Empty, _) if capacity.cases == 1 => {
+            format!("it falls under any force {place}")
+        }
+        (CapacityShape::Empty, _) => format!("no force {place} keeps it standing{for_all}"),
+        (CapacityShape::Everything, _) => format!("every force {place} is carried{for_all}"),
+        (_, Some(sides)) => format!("{place} it carries {sides}{for_all}"),
+        (_, None) if capacity.cases == 1 => format!(
+            "without a force {place} it falls; it stands with {} in some combinations",
+            ranges(scene, capacity)
+        ),
+        (_, None) => format!(
+            "without a force {place} it does not stand{for_all}; it does with {} in some combinations",
+            ranges(scene, capacity)
+        ),
     }
 }
 

@@ -1,5 +1,5 @@
-//! Limits on the number of outlines in a drawing, on the number of outlines that overlap, and on the number of corners
-//! in one path.
+//! Limits on the number of outlines in a drawing, on the number of pairs of outlines that overlap, and on the number of
+//! comparisons in the search for the holes of one path.
 //!
 //! Tests for contact, holes and overlap compare pairs of outlines. For blocks that lie next to each other, an index
 //! finds the few pairs that matter. A thousand outlines in one place are half a million pairs, and they are not a
@@ -47,7 +47,7 @@ pub(super) fn too_many(count: usize) -> Remark {
     }
 }
 
-/// True if the outlines of one path have too many corners to search them for holes.
+/// True if the search for the holes of one path would need too many comparisons.
 pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
     let mut boxes: Vec<(Bounds, usize)> = rings
         .iter()

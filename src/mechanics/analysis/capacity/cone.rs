@@ -63,7 +63,8 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
     let around = probe.heaviest();
     if cone == Cone::Everything {
         let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
-        // The set contains every force. One proof suffices: that some force balances the real loads.
+        // The recession cone contains every force. So the set does too if one force is carried with the real loads:
+        // prove one.
         let samples = vec![sample(probe, unit(0.0), Some(around))?];
         return Some(SampledSet { samples, rays });
     }

@@ -176,7 +176,7 @@ impl<'a> Trial<'a> {
         self.proved_motion(&tangent, setting)
     }
 
-    /// Like [`Trial::sure_fall`], for a tangent of the changed component.
+    /// Like [`Trial::sure_fall`], but uses a tangent that [`Trial::tangent`] has already computed for the same setting.
     pub fn proved_motion(&self, tangent: &Tangent, setting: &Setting) -> Option<Vec<Motion>> {
         let changed = self.changed(setting);
         let program = Program::new(&changed, Scale::from_assembly(&changed));

@@ -1,4 +1,4 @@
-//! [`Cholesky`]: the sparse factorization A·W·Aᵀ = L·Lᵀ, computed supernode by supernode. A·W·Aᵀ is Σ
+//! [`Cholesky`]: the sparse factorization A·W·Aᵀ + diagonal·I = L·Lᵀ, computed supernode by supernode. A·W·Aᵀ is Σ
 //! weight·column·columnᵀ.
 //!
 //! This is the multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder

@@ -57,8 +57,8 @@ pub(super) fn untangle(
     any_moved
 }
 
-/// Exchanges the positions of labels `i` and `j` if both labels have leader lines, both fit, and fewer leader lines
-/// cross afterwards. Returns true if the positions were exchanged.
+/// Exchanges the positions of labels `i` and `j` if both have leader lines, each fits at the other's position, and the
+/// number of crossings decreases. Leader lines that cross labels count too. Returns true if the positions were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,

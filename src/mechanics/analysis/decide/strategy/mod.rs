@@ -203,7 +203,7 @@ impl Strategy {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
             Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
-            // A program that ended without a status shows nothing.
+            // If the solver ended without a result, nothing is shown.
             Strategy::Adhesion(_) => {
                 let found = attempt.least_adhesion.as_ref();
                 found.is_some_and(|found| found.balanced.is_some())
