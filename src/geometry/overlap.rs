@@ -13,19 +13,27 @@ use std::borrow::Cow;
 use std::ops::{Add, Sub};
 use std::sync::OnceLock;
 
-use super::{Bounds, Point, Polygon, Vector, cross, quarter_turn};
+use super::{Bounds, Point, Polygon, Vector, convex_hull, cross, quarter_turn};
 
 /// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
 /// triangles.
 ///
-/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies; the bounds
-/// of the two are then enough to exclude an overlap.
+/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies. The bounds of
+/// the two are then often enough to exclude an overlap, and otherwise their convex hulls.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
     polygon: &'p Polygon,
     bounds: Bounds,
     pieces: OnceLock<Vec<Piece<'p>>>,
+    hull: OnceLock<Vec<Point>>,
 }
+
+/// If both polygons together have at most this number of corners, their hulls are not computed: ear clipping is fast.
+const FEW_CORNERS: usize = 2000;
+
+/// If the smaller hull has more corners than this, the hulls are not compared: the time grows with the product of both
+/// numbers.
+const MAX_HULL_SIDES: usize = 500;
 
 /// A convex piece with the data for two quick tests: its bounds, and its extent across its longest side.
 ///
@@ -98,7 +106,12 @@ impl<'p> ConvexPieces<'p> {
             polygon,
             bounds: polygon.bounds(),
             pieces: OnceLock::new(),
+            hull: OnceLock::new(),
         }
+    }
+
+    fn hull(&self) -> &[Point] {
+        (self.hull).get_or_init(|| convex_hull(self.polygon.outline().to_vec()))
     }
 
     fn pieces(&self) -> &[Piece<'p>] {
@@ -114,6 +127,24 @@ impl<'p> ConvexPieces<'p> {
         let (a, b) = (self.bounds, other.bounds);
         let (one, two) = (a.max - b.min, b.max - a.min);
         one.x.min(two.x).min(one.y).min(two.y)
+    }
+
+    /// Returns an upper bound of the depth of the overlap of two polygons with many corners, in metres: the least
+    /// distance, perpendicular to a side of the smaller hull, by which one must move until their convex hulls are
+    /// disjoint. All pieces lie inside the hulls, so the bound is valid for the same reason as [`Self::depth_bound`].
+    /// It is infinite if the polygons have few corners, or if both hulls have many sides.
+    fn hull_depth_bound(&self, other: &ConvexPieces<'_>) -> f64 {
+        if self.polygon.outline().len() + other.polygon.outline().len() <= FEW_CORNERS {
+            return f64::INFINITY;
+        }
+        let (mut small, mut large) = (self.hull(), other.hull());
+        if small.len() > large.len() {
+            (small, large) = (large, small);
+        }
+        match small.len() {
+            3..=MAX_HULL_SIDES => penetration(small, large),
+            _ => f64::INFINITY,
+        }
     }
 }
 
@@ -157,7 +188,7 @@ impl<'p> Piece<'p> {
 /// Returns the overlap of two polygons that are given as convex pieces. `None` if the overlap is at most `gap` metres
 /// deep.
 pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<Overlap> {
-    if a.depth_bound(b) <= gap {
+    if a.depth_bound(b) <= gap || a.hull_depth_bound(b) <= gap {
         return None;
     }
     let mut depth: f64 = 0.0;

@@ -416,6 +416,45 @@ fn a_comparison_lists_loads_robots_and_steps_of_only_one_scene() {
 }
 
 #[test]
+fn a_comparison_is_in_the_units_of_both_scenes_or_says_that_it_is_in_si_units() {
+    let scene = |weight: f64, units: &str| {
+        format!(
+            r#"{{ "drystone": 1, "friction": 0.6{units}, "ground": [{{ "polygon": [[-900,-100],[900,-100],[900,0],[-900,0]] }}],
+                "blocks": [{{ "id": "a", "polygon": [[0,0],[200,0],[200,100],[0,100]], "weight": {weight} }}],
+                "loads": [{{ "block": "a", "force": [0, -{weight}], "at": [100, 100] }}] }}"#
+        )
+    };
+    let small = r#", "units": { "length": "mm", "force": "kN" }"#;
+    let folder = Folder::new(&[
+        ("a.json", &scene(2.0, small)),
+        ("b.json", &scene(3.0, small)),
+        ("si.json", &scene(3.0, "")),
+    ]);
+    folder.done("report --compare a.json b.json -o same.md");
+    let page = folder.text("same.md");
+    for words in [
+        "weight of all blocks, kN | 2 | 3 ",
+        "first, kN | second, kN",
+        "weight 2 kN → 3 kN",
+        "(0, -2) kN at (100, 100) mm",
+    ] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+    let note = "The two scenes have different units.";
+    assert!(!page.contains(note), "{page}");
+    folder.done("report --compare a.json si.json -o other.md");
+    let page = folder.text("other.md");
+    for words in [
+        note,
+        "weight of all blocks, N | 2000 | 3 ",
+        "(0, -2000) N at (0.1, 0.1) m",
+        "(0, -3) N at (100, 100) m",
+    ] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+}
+
+#[test]
 fn a_pdf_has_all_pages_and_a_study_has_its_chart() {
     let folder = Folder::three();
     folder.done("report in -o r.pdf --theme paper");

@@ -205,3 +205,35 @@ fn bodies_that_only_touch_are_not_cut_into_pieces() {
     assert_eq!(overlap(&a, &ConvexPieces::new(&above), 1e-9), None);
     assert_eq!(a.pieces.get().map(Vec::len), Some(3));
 }
+
+/// A round outline with many corners and many small waves.
+fn wavy(corners: usize, x: f64) -> Polygon {
+    let at = |k: usize| {
+        let turn = std::f64::consts::TAU * k as f64 / corners as f64;
+        let (sin, cos) = libm::sincos(turn);
+        let radius = 10.0 + 0.001 * libm::sin(turn * corners as f64 / 7.0);
+        Point::new(x + radius * cos, radius * sin)
+    };
+    Polygon::new((0..corners).map(at).collect(), vec![]).expect("a valid polygon")
+}
+
+/// The bounds of the two overlap, and ear clipping of the outline takes minutes.
+#[test]
+fn a_body_beside_an_outline_with_many_corners_needs_no_pieces() {
+    let round = wavy(300_000, 0.0);
+    let beside = polygon(&[[7.2, 7.2], [12.0, 7.2], [12.0, 9.0], [5.4, 9.0]]);
+    let (a, b) = (ConvexPieces::new(&round), ConvexPieces::new(&beside));
+    assert!(a.depth_bound(&b) > 1.0, "their bounds overlap");
+    assert_eq!(overlap(&a, &b, 1e-4), None);
+    assert_eq!(overlap(&b, &a, 1e-4), None);
+    assert!(a.pieces.get().is_none() && b.pieces.get().is_none());
+}
+
+/// The hulls exclude an overlap only if there is none.
+#[test]
+fn an_outline_with_many_corners_overlaps_what_reaches_into_it() {
+    let round = wavy(3_000, 0.0);
+    let inside = rectangle(9.0, -1.0, 3.0, 2.0);
+    let found = both(&round, &inside);
+    assert!(found.depth > 1e-3 && found.area > 1.0, "{found:?}");
+}

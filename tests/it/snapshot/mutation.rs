@@ -289,6 +289,98 @@ fn a_missing_block_is_reported_before_the_blocks_that_fall_without_it() {
     );
 }
 
+/// A block with a load and a robot, for tests of causes. `kernel` is its safety kernel.
+fn held(edit: &dyn Fn(&mut serde_json::Value)) -> Facts {
+    let mut file = serde_json::json!({ "drystone": 1, "friction": 0.7, "kernel": 0.1,
+        "ground": [{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 10 }],
+        "loads": [{ "block": "a", "force": [1, -2], "at": [1, 1] }],
+        "robots": [{ "id": "arm", "limits": { "fx": 5, "fy": 6, "torque": 1 }, "hold": { "block": "a", "at": [1, 0.5] } }] });
+    edit(&mut file);
+    let scene = Scene::from_json(&file.to_string()).unwrap_or_else(|problems| panic!("{problems}"));
+    Facts::new(&Analysis::new(&scene), DIGITS)
+}
+
+/// Changed loads, friction coefficients, robot limits and kernels are reported before the results that follow from them.
+#[test]
+fn an_edited_input_is_the_first_change_that_is_reported() {
+    let before = held(&|_| {});
+    let first = |edit: &dyn Fn(&mut serde_json::Value)| -> Vec<String> {
+        let changes = before.changes(&held(edit));
+        changes.into_iter().map(|change| change.words).collect()
+    };
+    let load = first(&|file| file["loads"][0]["force"] = serde_json::json!([1, -4]));
+    assert_eq!(load[0], "load on a: force 1, −2 → 1, −4 N");
+    assert!(
+        load.iter()
+            .any(|words| words.starts_with("interface a–ground: N ")),
+        "{load:?}"
+    );
+    let gone = first(&|file| file["loads"] = serde_json::json!([]));
+    assert_eq!(gone[0], "load on a is gone: force 1, −2 N");
+    let friction = first(&|file| file["friction"] = 0.5.into());
+    assert_eq!(friction[0], "block a: μ 0.7 → 0.5");
+    let limits = first(&|file| file["robots"][0]["limits"]["fy"] = 8.into());
+    assert_eq!(limits, ["limits of robot arm: vertical 6 → 8 N"]);
+    let kernel = first(&|file| file["kernel"] = 0.2.into());
+    assert_eq!(kernel[0], "the scene: kernel 0.1 → 0.2");
+}
+
+/// Many blocks whose friction coefficient changed in the same way share one line.
+#[test]
+fn an_equal_change_of_many_blocks_is_one_line() {
+    let row = |friction: f64| {
+        let block = |k: u32| {
+            let x = 3.0 * f64::from(k);
+            serde_json::json!({ "polygon": [[x, 0], [x + 2.0, 0], [x + 2.0, 1], [x, 1]], "weight": 10 })
+        };
+        let blocks: Vec<_> = (0..6).map(block).collect();
+        held(&|file| {
+            file["blocks"] = blocks.clone().into();
+            file["friction"] = friction.into();
+            file["loads"] = serde_json::json!([]);
+            file["robots"] = serde_json::json!([]);
+        })
+    };
+    let changes = row(0.7).changes(&row(0.5));
+    assert_eq!(changes[0].words, "6 blocks: μ 0.7 → 0.5");
+    let blocks = changes
+        .iter()
+        .filter(|change| change.words.contains("block"));
+    assert_eq!(blocks.count(), 1, "{changes:?}");
+}
+
+/// References of version 1 stay valid: they state neither loads, nor limits, nor friction coefficients of blocks.
+#[test]
+fn a_reference_of_the_first_version_differs_only_in_what_it_states() {
+    let found = held(&|_| {});
+    let text = found.text().replace("drystone facts 2", "drystone facts 1");
+    let kept = text
+        .lines()
+        .filter(|line| !line.starts_with("load ") && !line.starts_with("limits "));
+    let old: Vec<String> = kept
+        .map(|line| {
+            if line.starts_with("block ") {
+                line.replace(", μ 0.7", "")
+            } else {
+                line.to_owned()
+            }
+        })
+        .collect();
+    let old = Facts::read(&old.join("\n")).expect("a facts file of version 1");
+    assert!(old.changes(&found).is_empty(), "{:?}", old.changes(&found));
+    let loaded = held(&|file| file["loads"][0]["force"] = serde_json::json!([1, -4]));
+    let words: Vec<String> = old.changes(&loaded).into_iter().map(|c| c.words).collect();
+    assert!(
+        words[0].starts_with("all together: total force"),
+        "{words:?}"
+    );
+    assert!(
+        words.iter().all(|words| !words.contains("load")),
+        "{words:?}"
+    );
+}
+
 /// The picture moved right by one pixel. The first column is repeated.
 fn shifted(picture: &Picture) -> Picture {
     let wide = picture.width as usize;

@@ -1,7 +1,7 @@
 //! Resolves the listed contacts, and gives each body without an outline a schematic outline.
 
 use super::Resolution;
-use crate::geometry::{Bounds, Point, Polygon, Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::geometry::{Bounds, Point, Polygon, Vector, convex_hull, quarter_turn, sin_cos_degrees};
 use crate::scene::finding::Findings;
 use crate::scene::name::Names;
 use crate::scene::number::{at_least_zero, is_sane};
@@ -93,7 +93,7 @@ impl Resolution<'_> {
                 let (sin, cos) = sin_cos_degrees(360.0 / DISC_CORNERS as f64 * k as f64);
                 block.centroid + Vector::new(cos, sin) * sign
             });
-            let outline = hull(touching.map(|c| c.at).chain(disc).collect());
+            let outline = convex_hull(touching.map(|c| c.at).chain(disc).collect());
             block.body.polygon = Polygon::from_valid_rings(vec![outline]);
         }
         if ground.is_empty() {
@@ -119,7 +119,7 @@ impl Resolution<'_> {
     /// Returns a schematic body, whose outline is the convex hull of `corners`.
     pub(super) fn schematic(&self, corners: Vec<Point>) -> Body {
         Body {
-            polygon: Polygon::from_valid_rings(vec![hull(corners)]),
+            polygon: Polygon::from_valid_rings(vec![convex_hull(corners)]),
             cells: None,
             material: None,
             friction: self.friction,
@@ -128,49 +128,5 @@ impl Resolution<'_> {
             rounding: 0.0,
             is_schematic: true,
         }
-    }
-}
-
-/// Returns the corners of the convex hull of some points, anticlockwise.
-fn hull(mut points: Vec<Point>) -> Vec<Point> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    let mut ring: Vec<Point> = Vec::with_capacity(points.len() + 1);
-    for pass in 0..2 {
-        let begin = ring.len();
-        for p in &points {
-            while ring.len() >= begin + 2 && {
-                let [a, b] = [ring[ring.len() - 2], ring[ring.len() - 1]];
-                cross(b - a, *p - b) <= 0.0
-            } {
-                ring.pop();
-            }
-            ring.push(*p);
-        }
-        ring.pop();
-        if pass == 0 {
-            points.reverse();
-        }
-    }
-    ring
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hull_has_no_inner_corners_and_runs_anticlockwise() {
-        let points = [
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [1.0, 0.0],
-            [2.0, 2.0],
-            [1.0, 1.0],
-            [0.0, 2.0],
-        ];
-        let ring = hull(points.map(|[x, y]| Point::new(x, y)).to_vec());
-        let expected = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
-        assert_eq!(ring, expected.map(|[x, y]| Point::new(x, y)).to_vec());
     }
 }

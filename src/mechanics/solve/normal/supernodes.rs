@@ -7,7 +7,8 @@
 use std::ops::Range;
 
 use super::column_groups::ColumnGroups;
-use super::elimination_tree::{Graph, OrderedGraph};
+use super::elimination_tree::OrderedGraph;
+use super::graph::Graph;
 
 /// Consecutive columns of the factor with the same rows below them.
 #[derive(Clone, Debug)]

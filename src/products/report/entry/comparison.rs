@@ -3,7 +3,9 @@
 //! 1. Steps are paired by their order, blocks by their ids, and interfaces by their two bodies. Several interfaces
 //!    between the same bodies are paired by their order.
 //! 2. A force counts as changed if it differs by more than 5 % of the larger force.
-//! 3. Changed blocks (outline, position, weight, friction, loads, robots) and changed forces are marked in both
+//! 3. Numbers in tables are in the units of the scenes. If the scenes have different units, they are in metres and
+//!    newtons, and a note says so.
+//! 4. Changed blocks (outline, position, weight, friction, loads, robots) and changed forces are marked in both
 //!    figures.
 
 mod force;
@@ -19,6 +21,7 @@ use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::drawing::Drawing;
 use crate::figure::{self, Kind};
 use crate::geometry::Point;
+use crate::scene::format::UnitsEntry;
 use crate::text::line;
 use crate::wording::number::{counted, letter};
 use crate::wording::verdict::{self, plain};
@@ -90,10 +93,12 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         let [a, b] = counts.map(|n| counted(n, "step"));
         let words =
             format!("The first has {a}, the second {b}; steps are compared in their order.");
-        let mut section = sheet::empty(&is.analysis.scene, 0, is.analysis.verdict());
-        (section.letter, section.title) = (String::new(), String::new());
-        section.parts.push(SheetPart::Note(words));
-        sections.push(section);
+        sections.push(note(is, words));
+    }
+    if common_units(sides).is_none() {
+        let words = "The two scenes have different units. The tables that compare them are in metres and newtons; \
+                     figures, sentences and margins are in the units of their scene.";
+        sections.push(note(is, words.to_owned()));
     }
     let mut stated = Vec::new();
     let several = counts[0].max(counts[1]) > 1;
@@ -117,6 +122,21 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         sections.push(section);
     }
     (stated, sections)
+}
+
+/// Makes a section without a title that is only a note.
+fn note(side: Side<'_>, words: String) -> Section {
+    let mut section = sheet::empty(&side.analysis.scene, 0, side.analysis.verdict());
+    (section.letter, section.title) = (String::new(), String::new());
+    section.parts.push(SheetPart::Note(words));
+    section
+}
+
+/// The units of both scenes. `None` if they differ.
+fn common_units(sides: [Side<'_>; 2]) -> Option<UnitsEntry> {
+    let [was, is] = sides.map(|side| side.analysis.scene.units);
+    let sizes = [was, is].map(|units| [units.length().size, units.force().size]);
+    (sizes[0] == sizes[1]).then_some(is)
 }
 
 /// Makes the figure of one scene. Its caption has the file name and the verdict.
@@ -165,9 +185,10 @@ fn both(
 ) -> (String, Section) {
     let [was, is] = sides;
     let [then, now] = sides.map(|side| &side.analysis.frames[number]);
-    let shape = Shapes::new(sides, number);
+    let units = common_units(sides).unwrap_or_default();
+    let shape = Shapes::new(sides, number, units);
     let forces = SharedForces::new(sides, number);
-    let settings = Settings::new(sides, number);
+    let settings = Settings::new(sides, number, units);
     let sentence = changes_sentence([then, now], &shape, &settings, &forces);
     let sentence = format!("{}.", capital(&line(&sentence)));
     let mut section = sheet::empty(&is.analysis.scene, number, now.verdict);
@@ -182,11 +203,11 @@ fn both(
             .push(SheetPart::Note(format!("{side}: {described}")));
     }
     let grids = [
-        totals(then, now),
+        totals(then, now, units),
         margins(sides, number),
         shape.grid(),
         settings.grid(),
-        forces.grid(&is.analysis.scene),
+        forces.grid(&is.analysis.scene, units),
     ];
     let colour = report_options.theme.motion;
     let [loaded, now_loaded] = settings.blocks;

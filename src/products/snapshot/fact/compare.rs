@@ -2,26 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::change::{Change, MAX_SINGLE_BLOCKS, group_equal};
 use super::round::{UNITLESS_STEP, last_digit, short};
 use super::{Fact, Facts, Section, Value};
 
-/// A difference.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
-    /// A description on one line.
-    pub words: String,
-    /// The weight for sorting. Changes of the scene itself have the largest weight, because they cause the other
-    /// changes. Then come verdicts, falling blocks, objects that appear or vanish, failures, and numbers. The weight
-    /// of a number is its change in units of its last digit.
-    weight: f64,
-}
-
 /// The kind of the fact that a block falls.
 const FALLING_FACT: &str = "falling";
-/// If more than this number of blocks begin to fall, or no longer fall, one line reports all of them.
-const MAX_SINGLE_BLOCKS: usize = 4;
-
-/// Added to the weight of a change of the scene: a block, gravity, the kernel, the title.
+/// Added to the weight of a change of the scene: a block, a load, friction, a robot's limits, gravity, the kernel, the
+/// title.
 const CAUSE_WEIGHT: f64 = 5e9;
 /// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these constants.
 const VERDICT_WEIGHT: f64 = 4e9;
@@ -33,6 +21,7 @@ const PRESENCE_WEIGHT: f64 = 2e9;
 const FAILURE_WEIGHT: f64 = 1e9;
 
 pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
+    let found = &found.in_version(expected.version);
     let mut changes = Vec::new();
     // The first section is about the scene, so more than two sections mean several frames.
     let several = expected.sections.len().max(found.sections.len()) > 2;
@@ -122,6 +111,7 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
         changes.extend(change);
     }
     if !is_frame {
+        group_equal(before, changes);
         for cause in &mut changes[before..] {
             cause.weight += CAUSE_WEIGHT;
         }
@@ -226,12 +216,17 @@ fn called((kind, names, number): &Key) -> String {
         n => format!(" (no. {})", n + 1),
     };
     let names = match kind.as_str() {
+        // The pair of materials.
+        "friction" => names.join(" on "),
         "robot" | "failure robot" => names.join(" on "),
         _ => names.join("–"),
     };
     match (kind.as_str(), names.as_str()) {
         ("sums", _) => "all together".into(),
         (kind, "") => format!("{kind}{number}"),
+        ("load", names) => format!("load on {names}{number}"),
+        ("limits", names) => format!("limits of robot {names}{number}"),
+        ("friction", names) => format!("friction of {names}{number}"),
         ("failure robot", names) => format!("missing from robot {names}{number}"),
         ("failure tension", names) => format!("tension at {names}{number}"),
         ("failure friction", names) => format!("sliding at {names}{number}"),

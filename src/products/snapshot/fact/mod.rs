@@ -4,33 +4,57 @@
 //! are after it.
 //!
 //! ```text
-//! drystone facts 1
+//! drystone facts 2
 //! scene "Two bricks": gravity 0.0000 -9.8100 m/s²
-//! block "a": weight 6.00000 N, centroid 1.00000 0.50000 m
+//! block "a": weight 6.00000 N, centroid 1.00000 0.50000 m, μ 0.7
+//! load "a": force 0.00000 -2.00000 N, at 1.00000 1.00000 m
 //!
 //! frame 1 "All of it": stable
-//!   sums: blocks 1, weight 6.00000 N, total force 6.00000 N, total sticking 0.00000 N
-//!   interface "a" "ground": N 6.00000 N, T 0.00000 N, N at its ends 3.00000 3.00000 N, μ 0.7
+//!   sums: blocks 1, weight 6.00000 N, total force 8.00000 N, total sticking 0.00000 N
+//!   interface "a" "ground": N 8.00000 N, T 0.00000 N, N at its ends 4.00000 4.00000 N, μ 0.7
 //! ```
 //!
 //! Numbers are rounded so that the largest load has [`DIGITS`] significant digits. Two numbers count as equal if they
 //! differ by at most 1.5 units of the last digit: rounding errors of the solver are smaller, and a change by one
 //! percent is far larger. Frames that are undecided have no proof, so their forces are not reported.
 
+mod change;
 mod compare;
 mod read;
 mod round;
 mod write;
 
-pub use compare::Change;
+pub use change::Change;
 pub use read::FactsError;
 pub use write::DIGITS;
 
 use crate::analysis::Analysis;
 
+/// The version of the format. The first line of a facts file states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Version {
+    /// Without the friction coefficients of blocks, pairs of materials and listed contacts, without the limits of robots,
+    /// and without loads.
+    One,
+    /// With all of these.
+    Two,
+}
+
+impl Version {
+    const ALL: [Version; 2] = [Version::One, Version::Two];
+
+    fn number(self) -> u8 {
+        match self {
+            Version::One => 1,
+            Version::Two => 2,
+        }
+    }
+}
+
 /// The results of a scene as lines of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
+    version: Version,
     /// The facts of the scene, then those of each frame.
     sections: Vec<Section>,
 }
@@ -101,7 +125,25 @@ impl Facts {
 
     /// Describes how the facts `found` differ from these facts. Changes of the scene come first. Then come changes of
     /// the results, the most important first. Empty if there is no difference.
+    ///
+    /// If these facts were read from a file of version 1, what that version does not contain is no difference.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
+    }
+
+    /// These facts without those that a version of the format does not contain.
+    fn in_version(&self, version: Version) -> Facts {
+        let mut facts = self.clone();
+        if version == Version::One {
+            facts.version = Version::One;
+            let scenes = facts.sections.iter_mut().filter(|s| s.head.kind == "scene");
+            for scene in scenes {
+                scene.facts.retain(|fact| fact.kind == "block");
+                for block in &mut scene.facts {
+                    block.values.retain(|value| value.name != "μ");
+                }
+            }
+        }
+        facts
     }
 }

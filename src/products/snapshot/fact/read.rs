@@ -1,7 +1,7 @@
 //! Reads facts from the text of a reference file.
 
-use super::write::FIRST_LINE;
-use super::{Fact, Facts, Section, Value};
+use super::write::FIRST_WORDS;
+use super::{Fact, Facts, Section, Value, Version};
 
 /// The reason why a text is not a list of facts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum FactsError {
     #[error("line {0} is a mark of a merge conflict; resolve it, or accept the facts again")]
     Conflict(usize),
     /// The first line does not identify the file as a list of facts.
-    #[error("its first line is not \"{FIRST_LINE}\"")]
+    #[error("its first line is not \"{FIRST_WORDS}1\" or \"{FIRST_WORDS}2\"")]
     Foreign,
     /// A line that cannot be read.
     #[error("line {line} is not a fact: {text}")]
@@ -40,9 +40,11 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
         return Err(FactsError::Conflict(line + 1));
     }
     let mut lines = text.lines().enumerate();
-    if lines.next().map(|(_, line)| line.trim_end()) != Some(FIRST_LINE) {
-        return Err(FactsError::Foreign);
-    }
+    let first = lines.next().map_or("", |(_, line)| line.trim_end());
+    let version = Version::ALL
+        .into_iter()
+        .find(|version| first == format!("{FIRST_WORDS}{}", version.number()))
+        .ok_or(FactsError::Foreign)?;
     let mut sections: Vec<Section> = Vec::new();
     for (number, line) in lines {
         if line.trim().is_empty() {
@@ -63,7 +65,7 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
             }),
         }
     }
-    Ok(Facts { sections })
+    Ok(Facts { version, sections })
 }
 
 /// Reads a line of the form `kind "name" "name": value, value`; `None` if it has another form.

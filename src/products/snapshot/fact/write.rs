@@ -1,16 +1,16 @@
 //! Makes facts from an analysis, and text from facts.
 
 use super::round::Rounding;
-use super::{Fact, Facts, Section, Value};
+use super::{Fact, Facts, Section, Value, Version};
 use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, RobotForce, Verdict};
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::scene::{BlockId, BodyId, Load, RobotId, Scene};
 use crate::text;
 
 /// The significant digits of a force as large as the largest load.
 pub const DIGITS: usize = 6;
-/// The first line of a facts file, with the version of the format.
-pub(super) const FIRST_LINE: &str = "drystone facts 1";
+/// The first line of a facts file, without the version of the format.
+pub(super) const FIRST_WORDS: &str = "drystone facts ";
 /// Blocks slower than this, relative to the fastest block, are not reported as falling. Another optimum of the same
 /// program may leave such a block at rest, so the fact would not be reproducible.
 const MIN_FALLING_SPEED: f64 = 1e-3;
@@ -42,6 +42,31 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
     if scene.kernel > 0.0 {
         values.push(unitless("kernel", scene.kernel));
     }
+    let mut sections = vec![Section {
+        head: Fact {
+            kind: "scene".into(),
+            names: vec![name(&scene.title)],
+            values,
+        },
+        facts: causes(scene, &roundings),
+    }];
+    for (number, (step, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
+        let head = Fact {
+            kind: format!("frame {}", number + 1),
+            names: vec![name(&step.title)],
+            values: vec![word(verdict(found.verdict))],
+        };
+        let facts = frame(scene, step.placed.len(), found, &roundings);
+        sections.push(Section { head, facts });
+    }
+    Facts {
+        version: Version::Two,
+        sections,
+    }
+}
+
+/// The facts of the scene itself: what a user edits, and what therefore causes changes of the results.
+fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
     let blocks = scene.blocks.iter().map(|block| Fact {
         kind: "block".into(),
         names: vec![name(&block.id)],
@@ -53,26 +78,56 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
                 roundings.length,
                 "m",
             ),
+            unitless("μ", block.body.friction),
         ],
     });
-    let mut sections = vec![Section {
-        head: Fact {
-            kind: "scene".into(),
-            names: vec![name(&scene.title)],
-            values,
-        },
-        facts: blocks.collect(),
-    }];
-    for (number, (step, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
-        let head = Fact {
-            kind: format!("frame {}", number + 1),
-            names: vec![name(&step.title)],
-            values: vec![word(verdict(found.verdict))],
-        };
-        let facts = frame(scene, step.placed.len(), found, &roundings);
-        sections.push(Section { head, facts });
+    let pairs = scene.friction_pairs.iter().map(|(pair, friction)| {
+        let mut names = pair.map(|material| name(&scene.materials[material].name));
+        names.sort();
+        coefficient("friction", names.to_vec(), *friction)
+    });
+    let listed = scene.contacts.iter().map(|contact| {
+        let names = bodies(scene, contact.bodies);
+        coefficient("contact", names, contact.friction)
+    });
+    let robots = scene.robots.iter().map(|robot| Fact {
+        kind: "limits".into(),
+        names: vec![name(&robot.id)],
+        values: vec![
+            quantity("horizontal", &[robot.limits.fx], roundings.force, "N"),
+            quantity("vertical", &[robot.limits.fy], roundings.force, "N"),
+            quantity("torque", &[robot.limits.torque], roundings.torque, "N·m"),
+        ],
+    });
+    let loads = scene
+        .loads
+        .iter()
+        .map(|given| load(scene, given, roundings));
+    (blocks.chain(pairs).chain(listed).chain(robots).chain(loads)).collect()
+}
+
+/// A fact that is only a friction coefficient.
+fn coefficient(kind: &str, names: Vec<String>, friction: f64) -> Fact {
+    Fact {
+        kind: kind.into(),
+        names,
+        values: vec![unitless("μ", friction)],
     }
-    Facts { sections }
+}
+
+fn load(scene: &Scene, load: &Load, roundings: &Roundings) -> Fact {
+    let mut values = vec![
+        quantity("force", &pair(load.force), roundings.force, "N"),
+        quantity("at", &[load.at.x, load.at.y], roundings.length, "m"),
+    ];
+    if load.torque != 0.0 {
+        values.push(quantity("torque", &[load.torque], roundings.torque, "N·m"));
+    }
+    Fact {
+        kind: "load".into(),
+        names: vec![name(&scene.blocks[load.block.0].id)],
+        values,
+    }
 }
 
 fn verdict(verdict: Verdict) -> &'static str {
@@ -265,7 +320,7 @@ fn word(word: &str) -> Value {
 }
 
 pub(super) fn text(facts: &Facts) -> String {
-    let mut out = format!("{FIRST_LINE}\n");
+    let mut out = format!("{FIRST_WORDS}{}\n", facts.version.number());
     for (number, section) in facts.sections.iter().enumerate() {
         if number > 0 {
             out.push('\n');

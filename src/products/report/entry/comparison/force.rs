@@ -8,6 +8,7 @@ use crate::analysis::Contact;
 use crate::figure::{ForceChange, noise};
 use crate::report::entry::Grid;
 use crate::scene::Scene;
+use crate::scene::format::UnitsEntry;
 use crate::text::line;
 use crate::wording::failure::pair;
 use crate::wording::number::{digits, percent};
@@ -63,14 +64,16 @@ impl<'a> SharedForces<'a> {
         self.all.iter().filter(|force| force.is_change(self.noise))
     }
 
-    /// Makes the table of the forces that changed. `scene` is the second scene.
-    pub fn grid(&self, scene: &Scene) -> Grid {
+    /// Makes the table of the forces that changed, in the given units. `scene` is the second scene.
+    pub fn grid(&self, scene: &Scene, units: UnitsEntry) -> Grid {
+        let unit = units.force();
+        let heads = ["first", "second"].map(|which| format!("#{which}, {}", unit.symbol()));
         let mut grid = Grid::new(
             "Forces that changed by over 5 %",
             &[
                 "between",
-                "#first, N",
-                "#second, N",
+                &heads[0],
+                &heads[1],
                 "#change of the magnitude",
                 "#change as a vector, relative to the larger force",
             ],
@@ -79,8 +82,8 @@ impl<'a> SharedForces<'a> {
             let [a, b] = force.amounts();
             let cells = [
                 line(&pair(scene, force.contacts[1].interface.bodies)),
-                digits(a),
-                digits(b),
+                digits(unit.value_from_si(a)),
+                digits(unit.value_from_si(b)),
                 change(a, b),
                 percent(force.difference() / force.larger()),
             ];

@@ -3,6 +3,7 @@
 use super::Side;
 use crate::analysis::FrameAnalysis;
 use crate::report::entry::{Grid, bullet};
+use crate::scene::format::UnitsEntry;
 use crate::wording::number::{digits, tenths};
 
 /// Writes the change of a number relative to `before`, in percent, with its sign. Returns `none` if there is no
@@ -21,24 +22,24 @@ pub(super) fn change(before: f64, after: f64) -> String {
     }
 }
 
-/// Makes a table that compares two frames by weight, total force, total sticking and largest force at an interface.
-pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis) -> Grid {
+/// Makes a table that compares two frames by weight, total force, total sticking and largest force at an interface, in
+/// the given units.
+pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntry) -> Grid {
+    let unit = units.force();
     let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
     let largest = |f: &FrameAnalysis| {
         let forces = f.contacts.iter().map(|c| c.resultant.force.norm());
         forces.fold(0.0, f64::max)
     };
     for (what, a, b) in [
-        ("weight of all blocks, N", then.weight, now.weight),
-        ("total force, N", then.total_force, now.total_force),
-        ("total sticking, N", then.total_sticking, now.total_sticking),
-        (
-            "largest force at an interface, N",
-            largest(then),
-            largest(now),
-        ),
+        ("weight of all blocks", then.weight, now.weight),
+        ("total force", then.total_force, now.total_force),
+        ("total sticking", then.total_sticking, now.total_sticking),
+        ("largest force at an interface", largest(then), largest(now)),
     ] {
-        grid.add("", [what.to_owned(), digits(a), digits(b), change(a, b)]);
+        let [first, second] = [a, b].map(|force| digits(unit.value_from_si(force)));
+        let what = format!("{what}, {}", unit.symbol());
+        grid.add("", [what, first, second, change(a, b)]);
     }
     grid
 }

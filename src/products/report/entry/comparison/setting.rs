@@ -25,8 +25,9 @@ pub(super) struct Settings {
 }
 
 impl Settings {
-    pub fn new(sides: [Side<'_>; 2], number: usize) -> Settings {
-        let [then, now] = sides.map(|side| given(&side.analysis.scene, number));
+    /// `units` are the units of the values in words. Both sides need the same, because the words are compared.
+    pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Settings {
+        let [then, now] = sides.map(|side| given(&side.analysis.scene, number, units));
         let mut settings = Settings {
             lines: Vec::new(),
             blocks: [Vec::new(), Vec::new()],
@@ -76,8 +77,8 @@ impl Settings {
     }
 }
 
-/// Returns the inputs of a frame, apart from its blocks.
-fn given(scene: &Scene, number: usize) -> FrameInputs {
+/// Returns the inputs of a frame, apart from its blocks, in the given units.
+fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
     let frame = &scene.frames[number];
     let corners = if scene.corner_contacts {
         "carry force"
@@ -101,14 +102,14 @@ fn given(scene: &Scene, number: usize) -> FrameInputs {
         let loads = scene.loads.iter().filter(|load| load.block == *block);
         let words: Vec<String> = loads
             .map(|load| {
-                let newtons = scene.units.force();
+                let newtons = units.force();
                 let [x, y] = [load.force.x, load.force.y].map(|f| newtons.value_from_si(f));
                 let force = vector(x, y, &newtons.symbol());
                 let torque = match load.torque {
                     0.0 => String::new(),
-                    torque => format!(", torque {}", amount(torque, scene.units.torque())),
+                    torque => format!(", torque {}", amount(torque, units.torque())),
                 };
-                format!("{force} at {}{torque}", place(load.at, scene.units))
+                format!("{force} at {}{torque}", place(load.at, units))
             })
             .collect();
         if !words.is_empty() {
@@ -121,8 +122,8 @@ fn given(scene: &Scene, number: usize) -> FrameInputs {
         let held = line(&scene.blocks[hold.block.0].id);
         let words = format!(
             "holds {held} at {}, {}",
-            place(hold.at, scene.units),
-            limits(robot.limits, scene.units)
+            place(hold.at, units),
+            limits(robot.limits, units)
         );
         given.push((
             format!("robot {}", line(&robot.id)),

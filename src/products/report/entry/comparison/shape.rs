@@ -31,7 +31,8 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    pub fn new(sides: [Side<'_>; 2], number: usize) -> Shapes {
+    /// `units` are the units of the descriptions.
+    pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
             let mut placed: Vec<usize> =
@@ -54,12 +55,7 @@ impl Shapes {
                 shapes.gone_or_changed.push(*old);
                 continue;
             };
-            let how = differs(
-                &was.blocks[*old],
-                &is.blocks[*new],
-                max_coordinate,
-                is.units,
-            );
+            let how = differs(&was.blocks[*old], &is.blocks[*new], max_coordinate, units);
             if !how.is_empty() {
                 shapes.gone_or_changed.push(*old);
                 shapes.new_or_changed.push(*new);
