@@ -226,11 +226,11 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     all
 }
 
-/// Least length of the longest arrow, pixels (9 mm).
-const MIN_LONGEST_ARROW: f64 = 34.0;
+/// Least length of the longest arrow, pixels (8.5 mm in print).
+const MIN_LONGEST_ARROW: f64 = 40.0;
 /// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
 /// other figures.
-const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
+const MAX_ARROW_UNIT_EDGES: (f64, f64) = (6.0, 3.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a fraction of the longer side of the shown part.
 const MAX_ARROW_SHARE: f64 = 0.25;
