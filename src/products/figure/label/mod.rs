@@ -196,7 +196,6 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let amounts = amounts(pen, few).into_iter();
     let in_row = |label: &Label| !label.request.with_leader.is_empty();
     let (mut labels, amounts): (Vec<Label>, Vec<Label>) = amounts.partition(in_row);
-    let (largest, others): (Vec<Label>, Vec<Label>) = amounts.into_iter().partition(|l| l.named);
     let first = match options.labels {
         true => mentioned(pen.context, pen.number),
         false => Vec::new(),
@@ -209,12 +208,11 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     if options.labels {
         labels.extend(robots(pen, view));
     }
-    labels.extend(largest);
     if options.labels && few {
         let unmentioned = frame.placed.iter().filter(|id| !first.contains(id));
         labels.extend(unmentioned.filter_map(|id| close_name(pen, *id, view)));
     }
-    labels.extend(others);
+    labels.extend(amounts);
     labels.retain(|label| label.lines.iter().any(|line| !line.is_empty()));
     labels
 }

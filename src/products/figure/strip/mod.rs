@@ -16,11 +16,10 @@ use super::option::Options;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
-/// Space that is added around the structure if some labels have no good position, pixels. The first value is for the
-/// left and the right, the second for above and below.
-const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
-/// The spaces that are tried for a flat structure, which leaves most space above and below it.
-const SPACES_FOR_FLAT: [(f64, f64); 2] = [(8.0, 30.0), (8.0, 64.0)];
+/// Spaces that are added around the structure if some labels have no good position, pixels. The first value is for the
+/// left and the right, the second for above and below. All but the first are only tried for flat structures, which leave
+/// most space above and below them.
+const SPACES_FOR_NAMES: [(f64, f64); 3] = [(24.0, 30.0), (8.0, 30.0), (8.0, 64.0)];
 /// A structure is flat if its height is at most this fraction of its width.
 const FLAT: f64 = 0.3;
 
@@ -51,14 +50,11 @@ pub(crate) fn strip(
     // Some labels have no good position. Draw the figure again with more space around the structure. Use this figure
     // if at least half of these labels have a good position there.
     let mut best = (drawing, cramped);
-    let spaces: &[(f64, f64)] = match flat {
-        true => &SPACES_FOR_FLAT,
-        false => &[SPACE_FOR_NAMES],
-    };
-    for (across, up) in spaces {
+    let count = if flat { SPACES_FOR_NAMES.len() } else { 1 };
+    for (across, up) in &SPACES_FOR_NAMES[..count] {
         let context = FigureContext::new(analysis, options, content);
         let (roomier, still, _) = drawn(&context.with_room(across / scale, up / scale));
-        if 2 * still <= best.1 {
+        if 2 * still <= cramped && still < best.1 {
             best = (roomier, still);
         }
         if best.1 == 0 {
