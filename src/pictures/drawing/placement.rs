@@ -68,7 +68,7 @@ pub struct LabelRequest {
 /// The position of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Whether `avoid` is true for this position, and no better position was free.
+    /// Whether `avoid` is true for this position or its leader crosses another label, and no better position was free.
     pub avoided: bool,
     /// The label's rectangle.
     pub rect: PageRect,
@@ -216,7 +216,7 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
     let (labels, others) = ink.crossed(anchor, end);
     let needs_leader = avoided || distance > request.first_ring + LEADER_DISTANCE;
     let placed = Placed {
-        avoided,
+        avoided: avoided || (needs_leader && labels > 0),
         rect,
         leader: needs_leader.then_some([end, anchor]),
     };

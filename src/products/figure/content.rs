@@ -226,12 +226,12 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     all
 }
 
-/// Least length of the longest arrow, pixels: in a column of print (8.5 mm), and on wider pages.
+/// Least length of the longest arrow, pixels: in a single panel in a column of print (8.5 mm), and in other figures.
 const MIN_LONGEST_ARROW: (f64, f64) = (40.0, 34.0);
 /// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
 /// other figures.
 const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
-/// The same in a column of print, where unit edges are short.
+/// The same in a single panel in a column of print, where unit edges are short.
 const MAX_COLUMN_ARROW_UNIT_EDGES: (f64, f64) = (6.0, 3.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a fraction of the longer side of the shown part.
@@ -248,7 +248,9 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let bare = FigureContext::new(analysis, options, &NoArrows);
     let scale = Layout::new(&bare, analysis.frames.len()).scale;
     let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
-    let (least, (few, many)) = match options.is_column() {
+    // Longer arrows need the space around one panel. Several panels are too narrow for them.
+    let one_panel = options.is_column() && analysis.frames.len() == 1;
+    let (least, (few, many)) = match one_panel {
         true => (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_EDGES),
         false => (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_EDGES),
     };
