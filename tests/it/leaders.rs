@@ -78,6 +78,48 @@ fn leaders_cross_neither_each_other_nor_a_label() {
     );
 }
 
+/// Twelve loads stand so close together that their amounts do not fit beside each other. The amounts are in the order
+/// of the loads, and no leader crosses another leader or an amount.
+#[test]
+fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
+    let loads: Vec<String> = (1..=12)
+        .map(|k| format!(r#"{{ "block": "beam", "at": [{k}, 1], "force": [0, -{k}001] }}"#))
+        .collect();
+    let scene = Scene::from_json(&format!(
+        r#"{{ "drystone": 1,
+            "ground": [ {{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }},
+                        {{ "polygon": [[12, -1], [13, -1], [13, 0], [12, 0]] }} ],
+            "blocks": [ {{ "id": "beam", "weight": 90000, "polygon": [[0, 0], [13, 0], [13, 1], [0, 1]] }} ],
+            "loads": [ {} ] }}"#,
+        loads.join(", ")
+    ))
+    .expect("a valid scene");
+    for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism] {
+        let drawing = drawn(&scene, kind, COLUMN);
+        let labels = classes(&drawing.items, &["amount"]);
+        let labels = labels
+            .iter()
+            .filter(|l| !texts(l)[0].words.starts_with("largest"));
+        let labels: Vec<&Group> = labels.copied().collect();
+        let mut amounts: Vec<(f64, String)> = labels
+            .iter()
+            .map(|l| (texts(l)[0].at.x, texts(l)[0].words.clone()))
+            .collect();
+        amounts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let words: Vec<&str> = amounts.iter().map(|a| a.1.as_str()).collect();
+        let expected: Vec<String> = (1..=12).map(|k| format!("{k} kN")).collect();
+        assert_eq!(words, expected, "{kind:?}");
+        for (i, label) in labels.iter().enumerate() {
+            let Some(line) = leader(label) else { continue };
+            for (j, other) in labels.iter().enumerate().filter(|(j, _)| *j != i) {
+                let crossed = j < i && leader(other).is_some_and(|l| crosses(line, l));
+                let struck = boxes(other).iter().any(|b| through(line, *b));
+                assert!(!crossed && !struck, "{kind:?}: {}", texts(label)[0].words);
+            }
+        }
+    }
+}
+
 /// A name next to a block is either much nearer to it than to others, or has a leader to it.
 #[test]
 fn a_name_that_another_block_could_have_has_a_leader() {

@@ -56,6 +56,9 @@ pub struct LabelRequest {
     pub size: (f64, f64),
     /// Centres that are tried first. A label at such a centre needs no leader.
     pub preferred: Vec<PagePoint>,
+    /// Centres that are tried after the preferred ones. A label at such a centre has a leader, which crosses no other
+    /// label.
+    pub with_leader: Vec<PagePoint>,
     /// Additional clear space around a preferred position, pixels. Positions that have this space are tried first.
     pub padding: f64,
     /// Largest distance of the label beyond the first ring, pixels; `None` for preferred positions only.
@@ -65,7 +68,7 @@ pub struct LabelRequest {
 /// The position of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Whether `avoid` is true for this position, and no better position was free.
+    /// Whether `avoid` is true for this position or its leader crosses another label, and no better position was free.
     pub avoided: bool,
     /// The label's rectangle.
     pub rect: PageRect,
@@ -104,11 +107,12 @@ pub fn place_avoiding(
     let mut placed = Vec::with_capacity(requests.len());
     let mut misses = 0;
     for (number, request) in requests.iter().enumerate() {
-        let position =
-            preferred_position(ink, page, request).or_else(|| match misses < MAX_MISSES {
-                true => ring_position(ink, page, request, &|rect| avoid(number, rect)),
-                false => None,
-            });
+        let preferred = preferred_position(ink, page, request);
+        let preferred = preferred.or_else(|| position_with_leader(ink, page, request));
+        let position = preferred.or_else(|| match misses < MAX_MISSES {
+            true => ring_position(ink, page, request, &|rect| avoid(number, rect)),
+            false => None,
+        });
         misses += usize::from(position.is_none());
         ink.add_label(position.as_ref());
         placed.push(position);
@@ -149,6 +153,16 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
             rect,
             leader: None,
         })
+    })
+}
+
+/// Returns the first position of `with_leader` that is free of ink and whose leader crosses no other label.
+fn position_with_leader(ink: &Ink, page: PageRect, request: &LabelRequest) -> Option<Placed> {
+    let mut centres = request.with_leader.iter();
+    centres.find_map(|at| {
+        let rect = fitting(ink, page, request, *at, LABEL_CLEARANCE)?;
+        let (labels, _) = ink.crossed(request.anchor, nearest(rect, request.anchor));
+        (labels == 0).then(|| Placed::with_leader(rect, request.anchor))
     })
 }
 
@@ -202,7 +216,7 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
     let (labels, others) = ink.crossed(anchor, end);
     let needs_leader = avoided || distance > request.first_ring + LEADER_DISTANCE;
     let placed = Placed {
-        avoided,
+        avoided: avoided || (needs_leader && labels > 0),
         rect,
         leader: needs_leader.then_some([end, anchor]),
     };
@@ -263,6 +277,7 @@ mod tests {
             first_ring: 4.0,
             size: (30.0, 10.0),
             preferred: vec![PagePoint::new(x + 20.0, y)],
+            with_leader: Vec::new(),
             padding: 3.0,
             max_distance: Some(f64::INFINITY),
         }
@@ -294,6 +309,29 @@ mod tests {
                 ink.rect(b.rect);
                 assert!(ink.clear(a.rect), "{a:?} lies on {b:?}");
             }
+        }
+    }
+
+    #[test]
+    fn labels_of_a_row_take_two_lines_in_order_with_leaders_that_cross_nothing() {
+        let row = |number: u32| {
+            let x = 30.0 + 20.0 * f64::from(number);
+            LabelRequest {
+                anchor: PagePoint::new(x, 50.0),
+                preferred: vec![PagePoint::new(x, 40.0)],
+                with_leader: vec![PagePoint::new(x, 26.0), PagePoint::new(x, 12.0)],
+                padding: 0.0,
+                ..request(x, 50.0)
+            }
+        };
+        let requests: Vec<LabelRequest> = (0..7).map(row).collect();
+        let placed = place(&mut Ink::default(), PAGE, &requests);
+        for (number, placed) in placed.iter().enumerate() {
+            let placed = placed.expect("a position");
+            let second = number % 2 == 1;
+            assert_eq!(placed.leader.is_some(), second);
+            assert_eq!(placed.rect.at.y, if second { 21.0 } else { 35.0 });
+            assert_eq!(placed.rect.at.x, requests[number].anchor.x - 15.0);
         }
     }
 

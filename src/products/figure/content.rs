@@ -226,11 +226,13 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     all
 }
 
-/// Least length of the longest arrow, pixels (9 mm).
-const MIN_LONGEST_ARROW: f64 = 34.0;
+/// Least length of the longest arrow, pixels: in a single panel in a column of print (8.5 mm), and in other figures.
+const MIN_LONGEST_ARROW: (f64, f64) = (40.0, 34.0);
 /// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
 /// other figures.
 const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
+/// The same in a single panel in a column of print, where unit edges are short.
+const MAX_COLUMN_ARROW_UNIT_EDGES: (f64, f64) = (6.0, 3.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a fraction of the longer side of the shown part.
 const MAX_ARROW_SHARE: f64 = 0.25;
@@ -246,14 +248,18 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let bare = FigureContext::new(analysis, options, &NoArrows);
     let scale = Layout::new(&bare, analysis.frames.len()).scale;
     let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
+    // Longer arrows need the space around one panel. Several panels are too narrow for them.
+    let one_panel = options.is_column() && analysis.frames.len() == 1;
+    let (least, (few, many)) = match one_panel {
+        true => (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_EDGES),
+        false => (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_EDGES),
+    };
     let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
-        true => MAX_ARROW_UNIT_EDGES.1,
-        false => MAX_ARROW_UNIT_EDGES.0,
+        true => many,
+        false => few,
     };
     let longest = MAX_ARROW_SHARE * bare.view.width().max(bare.view.height());
-    let stretch = (MIN_LONGEST_ARROW / (unit * scale))
-        .min(longest / unit)
-        .min(most);
+    let stretch = (least / (unit * scale)).min(longest / unit).min(most);
     let load = (MIN_LONGEST_LOAD_ARROW / scale).min(longest);
     match stretch.is_finite() && load.is_finite() {
         true => (stretch.max(1.0), load),

@@ -76,9 +76,14 @@ impl PanelContent for Forces {
         let frames = &context.analysis.frames;
         if frames.iter().any(|f| !f.failures.is_empty()) && !context.options.printed() {
             let own = context.marks.iter().any(own_scale);
-            let scale = if own { ", which are drawn larger" } else { "" };
-            let note = format!("arrows and fills include the missing forces{scale}");
-            entries.push(Entry::Note(note));
+            let note = match (own, context.options.is_column()) {
+                (true, true) => "fills and arrows include missing forces, drawn larger",
+                (true, false) => {
+                    "arrows and fills include the missing forces, which are drawn larger"
+                }
+                (false, _) => "arrows and fills include the missing forces",
+            };
+            entries.push(Entry::Note(note.to_owned()));
         }
         entries
     }

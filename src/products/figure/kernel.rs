@@ -5,6 +5,7 @@ use super::by_colour::ByColour;
 use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
+use super::joint_name::joint_name;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
@@ -116,7 +117,7 @@ impl PanelContent for Kernel {
                 "in the forces shown, {at_end} resultants act at an end of the safe part"
             );
         }
-        let pair = description::pair(scene, contact.interface.bodies);
+        let pair = joint_name(scene, frame_analysis, contact);
         if at_end == 1 {
             return format!(
                 "in the forces shown, the resultant between {pair} acts at an end of the safe part"

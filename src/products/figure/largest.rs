@@ -1,6 +1,6 @@
 //! Finds the largest force of a joint, and describes it.
 
-use super::description;
+use super::joint_name::joint_name;
 use super::label::EQUAL_FORCE_TOL;
 use super::words::quantity;
 use crate::analysis::{Contact, FrameAnalysis};
@@ -31,7 +31,7 @@ pub(crate) fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String 
     let most = contact.resultant.force.norm();
     let alike = |c: &&Contact| c.resultant.force.norm() >= (1.0 - SIMILAR_TOL) * most;
     let joints = frame_analysis.contacts.iter().filter(alike).count();
-    let pair = description::pair(scene, contact.interface.bodies);
+    let pair = joint_name(scene, frame_analysis, contact);
     let others = match joints - 1 {
         0 => String::new(),
         1 => " and at one other joint".to_owned(),

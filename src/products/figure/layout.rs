@@ -19,8 +19,6 @@ const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
 const MAX_COLUMNS: usize = 8;
 /// Largest ratio of height to width of all panels of a page together, so that title and legend fit on the page.
 const MAX_PAGE_RATIO: f64 = 1.2;
-/// A page narrower than this, pixels (110 mm), is a column of print.
-pub(crate) const PRINT_COLUMN: f64 = 520.0;
 /// Largest ratio of height to width in a column of print.
 const MAX_COLUMN_RATIO: f64 = 2.2;
 /// Height of the verdict and its text below a panel, pixels.
@@ -162,7 +160,7 @@ impl Row<'_> {
             _ => 3,
         };
         let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
-        let page = if across < PRINT_COLUMN {
+        let page = if self.context.options.is_column() {
             MAX_COLUMN_RATIO
         } else {
             MAX_PAGE_RATIO

@@ -3,7 +3,7 @@
 
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
-use super::description;
+use super::joint_name::joint_name;
 use super::words::{FULL_UTILISATION, listed, percent};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
@@ -138,7 +138,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let Some(nearest) = nearest(&all).filter(|_| names_nearest(context)) else {
         return String::new();
     };
-    let pair = description::pair(scene, nearest.contact.interface.bodies);
+    let pair = joint_name(scene, frame_analysis, nearest.contact);
     let how = match nearest.friction >= nearest.edge {
         true => format!("{} of its friction is used", percent(nearest.friction)),
         false if nearest.reached() => "its resultant acts at the edge".to_owned(),
@@ -148,7 +148,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
         ),
     };
     let named = |n: &Nearness| {
-        let pair = description::pair(scene, n.contact.interface.bodies);
+        let pair = joint_name(scene, frame_analysis, n.contact);
         format!("between {pair}")
     };
     match at_limit {

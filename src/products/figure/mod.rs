@@ -28,6 +28,7 @@ mod freebody;
 mod funicular;
 mod gallery;
 mod joint;
+mod joint_name;
 mod kernel;
 mod kind;
 mod label;

@@ -152,6 +152,9 @@ impl Default for Options {
     }
 }
 
+/// A page narrower than this, pixels (110 mm), is a column of print.
+const PRINT_COLUMN: f64 = 520.0;
+
 impl Options {
     setters! {
         style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
@@ -184,5 +187,10 @@ impl Options {
     /// thesis.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
+    }
+
+    /// True if the page is as narrow as a column of print. Texts are then shorter, and lines closer together.
+    pub(crate) fn is_column(&self) -> bool {
+        self.width.is_some_and(|width| width < PRINT_COLUMN)
     }
 }

@@ -1,7 +1,7 @@
 //! Composes the picture of one frame from its layers: ground, blocks, planned blocks, robots, arrows or other marks,
 //! and labels on top.
 
-use super::description;
+use super::joint_name::joint_name;
 use super::label::{self, Callout};
 use super::limit;
 use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
@@ -55,13 +55,14 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
 /// nearest to its limit if the text of the figure names this joint. Draws nothing for a frame that does not stand.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let frame_analysis = &pen.context.analysis.frames[pen.number];
     let mut group = Group::with_class("limits");
     for marked in limit::marked(pen.context, pen.number) {
         let contact = marked.contact;
         let at = pen.camera.place(contact.resultant.at);
         let radius = (0.06 * pen.unit()).clamp(1.6, 3.2);
         ink.disc(at, limit::reach(radius));
-        let pair = description::pair(scene, contact.interface.bodies);
+        let pair = joint_name(scene, frame_analysis, contact);
         let is = if marked.reached { "at" } else { "nearest to" };
         let title = format!("The joint between {pair} is {is} its limit");
         let sign = marked.sign(at, radius, theme);

@@ -148,8 +148,11 @@ impl PanelContent for ThrustLine {
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if stands || falls {
-            let dot = "where a joint's resultant acts".to_owned();
-            entries.push(Entry::Sign(dot_sign, 8.0, dot));
+            let dot = match context.options.is_column() {
+                true => "resultant",
+                false => "where a joint's resultant acts",
+            };
+            entries.push(Entry::Sign(dot_sign, 8.0, dot.to_owned()));
             entries.extend(limit_entries(context));
         }
         if schematic {

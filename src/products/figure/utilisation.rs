@@ -11,6 +11,7 @@ use super::by_colour::ByColour;
 use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
+use super::joint_name::joint_name;
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
@@ -160,7 +161,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
             ));
         }
         Some((share, contact)) => {
-            let pair = description::pair(scene, contact.interface.bodies);
+            let pair = joint_name(scene, frame_analysis, contact);
             let share = percent(share);
             stated.push(format!(
                 "most between {pair}: {share} of the friction available"

@@ -135,6 +135,7 @@ mod tests {
             first_ring: 4.0,
             size: (20.0, 10.0),
             preferred: Vec::new(),
+            with_leader: Vec::new(),
             padding: 0.0,
             max_distance: Some(f64::INFINITY),
         };

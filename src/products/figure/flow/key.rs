@@ -28,8 +28,11 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(bands(context, unit, &all));
     let most = scene.frames.iter().map(|f| f.placed.len()).max();
     if !all.is_empty() && most.unwrap_or(0) <= MAX_SINGLE_STRANDS {
-        let words = "resultant of a joint".to_owned();
-        entries.push(Entry::Sign(dot_sign, 8.0, words));
+        let words = match context.options.is_column() {
+            true => "resultant",
+            false => "resultant of a joint",
+        };
+        entries.push(Entry::Sign(dot_sign, 8.0, words.to_owned()));
     }
     entries.extend(legend::limits(context));
     entries.extend(legend::loads(context));

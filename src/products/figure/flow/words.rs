@@ -44,15 +44,15 @@ pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
 }
 
 /// Returns the text below the verdict: why the frame does not stand, its largest contact force, and its joints at their
-/// limit.
+/// limit. In a column of print, the label of the largest contact force is enough.
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let why = verdict::reason(scene, frame_analysis);
-    let parts = [
-        why,
-        largest::sentence(scene, frame_analysis),
-        limit::sentence(context, frame),
-    ];
+    let largest = match context.options.is_column() && context.options.labels {
+        true => String::new(),
+        false => largest::sentence(scene, frame_analysis),
+    };
+    let parts = [why, largest, limit::sentence(context, frame)];
     let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
     parts.join("; ")
 }

@@ -88,6 +88,7 @@ impl Sheet<'_> {
                 0.96 * NAME_SIZE,
             ),
             preferred: self.inside(polygon),
+            with_leader: Vec::new(),
             padding: 8.0,
             max_distance: own.then_some(f64::INFINITY),
         };

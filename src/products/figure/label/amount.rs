@@ -4,6 +4,7 @@ use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::super::pen::{DOT_RADIUS, Pen, TURN_RADIUS};
 use super::super::words::quantity;
 use super::lettering::{LINE_HEIGHT, Label, MIN_SIZE, label};
+use super::row::RowPlaces;
 use crate::drawing::placement::LabelRequest;
 use crate::drawing::{Colour, Face, PagePoint, text};
 use crate::scene::BodyId;
@@ -43,6 +44,7 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
         first_ring: callout.clear,
         size: (0.0, 0.0),
         preferred: Vec::new(),
+        with_leader: Vec::new(),
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
     };
@@ -78,14 +80,20 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
             true => format!("largest: {amount}"),
             false => amount,
         };
-        force_label(pen, arrow, words)
+        Label {
+            named: is_first(arrow),
+            ..force_label(pen, arrow, words)
+        }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
     let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
     let turns = turns.filter(|t| (options.amounts && few) || is_given(t));
     let turns = largest(turns.collect(), |turn| turn.torque.abs());
     let turns = turns.into_iter().map(|turn| torque_label(pen, turn));
-    straight.chain(turns).collect()
+    let mut labels: Vec<Label> = straight.chain(turns).collect();
+    // The amounts of a row are placed from one end to the other.
+    labels.sort_by_key(|label| label.request.with_leader.is_empty());
+    labels
 }
 
 /// Returns the items whose magnitudes are written, in their order: all of them, or if there are more than
@@ -115,13 +123,24 @@ fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
     let size = amount_size(pen);
     let (from, along) = (pen.camera.place(arrow.at), pen.camera.turn(arrow.reach()));
     let wide = text::width(&words, Face::Sans, size);
+    let extent = (wide, LINE_HEIGHT * size);
     let request = LabelRequest {
         anchor: from.moved(0.5 * along.0, 0.5 * along.1),
         first_ring: (0.5 * pen.width(arrow)).max(DOT_RADIUS) + 3.0,
         size: (0.0, 0.0),
-        preferred: centres_along(from, along, pen.width(arrow), (wide, LINE_HEIGHT * size)),
+        preferred: centres_along(from, along, pen.width(arrow), extent),
+        with_leader: Vec::new(),
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
+    };
+    let request = match RowPlaces::new(pen, arrow, extent) {
+        Some(row) => LabelRequest {
+            anchor: row.tail,
+            preferred: vec![row.first],
+            with_leader: row.others,
+            ..request
+        },
+        None => request,
     };
     Label {
         colour: Some(arrow.colour),
@@ -155,6 +174,7 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
         first_ring: pen.camera.length(2.0 * turn.width) + 3.0,
         size: (0.0, 0.0),
         preferred: places.map(beside).collect(),
+        with_leader: Vec::new(),
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
     };

@@ -36,6 +36,18 @@ pub(super) struct Label {
     pub of: Option<BlockId>,
 }
 
+impl Label {
+    /// Returns the rectangle of the label if it is drawn at its anchor.
+    pub fn rect_at_anchor(&self) -> PageRect {
+        let (width, height) = self.request.size;
+        PageRect {
+            at: self.request.anchor.moved(-0.5 * width, -0.5 * height),
+            width,
+            height,
+        }
+    }
+}
+
 /// Creates a label with one line of text. Sets the size of `request` to the size of this line.
 pub(super) fn label(
     words: String,

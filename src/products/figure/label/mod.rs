@@ -9,6 +9,7 @@ mod amount;
 mod lettering;
 mod name;
 mod obstacle;
+mod row;
 mod solid;
 mod mention;
 
@@ -26,7 +27,7 @@ use super::pen::Pen;
 use super::view;
 use super::words::{counted, listed};
 use crate::drawing::placement::{Ink, LabelRequest, nearest, place_avoiding};
-use crate::drawing::{Group, PageRect};
+use crate::drawing::{Group, PagePoint, PageRect};
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
@@ -42,6 +43,12 @@ const MAX_DISTANCE: f64 = 8.0;
 /// A name outside its block has a leader if the centroid of another block is closer to the name than this multiple of
 /// the distance to the centroid of the named block.
 const AMBIGUITY_RATIO: f64 = 1.5;
+
+/// A lost amount, or a lost name that the text mentions, counts as much as this number of other lost names.
+const LOST_AMOUNT: usize = 100;
+
+/// Two centres of a label are the same if their distance is below this, pixels.
+const SAME_PLACE: f64 = 1e-6;
 
 /// The class of the group of a frame's labels. The description of the group counts the labels that are left out.
 pub(crate) const CLASS: &str = "labels";
@@ -74,12 +81,23 @@ pub(crate) fn labels_with(
         let own: Option<BlockId> = labels[number].of;
         own.is_some_and(|own| solids.other(pen, own, rect))
     };
-    let places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
+    let mut places = place_avoiding(&mut ink.clone(), page, &requests, &covers_other_block);
+    let lost = labels.iter().zip(&places);
+    let lost = lost.filter(|(label, placed)| label.named && placed.is_none());
+    let lost: Vec<PageRect> = lost.map(|(label, _)| label.rect_at_anchor()).collect();
+    if !lost.is_empty() {
+        // These labels are drawn over other shapes. Place the others again, so that none of them covers these labels.
+        lost.into_iter().for_each(|rect| ink.rect(rect));
+        places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
+    }
     let mut missing: Vec<(&str, usize)> = Vec::new();
     for (label, placed) in labels.iter().zip(places) {
-        if placed.is_none_or(|p| p.avoided) {
-            pen.context.cramped.set(pen.context.cramped.get() + 1);
-        }
+        let badness = match placed {
+            None if label.named || label.class == "amount" => LOST_AMOUNT,
+            Some(p) if !p.avoided && !leaves_row(label, p.rect) => 0,
+            _ => 1,
+        };
+        pen.context.cramped.set(pen.context.cramped.get() + badness);
         if let Some(mut placed) = placed {
             if placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
                 placed.leader = Some([
@@ -111,6 +129,15 @@ pub(crate) fn labels_with(
         group.description = format!("no room for {}", listed(&missing));
     }
     group
+}
+
+/// True if the amount of a load in a row has a position outside the lines of its row.
+fn leaves_row(label: &Label, rect: PageRect) -> bool {
+    let request = &label.request;
+    let at = middle(rect);
+    let mut own = request.preferred.iter().chain(&request.with_leader);
+    let is_at = |p: &PagePoint| libm::hypot(p.x - at.x, p.y - at.y) < SAME_PLACE;
+    !request.with_leader.is_empty() && !own.any(is_at)
 }
 
 /// True if a name lies outside its block and a reader could mistake it for the name of another block, because the
@@ -155,7 +182,8 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
-/// Returns all labels of a frame, sorted by importance, the most important first.
+/// Returns all labels of a frame, sorted by importance, the most important first. The amounts of loads in a row come
+/// before all others, because other labels would separate them from their arrows.
 fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let options = pen.context.options;
     let frame = &pen.context.analysis.scene.frames[pen.number];
@@ -165,32 +193,41 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         options.zoom.is_none() || view::intersection(view, body.polygon.bounds()).is_some()
     };
     let few = frame.placed.iter().filter(shown).count() <= MAX_LABELLED_BLOCKS;
-    let mut labels = Vec::new();
+    let amounts = amounts(pen, few).into_iter();
+    let in_row = |label: &Label| !label.request.with_leader.is_empty();
+    let (mut labels, amounts): (Vec<Label>, Vec<Label>) = amounts.partition(in_row);
+    let first = match options.labels {
+        true => mentioned(pen.context, pen.number),
+        false => Vec::new(),
+    };
+    let names = first.iter().filter_map(|id| name(pen, *id, view));
+    labels.extend(names.map(|label| Label {
+        named: true,
+        ..label
+    }));
     if options.labels {
-        let first = mentioned(pen.context, pen.number);
-        let names = first.iter().filter_map(|id| name(pen, *id, view));
-        labels.extend(names.map(|label| Label {
-            named: true,
-            ..label
-        }));
         labels.extend(robots(pen, view));
-        if few {
-            let others = frame.placed.iter().filter(|id| !first.contains(id));
-            // In a crowded frame, keep names close to their blocks, because long leader lines would hide the figure.
-            let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || frame.placed.len() <= FEW_BLOCKS;
-            let names = others.filter_map(|id| name(pen, *id, view));
-            labels.extend(names.map(|label| {
-                let mut request = label.request;
-                if !any_distance {
-                    request.max_distance = request.max_distance.map(|far| far.min(MAX_DISTANCE));
-                }
-                Label { request, ..label }
-            }));
-        }
     }
-    labels.extend(amounts(pen, few));
+    if options.labels && few {
+        let unmentioned = frame.placed.iter().filter(|id| !first.contains(id));
+        labels.extend(unmentioned.filter_map(|id| close_name(pen, *id, view)));
+    }
+    labels.extend(amounts);
     labels.retain(|label| label.lines.iter().any(|line| !line.is_empty()));
     labels
+}
+
+/// Returns the label with the name of a block that the text does not mention. In a crowded frame, the name stays close
+/// to its block, because long leader lines would hide the figure.
+fn close_name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
+    let placed = pen.context.analysis.scene.frames[pen.number].placed.len();
+    let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || placed <= FEW_BLOCKS;
+    let mut label = name(pen, id, view)?;
+    if !any_distance {
+        let far = label.request.max_distance;
+        label.request.max_distance = far.map(|far| far.min(MAX_DISTANCE));
+    }
+    Some(label)
 }
 
 /// Returns the blocks whose names occur in the text below the verdict of a frame, in placing order.

@@ -53,6 +53,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
             .into_iter()
             .map(|p| pen.camera.place(pen.moved(id, p)))
             .collect(),
+        with_leader: Vec::new(),
         padding: 0.5 * size,
         max_distance: (!zoomed || view::contains(view, block.centroid)).then_some(f64::INFINITY),
     };
@@ -76,6 +77,7 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
             first_ring: pen.disc() + 2.0,
             size: (0.0, 0.0),
             preferred: Vec::new(),
+            with_leader: Vec::new(),
             padding: 0.0,
             max_distance: Some(f64::INFINITY),
         };

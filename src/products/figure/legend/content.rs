@@ -38,8 +38,12 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         && unit >= MIN_READABLE_UNIT_EDGE
         && drawn.any(|kind| kind == ArrowKind::Weight)
     {
-        let words = "weight, from the centroid".to_owned();
-        entries.push(Entry::Sign(weight_sign, SAMPLE_LENGTH, words));
+        let words = match options.is_column() {
+            true => "weight",
+            false => "weight, from the centroid",
+        };
+        let weight = Entry::Sign(weight_sign, SAMPLE_LENGTH, words.to_owned());
+        entries.push(weight);
     }
     if !options.printed() && !drawn.too_small {
         entries.extend(limits(context));
@@ -128,7 +132,7 @@ fn block_colours(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option
     if !clash && short && !seen.is_empty() && seen.len() <= MAX_NAMED_BLOCKS {
         Some(Entry::Blocks(seen))
     } else if seen.len() > 1 && drawn.any(|kind| !kind.is_failure()) {
-        Some(Entry::Colours(theme.arrows.clone()))
+        Some(Entry::Colours(theme.arrows.clone(), false))
     } else {
         None
     }

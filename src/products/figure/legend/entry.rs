@@ -4,6 +4,8 @@ use super::sign::{self, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
+/// The same in a column of print.
+const SHORT_COLOURS_TEXT: &str = "one colour for each block";
 const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
 /// Least length of a bar of colours, pixels.
@@ -13,8 +15,8 @@ const SHORTEST_BAR: f64 = 56.0;
 pub(crate) enum Entry {
     /// Arrow colours, each with the name of its block.
     Blocks(Vec<(Colour, String)>),
-    /// Only the arrow colours, if there are too many blocks to list.
-    Colours(Vec<Colour>),
+    /// Only the arrow colours, if there are too many blocks to list, and whether they need little space.
+    Colours(Vec<Colour>, bool),
     /// The disc of a robot: its colour and its name.
     Robot(Colour, String),
     /// The outline of a planned block.
@@ -42,13 +44,15 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// Returns the entry in a form that fits into `room` pixels. If the names of blocks do not fit, the result shows
+    /// Returns the entry in a form that fits into `room` pixels. `column` is true on a page as narrow as a column of
+    /// print. If the names of blocks do not fit, the result shows
     /// only the colours of their arrows. A bar of colours is shortened so that its text needs one line, unless the
     /// bar would be shorter than [`SHORTEST_BAR`].
-    pub(crate) fn fitted(self, room: f64, theme: &Theme) -> Entry {
+    pub(crate) fn fitted(self, room: f64, column: bool, theme: &Theme) -> Entry {
         let over = self.width(theme) - room;
         match self {
-            Entry::Blocks(_) if over > 0.0 => Entry::Colours(theme.arrows.clone()),
+            Entry::Blocks(_) if over > 0.0 => Entry::Colours(theme.arrows.clone(), column),
+            Entry::Colours(colours, _) => Entry::Colours(colours, column),
             Entry::Amplitudes(ends, what, ramp, bar) if over > 0.0 && bar - over > SHORTEST_BAR => {
                 Entry::Amplitudes(ends, what, ramp, bar - over - 1.0)
             }
@@ -60,7 +64,7 @@ impl Entry {
     pub(super) fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
-            (Entry::Colours(_), Entry::Colours(_))
+            (Entry::Colours(..), Entry::Colours(..))
             | (Entry::Planned(_), Entry::Planned(_))
             | (Entry::Missing, Entry::Missing) => true,
             (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
@@ -88,7 +92,7 @@ impl Entry {
                 .iter()
                 .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
                 .fold(wide(ON_BLOCK), |sum, block| sum + block),
-            Entry::Colours(colours) => 30.0 * colours.len() as f64,
+            Entry::Colours(colours, short) => sign::colour_pitch(*short) * colours.len() as f64,
             Entry::Robot(..) | Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0,
             Entry::Missing => 34.0 + 7.0,
             Entry::Amplitudes([low, high], _, _, bar) => {
@@ -115,7 +119,8 @@ impl Entry {
     pub(super) fn words(&self) -> String {
         match self {
             Entry::Blocks(_) => String::new(),
-            Entry::Colours(_) => COLOURS_TEXT.to_owned(),
+            Entry::Colours(_, false) => COLOURS_TEXT.to_owned(),
+            Entry::Colours(_, true) => SHORT_COLOURS_TEXT.to_owned(),
             Entry::Robot(_, id) => robot(id),
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
             Entry::Missing => MISSING_TEXT.to_owned(),
@@ -153,7 +158,7 @@ impl Entry {
     pub(super) fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         match self {
             Entry::Blocks(blocks) => sign::blocks(blocks, at, theme),
-            Entry::Colours(colours) => sign::colours(colours, at),
+            Entry::Colours(colours, short) => sign::colours(colours, *short, at),
             Entry::Robot(colour, _) => vec![sign::robot(*colour, at, theme)],
             Entry::Planned(colour) => vec![sign::planned(*colour, at)],
             Entry::Missing => vec![sign::arrow(at, (34.0, 4.0), theme.failure)],

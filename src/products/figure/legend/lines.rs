@@ -8,8 +8,6 @@ use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
 const WRAPPED_LINE_HEIGHT: f64 = 1.25;
 /// Smallest width of the text of an entry, pixels.
 const MIN_TEXT_WIDTH: f64 = 60.0;
-/// Gap between the entries of a line, pixels.
-const ENTRY_GAP: f64 = 28.0;
 
 /// Replaces the space after each number by a non-breaking space, so that the number and the next word stay on one line.
 fn with_unbroken_numbers(words: &str) -> String {
@@ -93,18 +91,18 @@ impl KeyLine<'_> {
 }
 
 /// Distributes the entries over lines: each entry goes into the first line that has space for it. A line is at most
-/// `room` pixels wide, unless a single entry is wider.
-fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
+/// `room` pixels wide, unless a single entry is wider. `gap` is the space between two entries, pixels.
+fn lines<'e>(entries: &'e [Entry], room: f64, gap: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
         let laid = WrappedEntry::new(entry, room, theme);
         let is_listed = entry.column().is_some();
         let fits = |line: &&mut KeyLine<'e>| {
-            line.is_list() == is_listed && line.width + ENTRY_GAP + laid.width <= room
+            line.is_list() == is_listed && line.width + gap + laid.width <= room
         };
         match lines.iter_mut().find(fits) {
             Some(line) => {
-                line.width += ENTRY_GAP + laid.width;
+                line.width += gap + laid.width;
                 line.entries.push(laid);
             }
             None => lines.push(KeyLine {
@@ -117,18 +115,18 @@ fn lines<'e>(entries: &'e [Entry], room: f64, theme: &Theme) -> Vec<KeyLine<'e>>
 }
 
 /// Draws the legend in lines of at most `room` pixels. The lines are centred at the x coordinate `middle` and begin at
-/// `top`. `line` is the height of a line as a multiple of the font size. Also returns the height of the legend in
+/// `top`. `line` is the height of a line as a multiple of the font size, and `gap` the space between two entries in pixels. Also returns the height of the legend in
 /// pixels.
 pub(crate) fn draw(
     entries: &[Entry],
     (middle, top): (f64, f64),
     room: f64,
-    line: f64,
+    (line, gap): (f64, f64),
     theme: &Theme,
 ) -> (Group, f64) {
     let mut group = Group::with_class("key");
     let mut height = 0.0;
-    let lines = lines(entries, room, theme);
+    let lines = lines(entries, room, gap, theme);
     let list = lines.iter().filter(|line| line.is_list());
     let list = list.map(|line| line.width).fold(0.0, f64::max);
     for key_line in lines {
@@ -143,7 +141,7 @@ pub(crate) fn draw(
         let mut at = PagePoint::new(middle - width / 2.0, top + height + high / 2.0);
         for entry in &key_line.entries {
             group.items.extend(entry.draw(at, theme));
-            at = at.moved(entry.width + ENTRY_GAP, 0.0);
+            at = at.moved(entry.width + gap, 0.0);
         }
         height += high;
     }

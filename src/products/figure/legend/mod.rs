@@ -15,7 +15,11 @@ use crate::drawing::{Item, PagePoint, Theme};
 /// Height of a line of the legend, as a multiple of its font size.
 pub(crate) const LINE_HEIGHT: f64 = 2.08;
 /// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
-pub(crate) const NARROW_LINE_HEIGHT: f64 = 1.7;
+pub(crate) const NARROW_LINE_HEIGHT: f64 = 1.6;
+/// Gap between the entries of a line of the legend, pixels.
+pub(crate) const ENTRY_GAP: f64 = 28.0;
+/// Gap between the entries of a line on a page as wide as a column of print, pixels.
+pub(crate) const NARROW_ENTRY_GAP: f64 = 16.0;
 
 /// Joins several legends into one without duplicate entries. If the legends assign the colours of arrows to different
 /// blocks, the result shows the colours without names of blocks.
@@ -25,9 +29,9 @@ pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
         if all.iter().any(|known| known.same(&entry)) {
             continue;
         }
-        let blocks = |e: &Entry| matches!(e, Entry::Blocks(_) | Entry::Colours(_));
+        let blocks = |e: &Entry| matches!(e, Entry::Blocks(_) | Entry::Colours(..));
         match all.iter_mut().find(|known| blocks(known) && blocks(&entry)) {
-            Some(known) => *known = Entry::Colours(theme.arrows.clone()),
+            Some(known) => *known = Entry::Colours(theme.arrows.clone(), false),
             None => all.push(entry),
         }
     }

@@ -18,6 +18,8 @@ pub(crate) const BAR_LENGTH: f64 = 120.0;
 pub(super) const ON_BLOCK: &str = "force on block";
 /// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
 const COLOUR_ARROW: (f64, f64) = (22.0, 2.6);
+/// Gap between two of these arrows, pixels.
+const COLOUR_GAP: f64 = 8.0;
 
 /// Returns a text of the legend as a drawing item. `at` is the left end of the text, at half the height of its line.
 pub(super) fn written(words: &str, at: PagePoint, theme: &Theme) -> Item {
@@ -46,12 +48,17 @@ pub(super) fn blocks(blocks: &[(Colour, String)], at: PagePoint, theme: &Theme) 
     items
 }
 
-/// Draws one arrow in each of the colours that forces on blocks can have.
-pub(super) fn colours(colours: &[Colour], at: PagePoint) -> Vec<Item> {
-    let colours = colours.iter().enumerate();
-    let arrows =
-        colours.map(|(i, colour)| arrow(at.moved(30.0 * i as f64, 0.0), COLOUR_ARROW, *colour));
+/// Draws one arrow in each of the colours that forces on blocks can have. `short` arrows need little space.
+pub(super) fn colours(colours: &[Colour], short: bool, at: PagePoint) -> Vec<Item> {
+    let (pitch, colours) = (colour_pitch(short), colours.iter().enumerate());
+    let size = (pitch - COLOUR_GAP, COLOUR_ARROW.1);
+    let arrows = colours.map(|(i, colour)| arrow(at.moved(pitch * i as f64, 0.0), size, *colour));
     arrows.collect()
+}
+
+/// Returns the distance between the tails of two arrows of [`colours`], pixels.
+pub(super) fn colour_pitch(short: bool) -> f64 {
+    if short { 22.0 } else { 30.0 }
 }
 
 /// Draws the disc that marks the grip of a robot.

@@ -1,6 +1,5 @@
 //! [`Plan`]: computes the arrows at the corners of a frame, and its most effective changes with their numbers.
 
-use super::super::layout::PRINT_COLUMN;
 use super::super::option::Options;
 use crate::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::geometry::{Bounds, Point, Vector};
@@ -14,8 +13,8 @@ use crate::wording::sensitivity::{
 /// The length of the longest arrow is the larger of two lengths: this fraction of the structure's size, and this
 /// number of unit edges.
 const MAX_ARROW_SHARES: (f64, f64) = (0.09, 0.8);
-/// The largest number of numbered changes: in a figure of one frame, in a figure of one frame that is narrower than
-/// [`PRINT_COLUMN`], and in each panel of several frames.
+/// The largest number of numbered changes: in a figure of one frame, in a figure of one frame in a column of print,
+/// and in each panel of several frames.
 const MAX_NUMBERED: (usize, usize, usize) = (10, 5, 3);
 /// Changes with a smaller effect, relative to the most effective one, have no number.
 const LEAST_EFFECT: f64 = 0.1;
@@ -68,7 +67,7 @@ impl Plan {
         let sensitivity = frame_analysis.sensitivity.as_ref()?;
         let (is_high, end) = sensitivity.nearest()?;
         let kind = sensitivity.kind;
-        let is_narrow = options.width.is_some_and(|width| width < PRINT_COLUMN);
+        let is_narrow = options.is_column();
         let most = match (analysis.frames.len(), is_narrow) {
             (0 | 1, false) => MAX_NUMBERED.0,
             (0 | 1, true) => MAX_NUMBERED.1,

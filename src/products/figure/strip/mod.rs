@@ -16,9 +16,12 @@ use super::option::Options;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
-/// Space that is added around the structure if some labels have no good position, pixels. The first value is for the
-/// left and the right, the second for above and below.
-const SPACE_FOR_NAMES: (f64, f64) = (24.0, 30.0);
+/// Spaces that are added around the structure if some labels have no good position, pixels. The first value is for the
+/// left and the right, the second for above and below. All but the first are only tried for flat structures, which leave
+/// most space above and below them.
+const SPACES_FOR_NAMES: [(f64, f64); 3] = [(24.0, 30.0), (8.0, 30.0), (8.0, 64.0)];
+/// A structure is flat if its height is at most this fraction of its width.
+const FLAT: f64 = 0.3;
 
 /// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels.
 pub(crate) fn strip(
@@ -27,6 +30,7 @@ pub(crate) fn strip(
     options: &Options,
 ) -> Drawing {
     let context = FigureContext::new(analysis, options, content);
+    let flat = context.view.height() <= FLAT * context.view.width();
     let count = analysis.frames.len();
     let drawn = |context: &FigureContext<'_>| {
         let layout = Layout::new(context, count);
@@ -43,16 +47,21 @@ pub(crate) fn strip(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return drawing;
     }
-    // Some labels have no good position. Draw the figure again with more space around the structure. Use the second
-    // figure if at least half of these labels have a good position there.
-    let (across, up) = SPACE_FOR_NAMES;
-    let roomy = context.with_room(across / scale, up / scale);
-    let (roomier, still, _) = drawn(&roomy);
-    if 2 * still <= cramped {
-        roomier
-    } else {
-        drawing
+    // Some labels have no good position. Draw the figure again with more space around the structure. Use this figure
+    // if at least half of these labels have a good position there.
+    let mut best = (drawing, cramped);
+    let count = if flat { SPACES_FOR_NAMES.len() } else { 1 };
+    for (across, up) in &SPACES_FOR_NAMES[..count] {
+        let context = FigureContext::new(analysis, options, content);
+        let (roomier, still, _) = drawn(&context.with_room(across / scale, up / scale));
+        if 2 * still <= cramped && still < best.1 {
+            best = (roomier, still);
+        }
+        if best.1 == 0 {
+            break;
+        }
     }
+    best.0
 }
 
 /// Draws the panels of [`strip`] for these frames, each on a separate page. All pages have the same size and scale, so

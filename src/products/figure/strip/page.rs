@@ -1,6 +1,6 @@
 //! [`page`]: draws a page of panels below a heading, with one legend below all panels.
 
-use super::super::layout::{Layout, PRINT_COLUMN};
+use super::super::layout::Layout;
 use super::super::legend::{self, Entry};
 use super::super::option::Options;
 use super::super::title;
@@ -25,24 +25,28 @@ struct Gaps {
     below_rule: f64,
     /// Height of a line of the legend, as a multiple of its font size.
     key_line: f64,
+    /// Gap between the entries of a line of the legend.
+    key_entries: f64,
 }
 
 impl Gaps {
-    /// Returns the gaps between the parts of a page. The gaps are smaller on a page that is narrower than
-    /// [`PRINT_COLUMN`], because title and legend need more lines there. `width` is the width of the page in pixels.
-    fn new(width: Option<f64>) -> Gaps {
-        match width.is_some_and(|width| width < PRINT_COLUMN) {
+    /// Returns the gaps between the parts of a page. The gaps are smaller in a column of print, because title and
+    /// legend need more lines there.
+    fn new(options: &Options) -> Gaps {
+        match options.is_column() {
             true => Gaps {
                 below_title: 10.0,
                 above_rule: 11.0,
                 below_rule: 4.0,
                 key_line: legend::NARROW_LINE_HEIGHT,
+                key_entries: legend::NARROW_ENTRY_GAP,
             },
             false => Gaps {
                 below_title: 18.0,
                 above_rule: 20.0,
                 below_rule: 8.0,
                 key_line: legend::LINE_HEIGHT,
+                key_entries: legend::ENTRY_GAP,
             },
         }
     }
@@ -58,13 +62,14 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     let theme = &options.theme;
     let entries = legend::joined(strips.iter().map(|strip| strip.entries()).collect(), theme);
     let inner = inner_width(options, &layout, &entries);
-    let fitted = |entry: Entry| entry.fitted(inner, theme);
+    let column = options.is_column();
+    let fitted = |entry: Entry| entry.fitted(inner, column, theme);
     let entries: Vec<Entry> = entries.into_iter().map(fitted).collect();
     let mut page = PageWriter {
         strips,
         options,
         layout,
-        gaps: Gaps::new(options.width),
+        gaps: Gaps::new(options),
         inner,
         y: layout.margin,
         items: Vec::new(),
@@ -194,7 +199,8 @@ impl PageWriter<'_> {
             .push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
         self.y += self.gaps.below_rule;
         let top = (middle, self.y);
-        let (key, height) = legend::draw(entries, top, self.inner, self.gaps.key_line, theme);
+        let gaps = (self.gaps.key_line, self.gaps.key_entries);
+        let (key, height) = legend::draw(entries, top, self.inner, gaps, theme);
         self.items.push(key.into());
         self.y += height - 10.0;
     }
