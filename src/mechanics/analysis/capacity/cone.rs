@@ -33,6 +33,11 @@ const MAX_FORCE_PER_SIZE: f64 = 10.0;
 /// Computes the set of forces that the block of a probe can carry. `None` if the set is empty, or if a force has no
 /// proof.
 pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
+    if let Some(start) = corners(probe) {
+        let samples = refine(probe, start, true, None);
+        let rays = Vec::new();
+        return Some(SampledSet { samples, rays });
+    }
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();
     for angle in axes {
@@ -55,6 +60,18 @@ pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
         return Some(SampledSet { samples, rays });
     }
     unbounded(probe)
+}
+
+/// Returns the corners of a bounded set as samples. `None` if the set is unbounded, or if fewer than three corners were
+/// found and proved.
+fn corners(probe: &Probe) -> Option<Vec<Sample>> {
+    let corners = probe.corners()?.into_iter();
+    let samples = corners.map(|(carried, half_plane)| Sample {
+        carried,
+        half_plane,
+    });
+    let samples: Vec<Sample> = samples.collect();
+    (samples.len() >= 3).then_some(samples)
 }
 
 /// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a force has no proof.

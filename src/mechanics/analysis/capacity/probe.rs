@@ -1,13 +1,13 @@
 //! [`Probe`]: a component with an unlimited force at one point of a block. The program finds which forces can act
 //! there.
 
-use crate::analysis::decide::{decided_forces, proved_forces, proved_motion};
+use crate::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
 use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::scene::{Limits, RobotId};
-use crate::solve::{Amounts, Support, support};
+use crate::solve::{Amounts, PolygonCorner, Support, force_polygon, support};
 
 /// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
 /// is linear in the force, so the proof holds up to the line on which the power is 0.
@@ -173,6 +173,24 @@ impl Probe {
         }
     }
 
+    /// Returns the corners of the polygon of all carried forces, anticlockwise. Each has the half-plane of the edge that
+    /// begins there, unless this has no proof; corners without a proof are left out. `None` if the polygon is unbounded or
+    /// empty, or if it was not found.
+    pub fn corners(&self) -> Option<Vec<(CarriedForce, Option<HalfPlane>)>> {
+        let found = force_polygon(&self.program, self.given.grips.len())?;
+        let proved = found.into_iter().filter_map(|corner| {
+            let PolygonCorner {
+                forces,
+                normal,
+                motion,
+            } = corner;
+            let carried = self.carried(&forces)?;
+            let half_plane = self.half_plane(carried.force, normal, &motion);
+            Some((carried, half_plane))
+        });
+        Some(proved.collect())
+    }
+
     /// True if a force and a half-plane are both proved, and the force lies on the boundary of the half-plane.
     fn agree(&self, carried: &Option<CarriedForce>, half_plane: &Option<HalfPlane>) -> bool {
         let (Some(carried), Some(half_plane)) = (carried, half_plane) else {
@@ -289,7 +307,9 @@ impl Probe {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (SHARE_BEYOND_LIMIT * size));
         let program = Program::new(&beyond, self.program.scale);
-        let (motion, proof) = proved_motion(&beyond, &program, y)?;
+        // The motions of a basis have no error except rounding; those of an interior-point method are corrected.
+        let (motion, proof) = proved_exact_motion(&beyond, &program, y)
+            .or_else(|| proved_motion(&beyond, &program, y))?;
         let own = &motion[self.body];
         let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
         let speed = velocity.norm();

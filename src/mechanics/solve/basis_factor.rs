@@ -1,0 +1,161 @@
+//! [`BasisFactor`]: a sparse LU factor of a square matrix whose columns are chosen among given columns.
+//!
+//! Gaussian elimination on the columns, position by position, where a position is a row of the matrix in an order with
+//! little fill-in:
+//!
+//! 1. collect the columns whose first nonzero entry is at the position;
+//! 2. choose one of them as pivot: of the large entries, a preferred column, then the shortest;
+//! 3. subtract multiples of the pivot from the others, so that their first entries are further back.
+//!
+//! A column that becomes empty depends linearly on the chosen columns. A position without a pivot gets a unit column.
+//! Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 6 (threshold partial pivoting).
+
+/// The nonzero entries of a column as (position, value), with ascending positions.
+pub(super) type SparseColumn = Vec<(usize, f64)>;
+
+/// An entry may be a pivot if it is at least this fraction of the largest entry at the position. With 0.01, the factor
+/// could lose one more digit; with 1, it would have more entries, and preferred columns would be refused.
+const PIVOT_RATIO: f64 = 0.1;
+
+/// Entries up to this are the rounding of columns that depend on earlier pivots. The entries of columns are near 1, and
+/// their rounding is about 1e-13. With a value of 1e-12, rounding could become a pivot; with 1e-8, columns of very
+/// short contacts would count as dependent.
+const PIVOT_TOL: f64 = 1e-10;
+
+/// What fills the pivot of a position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pivot {
+    /// The given column with this index.
+    Column(usize),
+    /// The unit column of the position.
+    Unit,
+}
+
+/// The factor of a matrix B with one column for each position.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BasisFactor {
+    /// Which column is the pivot at each position.
+    pub pivots: Vec<Pivot>,
+    /// For each position, the pivot column after the elimination. Its first entry is at the position.
+    upper: Vec<SparseColumn>,
+    /// The subtractions in their order: (position of the changed column, position of the pivot, multiple).
+    steps: Vec<(usize, usize, f64)>,
+}
+
+impl BasisFactor {
+    /// Chooses columns for the given number of positions, and factors the matrix of the chosen columns. Columns with a
+    /// smaller `rank` are preferred.
+    pub fn new(
+        mut columns: Vec<SparseColumn>,
+        positions: usize,
+        rank: impl Fn(usize) -> usize,
+    ) -> BasisFactor {
+        let mut beginning_at: Vec<Vec<usize>> = vec![Vec::new(); positions];
+        for (k, column) in columns.iter().enumerate() {
+            if let Some((first, _)) = column.first() {
+                beginning_at[*first].push(k);
+            }
+        }
+        let mut factor = BasisFactor::default();
+        let mut position_of = vec![usize::MAX; columns.len()];
+        let mut steps: Vec<(usize, usize, f64)> = Vec::new();
+        let mut difference = SparseColumn::new();
+        for position in 0..positions {
+            // Step 1: the candidates. Step 2: the pivot.
+            let candidates = std::mem::take(&mut beginning_at[position]);
+            let Some(pivot) = choose(&candidates, &columns, &rank) else {
+                for k in candidates {
+                    columns[k].remove(0);
+                    if let Some((first, _)) = columns[k].first() {
+                        beginning_at[*first].push(k);
+                    }
+                }
+                factor.pivots.push(Pivot::Unit);
+                factor.upper.push(vec![(position, 1.0)]);
+                continue;
+            };
+            position_of[pivot] = position;
+            let pivot_column = std::mem::take(&mut columns[pivot]);
+            // Step 3: eliminate the entries of the other candidates at the position.
+            for k in candidates.into_iter().filter(|k| *k != pivot) {
+                let multiple = columns[k][0].1 / pivot_column[0].1;
+                subtract(&columns[k], &pivot_column, multiple, &mut difference);
+                std::mem::swap(&mut columns[k], &mut difference);
+                steps.push((k, position, multiple));
+                if let Some((first, _)) = columns[k].first() {
+                    beginning_at[*first].push(k);
+                }
+            }
+            factor.pivots.push(Pivot::Column(pivot));
+            factor.upper.push(pivot_column);
+        }
+        // Only the changes of chosen columns are needed.
+        let chosen = steps.into_iter().map(|(k, by, multiple)| (position_of[k], by, multiple));
+        factor.steps = chosen.filter(|step| step.0 != usize::MAX).collect();
+        factor
+    }
+
+    /// Replaces the right-hand side b by the solution of B·x = b: one entry for the column at each position.
+    pub fn solve(&self, x: &mut [f64]) {
+        for (position, column) in self.upper.iter().enumerate() {
+            let (pivot, others) = (column[0].1, &column[1..]);
+            if x[position] != 0.0 {
+                x[position] /= pivot;
+                let value = x[position];
+                others.iter().for_each(|(other, v)| x[*other] -= v * value);
+            }
+        }
+        for (changed, by, multiple) in self.steps.iter().rev() {
+            x[*by] -= multiple * x[*changed];
+        }
+    }
+
+    /// Replaces the right-hand side c by the solution of Bᵀ·y = c: one entry for each position.
+    pub fn solve_transposed(&self, y: &mut [f64]) {
+        for (changed, by, multiple) in &self.steps {
+            y[*changed] -= multiple * y[*by];
+        }
+        for (position, column) in self.upper.iter().enumerate().rev() {
+            let known: f64 = column[1..].iter().map(|(other, v)| v * y[*other]).sum();
+            y[position] = (y[position] - known) / column[0].1;
+        }
+    }
+}
+
+/// Chooses the pivot among columns whose first entries are at the same position; `None` if all these entries are
+/// rounding.
+fn choose(
+    candidates: &[usize],
+    columns: &[SparseColumn],
+    rank: &impl Fn(usize) -> usize,
+) -> Option<usize> {
+    let size = |k: usize| columns[k][0].1.abs();
+    let largest = candidates.iter().map(|k| size(*k)).fold(0.0, f64::max);
+    let least = (PIVOT_RATIO * largest).max(PIVOT_TOL);
+    let large = candidates.iter().copied().filter(|k| size(*k) >= least);
+    large.min_by_key(|k| (rank(*k), columns[*k].len()))
+}
+
+/// Writes column − multiple·pivot to `difference`, without the first entries, which cancel.
+fn subtract(
+    column: &SparseColumn,
+    pivot: &SparseColumn,
+    multiple: f64,
+    difference: &mut SparseColumn,
+) {
+    difference.clear();
+    let (mut own, mut its) = (column[1..].iter().peekable(), pivot[1..].iter().peekable());
+    loop {
+        let at = |entry: Option<&&(usize, f64)>| entry.map_or(usize::MAX, |entry| entry.0);
+        let position = at(own.peek()).min(at(its.peek()));
+        if position == usize::MAX {
+            return;
+        }
+        let next_own = own.next_if(|entry| entry.0 == position);
+        let next_its = its.next_if(|entry| entry.0 == position);
+        let value = next_own.map_or(0.0, |e| e.1) - multiple * next_its.map_or(0.0, |e| e.1);
+        if value != 0.0 {
+            difference.push((position, value));
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! [`Simplex`]: a basis of a linear program of forces, and the moves of the primal simplex method.
+//!
+//! The program: Σ amount·column = loads, with a lower and an upper bound for each amount. A *basis* has one column for
+//! each row. The amounts of all other columns are fixed, usually at a bound, and the rows determine the amounts of the
+//! basic columns. A move changes the amount of one other column until a basic amount reaches a bound; the two columns
+//! then change places. Reference: [Maros03](crate::doc::references), chapter 9.
+
+use super::basis_factor::{BasisFactor, Pivot, SparseColumn};
+
+/// An amount of a program, with bounds.
+#[derive(Clone, Debug)]
+pub(super) struct Variable {
+    /// The coefficients in the rows.
+    pub column: SparseColumn,
+    /// The least amount; −∞ without a bound.
+    pub lower: f64,
+    /// The largest amount; ∞ without a bound.
+    pub upper: f64,
+    /// The present amount.
+    pub amount: f64,
+}
+
+/// How a move ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Move {
+    /// The column reached its other bound, or became basic in place of a column that reached a bound.
+    Done,
+    /// No amount reaches a bound: the move has no end.
+    Endless,
+}
+
+/// A column with a smaller coefficient cannot leave the basis. The coefficients are near 1 and their rounding is about
+/// 1e-13. With 1e-11, the new basis could be close to singular; with 1e-7, small forces of long chains would be missed.
+const MIN_PIVOT: f64 = 1e-9;
+
+/// An amount may be beyond its bound by this. The largest load is 1. The proof accepts errors of 1e-7 of the forces on
+/// each block. With 1e-9, the forces on light blocks would have no proof; with 1e-12, rounding would count as a
+/// violation.
+const BOUND_TOL: f64 = 1e-11;
+
+/// A basis of a program, its factor, and the amounts of all columns.
+#[derive(Clone, Debug)]
+pub(super) struct Simplex {
+    /// The columns of the program, followed by a unit column for each row, whose amount is 0.
+    pub variables: Vec<Variable>,
+    loads: Vec<f64>,
+    /// The basic variable at each position of the factor.
+    basis: Vec<usize>,
+    /// The position of each variable in the basis; `None` for the others.
+    position: Vec<Option<usize>>,
+    factor: BasisFactor,
+}
+
+impl Simplex {
+    /// Chooses a basis among the given columns; those with a smaller `rank` are preferred. All other columns keep their
+    /// amounts.
+    pub fn new(
+        mut variables: Vec<Variable>,
+        loads: Vec<f64>,
+        rank: impl Fn(usize) -> usize,
+    ) -> Simplex {
+        let (given, rows) = (variables.len(), loads.len());
+        let columns = variables.iter().map(|v| v.column.clone()).collect();
+        let factor = BasisFactor::new(columns, rows, rank);
+        variables.extend((0..rows).map(|row| Variable {
+            column: vec![(row, 1.0)],
+            lower: 0.0,
+            upper: 0.0,
+            amount: 0.0,
+        }));
+        let basic = |(row, pivot): (usize, &Pivot)| match pivot {
+            Pivot::Column(k) => *k,
+            Pivot::Unit => given + row,
+        };
+        let mut simplex = Simplex {
+            position: vec![None; variables.len()],
+            basis: factor.pivots.iter().enumerate().map(basic).collect(),
+            variables,
+            loads,
+            factor,
+        };
+        simplex.set_basic_amounts();
+        simplex
+    }
+
+    /// True if a variable belongs to the basis.
+    pub fn is_basic(&self, variable: usize) -> bool {
+        self.position[variable].is_some()
+    }
+
+    /// Returns the amount of a basic variable for one unit more in each row, as one number for each row: the multipliers
+    /// y of the rows, with columnᵀy = 1 for this variable and 0 for the other basic columns. 0 for other variables.
+    pub fn multipliers(&self, variable: usize) -> Vec<f64> {
+        let mut y = vec![0.0; self.loads.len()];
+        if let Some(position) = self.position[variable] {
+            y[position] = 1.0;
+            self.factor.solve_transposed(&mut y);
+        }
+        y
+    }
+
+    /// Increases (`sign` = 1) or decreases (`sign` = −1) the amount of a variable outside the basis until it reaches a
+    /// bound or a basic amount does. `None` if the new basis is singular.
+    pub fn move_amount(&mut self, variable: usize, sign: f64) -> Option<Move> {
+        let mut change = vec![0.0; self.loads.len()];
+        for (row, value) in &self.variables[variable].column {
+            change[*row] = -sign * value;
+        }
+        self.factor.solve(&mut change);
+        let own = &self.variables[variable];
+        let own_range = match sign > 0.0 {
+            true => own.upper - own.amount,
+            false => own.amount - own.lower,
+        };
+        let leaving = self.ratio_test(&change);
+        match leaving {
+            Some((step, position)) if step < own_range => {
+                let leaving = self.basis[position];
+                let bounded = &mut self.variables[leaving];
+                bounded.amount = match change[position] < 0.0 {
+                    true => bounded.lower,
+                    false => bounded.upper,
+                };
+                self.variables[variable].amount += sign * step;
+                self.basis[position] = variable;
+                self.factor_again()?;
+            }
+            _ if own_range.is_finite() => {
+                self.variables[variable].amount += sign * own_range;
+                self.set_basic_amounts();
+            }
+            _ => return Some(Move::Endless),
+        }
+        Some(Move::Done)
+    }
+
+    /// Ratio test in two passes (Harris 1973): returns the longest step that keeps all bounds of the basic amounts, and
+    /// the position of the amount that reaches its bound. Of several such amounts, it takes the one with the largest
+    /// change, because the new basis is then farthest from singular. `None` if no amount reaches a bound.
+    fn ratio_test(&self, change: &[f64]) -> Option<(f64, usize)> {
+        // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
+        let approaching = change.iter().enumerate().filter_map(|(position, rate)| {
+            let basic = &self.variables[self.basis[position]];
+            let distance = match *rate < 0.0 {
+                true => basic.amount - basic.lower,
+                false => basic.upper - basic.amount,
+            };
+            (rate.abs() > MIN_PIVOT && distance < f64::INFINITY)
+                .then_some((distance.max(0.0), rate.abs(), position))
+        });
+        let steps = approaching.clone().map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);
+        let longest = steps.reduce(f64::min)?;
+        let first = approaching.filter(|(distance, rate, _)| *distance <= longest * rate);
+        let (distance, rate, position) = first.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some((distance / rate, position))
+    }
+
+    /// Factors the basis again after a change. `None` if it is singular.
+    fn factor_again(&mut self) -> Option<()> {
+        let columns = self.basis.iter().map(|k| self.variables[*k].column.clone());
+        self.factor = BasisFactor::new(columns.collect(), self.loads.len(), |_| 0);
+        let order = self.factor.pivots.iter().map(|pivot| match pivot {
+            Pivot::Column(k) => Some(self.basis[*k]),
+            Pivot::Unit => None,
+        });
+        self.basis = order.collect::<Option<_>>()?;
+        self.position.fill(None);
+        self.set_basic_amounts();
+        Some(())
+    }
+
+    /// Computes the amounts of the basic variables from the loads and the amounts of the others.
+    fn set_basic_amounts(&mut self) {
+        for (position, variable) in self.basis.iter().enumerate() {
+            self.position[*variable] = Some(position);
+        }
+        let mut amounts = self.loads.clone();
+        for (variable, position) in self.variables.iter().zip(&self.position) {
+            if position.is_none() && variable.amount != 0.0 {
+                let column = variable.column.iter();
+                column.for_each(|(row, value)| amounts[*row] -= value * variable.amount);
+            }
+        }
+        self.factor.solve(&mut amounts);
+        for (variable, amount) in self.basis.iter().zip(amounts) {
+            self.variables[*variable].amount = amount;
+        }
+    }
+}
