@@ -10,6 +10,8 @@
 //! A column that becomes empty depends linearly on the chosen columns. A position without a pivot gets a unit column.
 //! Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 6 (threshold partial pivoting).
 
+use crate::program::Column;
+
 /// The nonzero entries of a column as (position, value), with ascending positions.
 pub(super) type SparseColumn = Vec<(usize, f64)>;
 
@@ -40,6 +42,9 @@ pub(super) struct BasisFactor {
     upper: Vec<SparseColumn>,
     /// The subtractions in their order: (position of the changed column, position of the pivot, multiple).
     steps: Vec<(usize, usize, f64)>,
+    /// The columns that were replaced since the factorization: the position, and the new column in terms of the columns
+    /// before it (product form of the inverse, Dantzig and Orchard-Hays 1954).
+    replacements: Vec<(usize, SparseColumn)>,
 }
 
 impl BasisFactor {
@@ -90,9 +95,24 @@ impl BasisFactor {
             factor.upper.push(pivot_column);
         }
         // Only the changes of chosen columns are needed.
-        let chosen = steps.into_iter().map(|(k, by, multiple)| (position_of[k], by, multiple));
+        let chosen = steps
+            .into_iter()
+            .map(|(k, by, multiple)| (position_of[k], by, multiple));
         factor.steps = chosen.filter(|step| step.0 != usize::MAX).collect();
         factor
+    }
+
+    /// Replaces the column at a position. `solution` is the solution of B·x = new column. Returns the number of columns
+    /// that were replaced since the factorization.
+    pub fn replace(&mut self, position: usize, solution: &[f64]) -> usize {
+        let pivot = solution[position];
+        let entries = solution.iter().enumerate().filter(|(_, v)| **v != 0.0);
+        let inverse = entries.map(|(other, v)| match other == position {
+            true => (other, 1.0 / pivot),
+            false => (other, -v / pivot),
+        });
+        self.replacements.push((position, inverse.collect()));
+        self.replacements.len()
     }
 
     /// Replaces the right-hand side b by the solution of B·x = b: one entry for the column at each position.
@@ -108,10 +128,18 @@ impl BasisFactor {
         for (changed, by, multiple) in self.steps.iter().rev() {
             x[*by] -= multiple * x[*changed];
         }
+        for (position, column) in &self.replacements {
+            let value = x[*position];
+            x[*position] = 0.0;
+            column.iter().for_each(|(other, v)| x[*other] += v * value);
+        }
     }
 
     /// Replaces the right-hand side c by the solution of Bᵀ·y = c: one entry for each position.
     pub fn solve_transposed(&self, y: &mut [f64]) {
+        for (position, column) in self.replacements.iter().rev() {
+            y[*position] = column.iter().map(|(other, v)| v * y[*other]).sum();
+        }
         for (changed, by, multiple) in &self.steps {
             y[*changed] -= multiple * y[*by];
         }
@@ -157,5 +185,101 @@ fn subtract(
         if value != 0.0 {
             difference.push((position, value));
         }
+    }
+}
+
+/// Returns the position of each row in an order of elimination with little fill-in (approximate minimum degree,
+/// Amestoy, Davis and Duff 1996). `None` if no order is found.
+pub(super) fn elimination_order(columns: &[Column], blocks: usize) -> Option<Vec<usize>> {
+    // The neighbours of each block: the blocks that share a column with it, itself included.
+    let mut neighbours: Vec<Vec<i32>> = (0..blocks).map(|k| vec![k as i32]).collect();
+    for column in columns {
+        let of_column = || column.entries().map(|(row, _)| row / 3);
+        for block in of_column() {
+            neighbours[block].extend(of_column().map(|other| other as i32));
+        }
+    }
+    let (mut starts, mut list) = (vec![0], Vec::new());
+    for mut of_block in neighbours {
+        of_block.sort_unstable();
+        of_block.dedup();
+        list.append(&mut of_block);
+        starts.push(list.len() as i32);
+    }
+    let order = amd::order(blocks as i32, &starts, &list, &amd::Control::default());
+    let mut position = vec![0; 3 * blocks];
+    for (place, block) in order.ok()?.0.iter().enumerate() {
+        for row in 0..3 {
+            position[3 * *block as usize + row] = 3 * place + row;
+        }
+    }
+    Some(position)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::random_numbers::RandomNumbers;
+
+    const ROWS: usize = 30;
+
+    /// A column with a few entries near the diagonal.
+    fn column(near: usize, random: &mut RandomNumbers) -> SparseColumn {
+        let rows = near.saturating_sub(2)..(near + 3).min(ROWS);
+        rows.map(|row| (row, random.next())).collect()
+    }
+
+    /// The largest error of the solutions of B·x = b and Bᵀ·y = c, where the columns of B are given for each position.
+    fn worst_error(factor: &BasisFactor, columns: &[SparseColumn]) -> f64 {
+        let wanted: Vec<f64> = (0..ROWS).map(|k| 1.0 + 0.1 * k as f64).collect();
+        let (mut x, mut y) = (vec![0.0; ROWS], vec![0.0; ROWS]);
+        for (k, column) in columns.iter().enumerate() {
+            for (row, value) in column {
+                x[*row] += value * wanted[k];
+                y[k] += value * wanted[*row];
+            }
+        }
+        factor.solve(&mut x);
+        factor.solve_transposed(&mut y);
+        let both = x.iter().chain(&y).zip(wanted.iter().chain(&wanted));
+        both.map(|(found, wanted)| (found - wanted).abs())
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn both_systems_are_solved_also_after_columns_were_replaced() {
+        let mut random = RandomNumbers(7);
+        let given: Vec<SparseColumn> = (0..ROWS).map(|k| column(k, &mut random)).collect();
+        let mut factor = BasisFactor::new(given.clone(), ROWS, |_| 0);
+        let basic = |pivot: &Pivot| match pivot {
+            Pivot::Column(k) => given[*k].clone(),
+            Pivot::Unit => panic!("random columns are independent"),
+        };
+        let mut columns: Vec<SparseColumn> = factor.pivots.iter().map(basic).collect();
+        assert!(worst_error(&factor, &columns) < 1e-9);
+        for position in [3, 17, 3, 29] {
+            let new = column(position, &mut random);
+            let mut solution = vec![0.0; ROWS];
+            new.iter().for_each(|(row, value)| solution[*row] = *value);
+            factor.solve(&mut solution);
+            factor.replace(position, &solution);
+            columns[position] = new;
+            assert!(worst_error(&factor, &columns) < 1e-8, "at {position}");
+        }
+    }
+
+    #[test]
+    fn preferred_columns_are_chosen_and_a_dependent_column_is_not() {
+        let columns = vec![
+            vec![(0, 1.0), (1, 1.0)],
+            vec![(0, 1.0), (1, 1.0)],
+            vec![(0, 1.0), (2, 1.0)],
+            vec![(1, 1.0), (2, -1.0)],
+        ];
+        // Column 3 is column 1 minus column 2, and column 0 equals column 1. One row needs a unit column.
+        let factor = BasisFactor::new(columns, 3, |k| if k == 0 { 1 } else { 0 });
+        let units = factor.pivots.iter().filter(|pivot| **pivot == Pivot::Unit);
+        assert_eq!(units.count(), 1);
+        assert!(!factor.pivots.contains(&Pivot::Column(0)));
     }
 }

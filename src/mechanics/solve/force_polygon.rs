@@ -16,16 +16,27 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::basis_factor::SparseColumn;
+use super::basis_factor::{SparseColumn, elimination_order};
 use super::dual::from_kinematic_answer;
 use super::limit::columns_in;
 use super::reduced_columns::ReducedColumns;
 use super::simplex::{Move, Simplex, Variable};
+use super::support::farthest_cost;
 use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Column, Force, Program, kinematic_dual};
 
-/// A corner of the polygon, and the edge that begins there, anticlockwise.
+/// All forces of a grip: a convex polygon, which may be unbounded on one side.
+#[derive(Clone, Debug)]
+pub struct ForcePolygon {
+    /// The corners, anticlockwise, and with each corner an edge that begins or ends there. If the polygon is unbounded,
+    /// the edges of the first and the last corner are unbounded.
+    pub corners: Vec<PolygonCorner>,
+    /// If the polygon is unbounded: forces that contain a force far along the first edge, and far along the last edge.
+    pub far: Option<[Amounts; 2]>,
+}
+
+/// A corner of the polygon, and one of its two edges.
 #[derive(Clone, Debug)]
 pub struct PolygonCorner {
     /// Forces that balance the loads and contain the force of the corner, in program units.
@@ -36,8 +47,11 @@ pub struct PolygonCorner {
     pub motion: Vec<f64>,
 }
 
-/// The angle of the first direction, radians. It is the normal of an edge only by chance, unlike the axes.
-const FIRST_ANGLE: f64 = 0.7;
+/// The angles of the first direction that are tried, radians, until the polygon has a farthest force. The first points
+/// upwards, because most blocks can carry any force that presses them down. The angles are normals of edges only by
+/// chance, unlike the axes. They are 60° apart, so one of them suits every polygon that is unbounded in a range of
+/// directions of at most 120°.
+const FIRST_ANGLES: [f64; 6] = [1.747, 0.7, 2.794, -0.347, -2.442, -1.395];
 
 /// Changes of F up to this per unit of an amount are rounding. Most changes are near 1, and their rounding is about
 /// 1e-13. With 1e-11, rounding could choose a column; with 1e-7, edges of columns with little influence would be
@@ -55,109 +69,172 @@ const SAME_FORCE: f64 = 1e-9;
 /// The walk has at most this many moves for each row of the program.
 const MAX_MOVES_PER_ROW: usize = 20;
 
-/// Returns the corners of the polygon of all forces that `grip` can exert, anticlockwise. `None` if the polygon is
-/// unbounded or empty, or if the walk fails.
-pub fn force_polygon(program: &Program, grip: usize) -> Option<Vec<PolygonCorner>> {
-    let mut walk = Walk::new(program, grip)?;
-    walk.to_vertex()?;
-    walk.to_farthest()?;
-    walk.around()
+/// Which way the walk goes around the polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    Anticlockwise,
+    Clockwise,
 }
 
+impl Turn {
+    fn sign(self) -> f64 {
+        match self {
+            Turn::Anticlockwise => 1.0,
+            Turn::Clockwise => -1.0,
+        }
+    }
+}
+
+/// Returns the polygon of all forces that `grip` can exert. `None` if no force balances the loads, if the polygon is
+/// unbounded in too many directions, or if the walk fails.
+pub fn force_polygon(program: &Program, grip: usize) -> Option<ForcePolygon> {
+    let mut walk = first_basis(program, grip)?;
+    walk.reach_vertex()?;
+    walk.reach_farthest()?;
+    let mut other_way = walk.clone();
+    let (after, far) = walk.around(Turn::Anticlockwise)?;
+    let Some(last_far) = far else {
+        return Some(ForcePolygon {
+            corners: after,
+            far: None,
+        });
+    };
+    // The polygon is unbounded. Also walk clockwise from the first corner, to the other unbounded edge.
+    let (mut corners, first_far) = other_way.around(Turn::Clockwise)?;
+    corners.reverse();
+    corners.extend(after);
+    Some(ForcePolygon {
+        corners,
+        far: Some([first_far?, last_far]),
+    })
+}
+
+/// Finds a farthest force by an interior-point method, and a basis with as many columns of this optimum as possible.
+fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
+    let load = match largest(&program.loads) {
+        0.0 => 1.0,
+        load => load,
+    };
+    let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
+    let columns = ReducedColumns::new(&columns_in(program, load)).columns;
+    let position = elimination_order(&columns, program.blocks)?;
+    let mut placed_loads = vec![0.0; loads.len()];
+    for (load, position) in loads.iter().zip(&position) {
+        placed_loads[*position] = *load;
+    }
+    let (normal, optimum) = first_optimum(&loads, &columns, grip)?;
+    let unknowns = unknowns(&columns, &optimum, &position);
+    let own = |component: usize| {
+        let is_own = |force: &Force| matches!(*force, Force::Grip { grip: g, component: c, .. } if g == grip && c == component);
+        unknowns.iter().position(|unknown| is_own(&unknown.force))
+    };
+    let own = [own(0)?, own(1)?];
+    let variables = unknowns.iter().map(|u| u.variable.clone()).collect();
+    let simplex = Simplex::new(variables, placed_loads, |k| unknowns[k].rank);
+    // An amount without limits must be basic: outside the basis it could not change.
+    let is_free = |v: &Variable| v.lower == f64::NEG_INFINITY && v.upper == f64::INFINITY;
+    let mut free = (0..unknowns.len()).filter(|k| is_free(&unknowns[*k].variable));
+    free.all(|k| simplex.is_basic(k)).then(|| Walk {
+        program,
+        load,
+        forces: unknowns.iter().map(|unknown| unknown.force).collect(),
+        moves_left: MAX_MOVES_PER_ROW * loads.len(),
+        position,
+        simplex,
+        own,
+        normal,
+    })
+}
+
+/// Finds the farthest force of a grip in the first of [`FIRST_ANGLES`] in which there is one. Returns the direction and
+/// the optimum. `None` if there is no such angle, if no force balances the loads, or if the solver has no result.
+fn first_optimum(loads: &[f64], columns: &[Column], grip: usize) -> Option<(Vector, Dual)> {
+    for angle in FIRST_ANGLES {
+        let (sin, cos) = libm::sincos(angle);
+        let direction = Vector::new(cos, sin);
+        let (problem, row_of) = kinematic_dual(loads, columns, farthest_cost(grip, direction));
+        let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
+        match answer.status {
+            Status::Solved => {
+                let optimum = from_kinematic_answer(loads, columns, &problem, &row_of, &answer);
+                return Some((direction, optimum));
+            }
+            // Forces of any size are possible in this direction.
+            Status::Infeasible => {}
+            Status::Unbounded | Status::Unsolved => return None,
+        }
+    }
+    None
+}
+
+/// A column as an unknown of the simplex method.
+struct Unknown {
+    force: Force,
+    variable: Variable,
+    /// Unknowns with a smaller rank are preferred for the first basis.
+    rank: usize,
+}
+
+/// Returns the unknowns of the simplex method with their amounts at an optimum. The two directions of a grip component
+/// become one unknown, whose amount may be negative.
+fn unknowns(columns: &[Column], optimum: &Dual, position: &[usize]) -> Vec<Unknown> {
+    let is_active = optimum.active(1.0);
+    let unknown = |(k, column): (usize, &Column)| {
+        let (lower, amount, rank) = match column.force {
+            Force::Grip { sign, .. } if sign < 0.0 => return None,
+            Force::Grip { .. } => {
+                let amount = optimum.amounts[k] - optimum.amounts[k + 1];
+                (-column.limit, amount.max(-column.limit), 0)
+            }
+            _ if is_active[k] => (0.0, optimum.amounts[k], 0),
+            _ => (0.0, 0.0, 1),
+        };
+        Some(Unknown {
+            force: column.force,
+            variable: Variable {
+                column: placed(column, position),
+                lower,
+                upper: column.limit,
+                amount: amount.min(column.limit),
+            },
+            rank,
+        })
+    };
+    columns.iter().enumerate().filter_map(unknown).collect()
+}
+
+#[derive(Clone)]
 struct Walk<'a> {
     program: &'a Program,
     /// The magnitude of the largest load, in program units. The amounts of the simplex method are relative to it.
     load: f64,
-    /// The force of each variable of the simplex method.
+    /// The force of each unknown of the simplex method.
     forces: Vec<Force>,
     /// The position of each row of the program in the order of elimination.
     position: Vec<usize>,
     simplex: Simplex,
-    /// The variables of the two components of the grip force.
+    /// The unknowns of the two components of the grip force.
     own: [usize; 2],
     /// The present direction, a unit vector.
     normal: Vector,
     moves_left: usize,
 }
 
-impl<'a> Walk<'a> {
-    /// Finds an optimum in the first direction by an interior-point method, and a basis that contains as many columns of
-    /// this optimum as possible.
-    fn new(program: &'a Program, grip: usize) -> Option<Walk<'a>> {
-        let load = match largest(&program.loads) {
-            0.0 => 1.0,
-            load => load,
-        };
-        let (sin, cos) = libm::sincos(FIRST_ANGLE);
-        let normal = Vector::new(cos, sin);
-        let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-        let columns = ReducedColumns::new(&columns_in(program, load)).columns;
-        let optimum = farthest(&loads, &columns, grip, normal)?;
-        let position = elimination_order(&columns, program.blocks)?;
-        let mut variables = Vec::with_capacity(columns.len() + loads.len());
-        let (mut forces, mut ranks) = (Vec::new(), Vec::new());
-        let mut own = [usize::MAX; 2];
-        let is_active = optimum.active(1.0);
-        for (k, column) in columns.iter().enumerate() {
-            let mut variable = Variable {
-                column: placed(column, &position),
-                lower: 0.0,
-                upper: column.limit,
-                amount: 0.0,
-            };
-            let mut rank = usize::from(!is_active[k]);
-            if is_active[k] {
-                variable.amount = optimum.amounts[k].min(column.limit);
-            }
-            // The two directions of a grip component become one variable.
-            if let Force::Grip { grip: g, component, sign } = column.force {
-                if sign < 0.0 {
-                    continue;
-                }
-                variable.lower = -column.limit;
-                variable.amount = optimum.amounts[k] - optimum.amounts[k + 1];
-                variable.amount = variable.amount.clamp(-column.limit, column.limit);
-                rank = 0;
-                if g == grip && component < 2 {
-                    own[component] = variables.len();
-                }
-            }
-            variables.push(variable);
-            forces.push(column.force);
-            ranks.push(rank);
-        }
-        let mut placed_loads = vec![0.0; loads.len()];
-        for (load, position) in loads.iter().zip(&position) {
-            placed_loads[*position] = *load;
-        }
-        let moves_left = MAX_MOVES_PER_ROW * loads.len();
-        let simplex = Simplex::new(variables, placed_loads, |k| ranks[k]);
-        let walk = Walk {
-            program,
-            load,
-            forces,
-            position,
-            simplex,
-            own,
-            normal,
-            moves_left,
-        };
-        // An amount without limits must be basic: outside the basis it could not change.
-        let free = (0..walk.forces.len()).filter(|k| {
-            let variable = &walk.simplex.variables[*k];
-            variable.lower == f64::NEG_INFINITY && variable.upper == f64::INFINITY
-        });
-        let mut free = free;
-        free.all(|k| walk.simplex.is_basic(k)).then_some(walk)
-    }
-
+impl Walk<'_> {
     /// Moves every amount outside the basis to a bound (crossover to a vertex, [Megiddo91](crate::doc::references)).
-    fn to_vertex(&mut self) -> Option<()> {
+    fn reach_vertex(&mut self) -> Option<()> {
         for k in 0..self.forces.len() {
             let variable = &self.simplex.variables[k];
-            let is_at_bound = variable.amount == variable.lower || variable.amount == variable.upper;
+            let is_at_bound =
+                variable.amount == variable.lower || variable.amount == variable.upper;
             if !self.simplex.is_basic(k) && !is_at_bound {
-                self.move_amount(k, -1.0)?;
+                let force = Vector::zeros();
+                let (variable, sign) = (k, -1.0);
+                self.move_to_end(&Change {
+                    variable,
+                    sign,
+                    force,
+                })?;
             }
         }
         Some(())
@@ -165,36 +242,42 @@ impl<'a> Walk<'a> {
 
     /// Moves to a farthest force in the present direction: the primal simplex method. The interior-point method is
     /// accurate to about nine digits, so few moves remain.
-    fn to_farthest(&mut self) -> Option<()> {
+    fn reach_farthest(&mut self) -> Option<()> {
         loop {
             let changes = self.changes();
             let gain = |change: &Change| change.force.dot(&self.normal);
             let best = changes.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
             match best.filter(|change| gain(change) > MIN_CHANGE) {
-                Some(change) => self.move_amount(change.variable, change.sign)?,
+                Some(change) => self.move_to_end(change)?,
                 None => return Some(()),
             }
         }
     }
 
-    /// Walks around the polygon once, anticlockwise.
-    fn around(&mut self) -> Option<Vec<PolygonCorner>> {
+    /// Walks around the polygon once, or to an unbounded edge. Returns the corners with the edges along which the walk left
+    /// them, and the forces far along the unbounded edge.
+    fn around(&mut self, way: Turn) -> Option<(Vec<PolygonCorner>, Option<Amounts>)> {
         let mut corners: Vec<PolygonCorner> = Vec::new();
         let (mut turned, mut last_turned) = (0.0, f64::NEG_INFINITY);
         let mut size = self.force().norm();
         loop {
             // Steps 1 and 2: rotate to the normal of the next edge.
-            let (turn, change) = self.next_edge()?;
+            let (turn, change) = self.next_edge(way)?;
             turned += turn;
             if turned >= TAU - SAME_ANGLE {
-                return Some(corners);
+                return Some((corners, None));
             }
-            self.normal = -quarter_turn(change.force.normalize());
+            self.normal = -quarter_turn(change.force.normalize()) * way.sign();
             // Step 3: move along the edge.
             let before = self.force();
             let is_new = turned > last_turned + SAME_ANGLE;
             let corner = is_new.then(|| self.corner());
-            self.move_amount(change.variable, change.sign)?;
+            if self.move_amount(&change)? == Move::Endless {
+                corners.extend(corner);
+                let length = size.max(1.0) / change.force.norm();
+                self.simplex.step(change.variable, change.sign * length);
+                return Some((corners, Some(self.amounts())));
+            }
             let after = self.force();
             size = size.max(after.norm());
             if let Some(corner) = corner.filter(|_| (after - before).norm() > SAME_FORCE * size) {
@@ -204,12 +287,13 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Returns the next edge anticlockwise: the angle to its normal, in radians, and the column that changes along it.
-    /// `None` if no column changes the force.
-    fn next_edge(&self) -> Option<(f64, Change)> {
-        let tangent = quarter_turn(self.normal);
+    /// Returns the next edge: the angle to its normal, in radians, and the column that changes along it. `None` if no
+    /// column changes the force.
+    fn next_edge(&self, way: Turn) -> Option<(f64, Change)> {
+        let tangent = quarter_turn(self.normal) * way.sign();
         let turns = self.changes().into_iter().map(|change| {
-            let turn = libm::atan2(cross(tangent, change.force), tangent.dot(&change.force));
+            let across = way.sign() * cross(tangent, change.force);
+            let turn = libm::atan2(across, tangent.dot(&change.force));
             // Rounding may rotate the edge that has just been walked beyond 180°, and any other edge below 0.
             match turn < -FRAC_PI_2 {
                 true => (turn + TAU, change),
@@ -219,7 +303,9 @@ impl<'a> Walk<'a> {
         let turns: Vec<(f64, Change)> = turns.collect();
         let least = turns.iter().map(|(turn, _)| *turn).reduce(f64::min)?;
         // Of the columns for the same edge, take the one with the largest change of the force.
-        let first = turns.into_iter().filter(|(turn, _)| *turn <= least + SAME_ANGLE);
+        let first = turns
+            .into_iter()
+            .filter(|(turn, _)| *turn <= least + SAME_ANGLE);
         let next = first.max_by(|(_, a), (_, b)| a.force.norm().total_cmp(&b.force.norm()));
         next.filter(|(turn, _)| *turn < PI + SAME_ANGLE)
     }
@@ -232,7 +318,11 @@ impl<'a> Walk<'a> {
             if self.simplex.is_basic(k) || variable.lower == variable.upper {
                 return None;
             }
-            let sign = if variable.amount < variable.upper { 1.0 } else { -1.0 };
+            let sign = if variable.amount < variable.upper {
+                1.0
+            } else {
+                -1.0
+            };
             let mut force = Vector::zeros();
             for (row, value) in &variable.column {
                 force -= Vector::new(x[*row], y[*row]) * (sign * value);
@@ -246,10 +336,17 @@ impl<'a> Walk<'a> {
         (0..self.forces.len()).filter_map(change).collect()
     }
 
-    fn move_amount(&mut self, variable: usize, sign: f64) -> Option<()> {
+    /// Changes an amount outside the basis as far as possible. `None` if the walk must end: after too many moves, after the
+    /// deadline, or because of rounding.
+    fn move_amount(&mut self, change: &Change) -> Option<Move> {
         self.moves_left = self.moves_left.checked_sub(1)?;
-        let moved = self.simplex.move_amount(variable, sign)?;
-        (moved == Move::Done && !is_late() && self.force().norm().is_finite()).then_some(())
+        let moved = self.simplex.move_amount(change.variable, change.sign)?;
+        (!is_late() && self.force().norm().is_finite()).then_some(moved)
+    }
+
+    /// Like [`Self::move_amount`]; `None` also if no amount reaches a bound.
+    fn move_to_end(&mut self, change: &Change) -> Option<()> {
+        (self.move_amount(change)? == Move::Done).then_some(())
     }
 
     /// Returns the present force of the grip, relative to the largest load.
@@ -258,18 +355,22 @@ impl<'a> Walk<'a> {
         Vector::new(x, y)
     }
 
+    /// Returns the present amounts as forces of contacts and grips, in program units.
+    fn amounts(&self) -> Amounts {
+        let mut amounts = Amounts::zero(self.program);
+        for (force, variable) in self.forces.iter().zip(&self.simplex.variables) {
+            amounts.add(*force, variable.amount * self.load);
+        }
+        amounts
+    }
+
     /// Returns the present corner, with the edge whose normal is the present direction.
     fn corner(&self) -> PolygonCorner {
-        let mut forces = Amounts::zero(self.program);
-        for (force, variable) in self.forces.iter().zip(&self.simplex.variables) {
-            if variable.amount != 0.0 {
-                forces.add(*force, variable.amount * self.load);
-            }
-        }
         let [x, y] = self.own.map(|own| self.simplex.multipliers(own));
-        let velocity = |position: &usize| x[*position] * self.normal.x + y[*position] * self.normal.y;
+        let velocity =
+            |position: &usize| x[*position] * self.normal.x + y[*position] * self.normal.y;
         PolygonCorner {
-            forces,
+            forces: self.amounts(),
             normal: self.normal,
             motion: self.position.iter().map(velocity).collect(),
         }
@@ -283,49 +384,6 @@ struct Change {
     sign: f64,
     /// The change of the force per unit.
     force: Vector,
-}
-
-/// Finds the farthest force of a grip in a direction. `None` if there is no farthest force, or if the solver ends
-/// without a result.
-fn farthest(loads: &[f64], columns: &[Column], grip: usize, direction: Vector) -> Option<Dual> {
-    let cost = |column: &Column| match column.force {
-        Force::Grip { grip: g, component, sign } if g == grip && component < 2 => {
-            -sign * direction[component]
-        }
-        _ => 0.0,
-    };
-    let (problem, row_of) = kinematic_dual(loads, columns, cost);
-    let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
-    let optimum = from_kinematic_answer(loads, columns, &problem, &row_of, &answer);
-    (answer.status == Status::Solved).then_some(optimum)
-}
-
-/// Returns the position of each row in an order of elimination with little fill-in (approximate minimum degree,
-/// Amestoy, Davis and Duff 1996). `None` if no order is found.
-fn elimination_order(columns: &[Column], blocks: usize) -> Option<Vec<usize>> {
-    // The neighbours of each block: the blocks that share a column with it, itself included.
-    let mut neighbours: Vec<Vec<i32>> = (0..blocks).map(|k| vec![k as i32]).collect();
-    for column in columns {
-        let of_column = || column.entries().map(|(row, _)| row / 3);
-        for block in of_column() {
-            neighbours[block].extend(of_column().map(|other| other as i32));
-        }
-    }
-    let (mut starts, mut list) = (vec![0], Vec::new());
-    for mut of_block in neighbours {
-        of_block.sort_unstable();
-        of_block.dedup();
-        list.append(&mut of_block);
-        starts.push(list.len() as i32);
-    }
-    let order = amd::order(blocks as i32, &starts, &list, &amd::Control::default());
-    let mut position = vec![0; 3 * blocks];
-    for (place, block) in order.ok()?.0.iter().enumerate() {
-        for row in 0..3 {
-            position[3 * *block as usize + row] = 3 * place + row;
-        }
-    }
-    Some(position)
 }
 
 /// Returns the coefficients of a column, in the order of elimination.

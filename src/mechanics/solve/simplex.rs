@@ -3,7 +3,7 @@
 //! The program: Σ amount·column = loads, with a lower and an upper bound for each amount. A *basis* has one column for
 //! each row. The amounts of all other columns are fixed, usually at a bound, and the rows determine the amounts of the
 //! basic columns. A move changes the amount of one other column until a basic amount reaches a bound; the two columns
-//! then change places. Reference: [Maros03](crate::doc::references), chapter 9.
+//! then change places. The ratio test is that of [Harris73](crate::doc::references).
 
 use super::basis_factor::{BasisFactor, Pivot, SparseColumn};
 
@@ -37,6 +37,14 @@ const MIN_PIVOT: f64 = 1e-9;
 /// each block. With 1e-9, the forces on light blocks would have no proof; with 1e-12, rounding would count as a
 /// violation.
 const BOUND_TOL: f64 = 1e-11;
+
+/// The basis is factored again after this many moves. With more, solutions take longer and rounding accumulates; with
+/// fewer, factors take most of the time.
+const MAX_REPLACEMENTS: usize = 16;
+
+/// The basis is also factored again if the leaving column has less than this fraction of the largest coefficient,
+/// because the replacement then multiplies rounding by its inverse.
+const SMALL_PIVOT: f64 = 1e-3;
 
 /// A basis of a program, its factor, and the amounts of all columns.
 #[derive(Clone, Debug)]
@@ -104,7 +112,7 @@ impl Simplex {
     pub fn move_amount(&mut self, variable: usize, sign: f64) -> Option<Move> {
         let mut change = vec![0.0; self.loads.len()];
         for (row, value) in &self.variables[variable].column {
-            change[*row] = -sign * value;
+            change[*row] = *value;
         }
         self.factor.solve(&mut change);
         let own = &self.variables[variable];
@@ -112,18 +120,16 @@ impl Simplex {
             true => own.upper - own.amount,
             false => own.amount - own.lower,
         };
-        let leaving = self.ratio_test(&change);
-        match leaving {
+        match self.ratio_test(&change, -sign) {
             Some((step, position)) if step < own_range => {
                 let leaving = self.basis[position];
                 let bounded = &mut self.variables[leaving];
-                bounded.amount = match change[position] < 0.0 {
+                bounded.amount = match sign * change[position] > 0.0 {
                     true => bounded.lower,
                     false => bounded.upper,
                 };
                 self.variables[variable].amount += sign * step;
-                self.basis[position] = variable;
-                self.factor_again()?;
+                self.replace(position, variable, &change)?;
             }
             _ if own_range.is_finite() => {
                 self.variables[variable].amount += sign * own_range;
@@ -134,28 +140,55 @@ impl Simplex {
         Some(Move::Done)
     }
 
-    /// Ratio test in two passes (Harris 1973): returns the longest step that keeps all bounds of the basic amounts, and
-    /// the position of the amount that reaches its bound. Of several such amounts, it takes the one with the largest
+    /// Changes the amount of a variable outside the basis by `change`, and the basic amounts with it. Bounds are not
+    /// checked.
+    pub fn step(&mut self, variable: usize, change: f64) {
+        self.variables[variable].amount += change;
+        self.set_basic_amounts();
+    }
+
+    /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and
+    /// the position of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, it takes the one with the largest
     /// change, because the new basis is then farthest from singular. `None` if no amount reaches a bound.
-    fn ratio_test(&self, change: &[f64]) -> Option<(f64, usize)> {
+    fn ratio_test(&self, change: &[f64], sign: f64) -> Option<(f64, usize)> {
         // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
-        let approaching = change.iter().enumerate().filter_map(|(position, rate)| {
+        let approaching = change.iter().enumerate().filter_map(|(position, change)| {
+            let rate = sign * change;
             let basic = &self.variables[self.basis[position]];
-            let distance = match *rate < 0.0 {
+            let distance = match rate < 0.0 {
                 true => basic.amount - basic.lower,
                 false => basic.upper - basic.amount,
             };
-            (rate.abs() > MIN_PIVOT && distance < f64::INFINITY)
-                .then_some((distance.max(0.0), rate.abs(), position))
+            (rate.abs() > MIN_PIVOT && distance < f64::INFINITY).then_some((
+                distance.max(0.0),
+                rate.abs(),
+                position,
+            ))
         });
-        let steps = approaching.clone().map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);
+        let steps = approaching
+            .clone()
+            .map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);
         let longest = steps.reduce(f64::min)?;
         let first = approaching.filter(|(distance, rate, _)| *distance <= longest * rate);
         let (distance, rate, position) = first.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some((distance / rate, position))
     }
 
-    /// Factors the basis again after a change. `None` if it is singular.
+    /// Replaces the basic variable at a position. `change` is the new column in terms of the basic columns. `None` if the
+    /// new basis is singular.
+    fn replace(&mut self, position: usize, variable: usize, change: &[f64]) -> Option<()> {
+        self.position[self.basis[position]] = None;
+        self.basis[position] = variable;
+        let largest = change.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let is_small = change[position].abs() < SMALL_PIVOT * largest;
+        if self.factor.replace(position, change) >= MAX_REPLACEMENTS || is_small {
+            return self.factor_again();
+        }
+        self.set_basic_amounts();
+        Some(())
+    }
+
+    /// Factors the basis again. `None` if it is singular.
     fn factor_again(&mut self) -> Option<()> {
         let columns = self.basis.iter().map(|k| self.variables[*k].column.clone());
         self.factor = BasisFactor::new(columns.collect(), self.loads.len(), |_| 0);

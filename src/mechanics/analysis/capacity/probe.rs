@@ -7,7 +7,7 @@ use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
 use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::scene::{Limits, RobotId};
-use crate::solve::{Amounts, PolygonCorner, Support, force_polygon, support};
+use crate::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
 
 /// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
 /// is linear in the force, so the proof holds up to the line on which the power is 0.
@@ -173,22 +173,9 @@ impl Probe {
         }
     }
 
-    /// Returns the corners of the polygon of all carried forces, anticlockwise. Each has the half-plane of the edge that
-    /// begins there, unless this has no proof; corners without a proof are left out. `None` if the polygon is unbounded or
-    /// empty, or if it was not found.
-    pub fn corners(&self) -> Option<Vec<(CarriedForce, Option<HalfPlane>)>> {
-        let found = force_polygon(&self.program, self.given.grips.len())?;
-        let proved = found.into_iter().filter_map(|corner| {
-            let PolygonCorner {
-                forces,
-                normal,
-                motion,
-            } = corner;
-            let carried = self.carried(&forces)?;
-            let half_plane = self.half_plane(carried.force, normal, &motion);
-            Some((carried, half_plane))
-        });
-        Some(proved.collect())
+    /// Returns the polygon of all carried forces, as the simplex method finds it. `None` if it was not found.
+    pub fn polygon(&self) -> Option<ForcePolygon> {
+        force_polygon(&self.program, self.given.grips.len())
     }
 
     /// True if a force and a half-plane are both proved, and the force lies on the boundary of the half-plane.
@@ -258,7 +245,8 @@ impl Probe {
         }
     }
 
-    fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
+    /// Proves the force of the grip that amounts of the program contain. `None` if these amounts have no proof.
+    pub fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
         let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
         let own = forces.grips.pop()?;
         Some(CarriedForce {
@@ -303,7 +291,7 @@ impl Probe {
 
     /// Returns the half-plane normal · F ≤ limit that a motion proves: the velocities `y` of the program exclude every
     /// force outside it. `None` if a force just beyond `near` gives no proof, or if the point hardly moves.
-    fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
+    pub fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (SHARE_BEYOND_LIMIT * size));
         let program = Program::new(&beyond, self.program.scale);
