@@ -66,7 +66,9 @@ const SAME_ANGLE: f64 = 1e-9;
 /// the polygon is about a hundred times as large.
 const SAME_FORCE: f64 = 1e-9;
 
-/// The walk has at most this many moves for each row of the program.
+/// The walk has at most this many moves for each row of the program. A wall of 250 bricks needs up to 8. With a tenth
+/// of this value, walls would be computed the slow way; with ten times this value, a walk that does not end would take
+/// long.
 const MAX_MOVES_PER_ROW: usize = 20;
 
 /// Which way the walk goes around the polygon.
@@ -125,7 +127,12 @@ fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
     let (normal, optimum) = first_optimum(&loads, &columns, grip)?;
     let unknowns = unknowns(&columns, &optimum, &position);
     let own = |component: usize| {
-        let is_own = |force: &Force| matches!(*force, Force::Grip { grip: g, component: c, .. } if g == grip && c == component);
+        let is_own = |force: &Force| {
+            matches!(
+                *force,
+                Force::Grip { grip: g, component: c, .. } if (g, c) == (grip, component)
+            )
+        };
         unknowns.iter().position(|unknown| is_own(&unknown.force))
     };
     let own = [own(0)?, own(1)?];
@@ -203,6 +210,7 @@ fn unknowns(columns: &[Column], optimum: &Dual, position: &[usize]) -> Vec<Unkno
     columns.iter().enumerate().filter_map(unknown).collect()
 }
 
+/// A basis whose force is the farthest in a direction: the present corner of the polygon.
 #[derive(Clone)]
 struct Walk<'a> {
     program: &'a Program,
@@ -254,8 +262,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Walks around the polygon once, or to an unbounded edge. Returns the corners with the edges along which the walk left
-    /// them, and the forces far along the unbounded edge.
+    /// Walks around the polygon once, or to an unbounded edge. Returns the corners with the edges along which the walk
+    /// left them, and the forces far along the unbounded edge.
     fn around(&mut self, way: Turn) -> Option<(Vec<PolygonCorner>, Option<Amounts>)> {
         let mut corners: Vec<PolygonCorner> = Vec::new();
         let (mut turned, mut last_turned) = (0.0, f64::NEG_INFINITY);
@@ -336,8 +344,8 @@ impl Walk<'_> {
         (0..self.forces.len()).filter_map(change).collect()
     }
 
-    /// Changes an amount outside the basis as far as possible. `None` if the walk must end: after too many moves, after the
-    /// deadline, or because of rounding.
+    /// Changes an amount outside the basis as far as possible. `None` if the walk must end: after too many moves, after
+    /// the deadline, or because of rounding.
     fn move_amount(&mut self, change: &Change) -> Option<Move> {
         self.moves_left = self.moves_left.checked_sub(1)?;
         let moved = self.simplex.move_amount(change.variable, change.sign)?;

@@ -96,8 +96,9 @@ impl Simplex {
         self.position[variable].is_some()
     }
 
-    /// Returns the amount of a basic variable for one unit more in each row, as one number for each row: the multipliers
-    /// y of the rows, with columnᵀy = 1 for this variable and 0 for the other basic columns. 0 for other variables.
+    /// Returns the amount of a basic variable for one unit more in each row, as one number for each row: the
+    /// multipliers y of the rows, with columnᵀy = 1 for this variable and 0 for the other basic columns. 0 for other
+    /// variables.
     pub fn multipliers(&self, variable: usize) -> Vec<f64> {
         let mut y = vec![0.0; self.loads.len()];
         if let Some(position) = self.position[variable] {
@@ -147,9 +148,10 @@ impl Simplex {
         self.set_basic_amounts();
     }
 
-    /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and
-    /// the position of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, it takes the one with the largest
-    /// change, because the new basis is then farthest from singular. `None` if no amount reaches a bound.
+    /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and the position
+    /// of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, it
+    /// takes the one with the largest change, because the new basis is then farthest from singular. `None` if no amount
+    /// reaches a bound.
     fn ratio_test(&self, change: &[f64], sign: f64) -> Option<(f64, usize)> {
         // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
         let approaching = change.iter().enumerate().filter_map(|(position, change)| {
@@ -174,8 +176,8 @@ impl Simplex {
         Some((distance / rate, position))
     }
 
-    /// Replaces the basic variable at a position. `change` is the new column in terms of the basic columns. `None` if the
-    /// new basis is singular.
+    /// Replaces the basic variable at a position. `change` is the new column in terms of the basic columns. `None` if
+    /// the new basis is singular.
     fn replace(&mut self, position: usize, variable: usize, change: &[f64]) -> Option<()> {
         self.position[self.basis[position]] = None;
         self.basis[position] = variable;

@@ -58,8 +58,8 @@ pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
     unbounded(probe)
 }
 
-/// Computes a set of carried forces from the polygon of the simplex method, and refines it where a corner or an edge has
-/// no proof. `None` if no such polygon was found, or if too little of it has a proof.
+/// Computes a set of carried forces from the polygon of the simplex method, and refines it where a corner or an edge
+/// has no proof. `None` if no such polygon was found, or if too little of it has a proof.
 pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
     let ForcePolygon { corners, far } = probe.polygon()?;
     let proved: Vec<Option<Sample>> = corners

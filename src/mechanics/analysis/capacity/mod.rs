@@ -1,17 +1,17 @@
-//! Computes a [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the frame
-//! stands.
+//! Computes a [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the
+//! frame stands.
 //!
-//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may
-//! be unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]).
-//! A simplex method walks from corner to corner
-//! ([`force_polygon`](crate::solve::force_polygon)). It gives contact forces that prove each corner, and for each edge a
-//! motion that excludes every farther force.
+//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
+//! unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]). A
+//! simplex method walks from corner to corner ([`force_polygon`](crate::solve::force_polygon)). It gives contact forces
+//! that prove each corner, and for each edge a motion that excludes every farther force.
 //!
 //! Where a proof is missing, one linear program computes the farthest force of the set in a given direction, with
 //! contact forces and a motion. More directions are added until two polygons agree: the convex hull of the proved
 //! forces, and the intersection of the half-planes of the motions ([`refine`]). If the simplex method fails, all forces
 //! are computed in this way. If forces of any size are then carried in some direction, the directions in which the set
-//! is unbounded are found first ([`cone`]). For several cases, the result is the intersection of their sets ([`cases`]).
+//! is unbounded are found first ([`cone`]). For several cases, the result is the intersection of their sets
+//! ([`cases`]).
 
 mod cases;
 mod cone;
@@ -204,7 +204,8 @@ fn capacity_of_assembly(
         let capacity = region::capacity(found, &probe, block, points);
         (!is_inexact(&capacity)).then_some(capacity)
     };
-    // The simplex method needs one program for the whole polygon. If it fails, each corner and each edge needs a program.
+    // The simplex method needs one program for the whole polygon. If it fails, each corner and each edge needs a
+    // program.
     if let Some(capacity) = cone::from_polygon(&probe).and_then(exact) {
         return Ok(capacity);
     }
