@@ -216,6 +216,14 @@ pub(super) fn elimination_order(columns: &[Column], blocks: usize) -> Option<Vec
     Some(position)
 }
 
+/// Returns the coefficients of a column, in the order of elimination.
+pub(super) fn placed(column: &Column, position: &[usize]) -> SparseColumn {
+    let entries = column.entries().map(|(row, value)| (position[row], value));
+    let mut entries: SparseColumn = entries.collect();
+    entries.sort_unstable_by_key(|entry| entry.0);
+    entries
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -16,7 +16,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::basis_factor::{SparseColumn, elimination_order};
+use super::basis_factor::{elimination_order, placed};
 use super::dual::from_kinematic_answer;
 use super::limit::columns_in;
 use super::reduced_columns::ReducedColumns;
@@ -392,12 +392,4 @@ struct Change {
     sign: f64,
     /// The change of the force per unit.
     force: Vector,
-}
-
-/// Returns the coefficients of a column, in the order of elimination.
-fn placed(column: &Column, position: &[usize]) -> SparseColumn {
-    let entries = column.entries().map(|(row, value)| (position[row], value));
-    let mut entries: SparseColumn = entries.collect();
-    entries.sort_unstable_by_key(|entry| entry.0);
-    entries
 }
