@@ -45,7 +45,7 @@ mod strategy;
 mod parallel_joints;
 
 pub(super) use candidate::Candidate;
-pub(super) use limit_proof::{decided_forces, proved_forces, proved_motion};
+pub(super) use limit_proof::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
 pub(super) use proof_cache::ProofCache;
 pub(super) use verdict_only::{
     LimitResults, add_limit_to_cache, decide_verdict, least_force_error, verdict_from_cache,

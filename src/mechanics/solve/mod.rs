@@ -10,6 +10,7 @@
 //! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
 //! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `limit_state`, `support`, `tangent` | the programs of limit analysis |
+//! | `force_polygon`, `simplex`, `basis_factor` | all forces of one grip, as a polygon, by a simplex method |
 //! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
 //! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
@@ -19,6 +20,7 @@ mod adhesion_result;
 mod amounts;
 mod answer;
 mod balance;
+mod basis_factor;
 mod bounded_nnls;
 mod clarabel_solver;
 mod deadline;
@@ -27,6 +29,7 @@ mod dual;
 mod exact;
 pub(crate) mod extreme_ray;
 mod face;
+mod force_polygon;
 mod incremental_cholesky;
 mod iterative_refinement;
 mod least_residual;
@@ -41,6 +44,7 @@ mod rebalance_blocks;
 mod repair_motion;
 mod residual_norm;
 mod settings;
+mod simplex;
 mod reduced_columns;
 mod solver;
 mod support;
@@ -57,6 +61,7 @@ pub use clarabel_solver::by_clarabel;
 pub(crate) use deadline::{DeadlineGuard, deadline, is_late};
 pub use determinate::{collapse, determinate};
 pub use dual::{Dual, dual};
+pub use force_polygon::{ForcePolygon, force_polygon};
 pub use least_adhesion::{least_adhesion, least_adhesion_in};
 pub use least_residual::{Residual, any_balance, least_residual};
 pub use limit::{ExtremeValue, Limit, largest_factor, least_grip_limit, nearest_factor};

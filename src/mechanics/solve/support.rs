@@ -49,15 +49,7 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
     };
     let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
     let columns = ReducedColumns::new(&columns_in(program, load)).columns;
-    let cost = |column: &Column| match column.force {
-        Force::Grip {
-            grip: column_grip,
-            component,
-            sign,
-        } if column_grip == grip && component < 2 => -sign * direction[component],
-        _ => 0.0,
-    };
-    let (problem, row_of) = kinematic_dual(&loads, &columns, cost);
+    let (problem, row_of) = kinematic_dual(&loads, &columns, farthest_cost(grip, direction));
     for (tolerance, conditioning) in ATTEMPTS.into_iter().skip(usize::from(is_retry)) {
         let answer = solve(&problem, tolerance, conditioning);
         match answer.status {
@@ -78,4 +70,17 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
         }
     }
     Support::Unsolved
+}
+
+/// Returns the costs with which the least cost is the farthest force of a grip in a direction: minus the component of
+/// each column of its force along this direction, and 0 for all other columns.
+pub(super) fn farthest_cost(grip: usize, direction: Vector) -> impl Fn(&Column) -> f64 {
+    move |column| match column.force {
+        Force::Grip {
+            grip: column_grip,
+            component,
+            sign,
+        } if column_grip == grip && component < 2 => -sign * direction[component],
+        _ => 0.0,
+    }
 }

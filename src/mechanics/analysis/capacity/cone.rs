@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::probe::{Farthest, Probe};
 use super::refine::{Sample, refine, sample, size};
 use crate::geometry::Vector;
+use crate::solve::{Amounts, ForcePolygon};
 
 /// The samples of a set, and the unit directions in which it is unbounded.
 pub(super) struct SampledSet {
@@ -55,6 +56,42 @@ pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
         return Some(SampledSet { samples, rays });
     }
     unbounded(probe)
+}
+
+/// Computes a set of carried forces from the polygon of the simplex method, and refines it where a corner or an edge
+/// has no proof. `None` if no such polygon was found, or if too little of it has a proof.
+pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
+    let ForcePolygon { corners, far } = probe.polygon()?;
+    let proved: Vec<Option<Sample>> = corners
+        .iter()
+        .map(|corner| {
+            let carried = probe.carried(&corner.forces)?;
+            let half_plane = probe.half_plane(carried.force, corner.normal, &corner.motion);
+            Some(Sample {
+                carried,
+                half_plane,
+            })
+        })
+        .collect();
+    let Some([first_far, last_far]) = far else {
+        let start: Vec<Sample> = proved.into_iter().flatten().collect();
+        let samples = (start.len() >= 3).then(|| refine(probe, start, true, None))?;
+        let rays = Vec::new();
+        return Some(SampledSet { samples, rays });
+    };
+    // The unbounded edges begin at the first and the last corner. Each must have two proofs: of its motion, and of a
+    // force far along it.
+    let ray = |corner: &Option<Sample>, far: &Amounts| {
+        let corner = corner.as_ref().filter(|c| c.half_plane.is_some())?;
+        let along = probe.carried(far)?.force - corner.carried.force;
+        Some(libm::atan2(along.y, along.x))
+    };
+    let to = ray(proved.first()?, &first_far)?;
+    let from = ray(proved.last()?, &last_far)?;
+    let width = (to - from + SAME_ANGLE).rem_euclid(TAU) - SAME_ANGLE;
+    let rays = (width < PI - SAME_ANGLE).then(|| Cone::Between(from, from + width).rays())?;
+    let samples = refine(probe, proved.into_iter().flatten().collect(), false, None);
+    Some(SampledSet { samples, rays })
 }
 
 /// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a force has no proof.

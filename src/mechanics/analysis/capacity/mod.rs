@@ -1,13 +1,17 @@
-//! Computes a [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the frame
-//! stands.
+//! Computes a [`LoadCapacity`]: all forces that may act on a block, in addition to its present loads, such that the
+//! frame stands.
 //!
-//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may
-//! be unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]).
-//! One linear program computes the farthest force of the set in a given direction. It also gives contact forces that
-//! prove this force, and a motion that excludes every farther force. More directions are added until two polygons
-//! agree: the convex hull of the proved forces, and the intersection of the half-planes of the motions ([`refine`]).
-//! If forces of any size are carried in some direction, the directions in which the set is unbounded are found first
-//! ([`cone`]). For several cases, the result is the intersection of their sets ([`cases`]).
+//! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
+//! unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]). A
+//! simplex method walks from corner to corner ([`force_polygon`](crate::solve::force_polygon)). It gives contact forces
+//! that prove each corner, and for each edge a motion that excludes every farther force.
+//!
+//! Where a proof is missing, one linear program computes the farthest force of the set in a given direction, with
+//! contact forces and a motion. More directions are added until two polygons agree: the convex hull of the proved
+//! forces, and the intersection of the half-planes of the motions ([`refine`]). If the simplex method fails, all forces
+//! are computed in this way. If forces of any size are then carried in some direction, the directions in which the set
+//! is unbounded are found first ([`cone`]). For several cases, the result is the intersection of their sets
+//! ([`cases`]).
 
 mod cases;
 mod cone;
@@ -196,14 +200,17 @@ fn capacity_of_assembly(
         return Ok(LoadCapacity::empty(block, points.to_vec(), mechanism));
     }
     let probe = Probe::new(&component, body, points);
+    let exact = |found| {
+        let capacity = region::capacity(found, &probe, block, points);
+        (!is_inexact(&capacity)).then_some(capacity)
+    };
+    // The simplex method needs one program for the whole polygon. If it fails, each corner and each edge needs a
+    // program.
+    if let Some(capacity) = cone::from_polygon(&probe).and_then(exact) {
+        return Ok(capacity);
+    }
     match cone::sample_set(&probe) {
-        Some(found) => {
-            let capacity = region::capacity(found, &probe, block, points);
-            match is_inexact(&capacity) {
-                true => Err(undecided()),
-                false => Ok(capacity),
-            }
-        }
+        Some(found) => exact(found).ok_or_else(undecided),
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
         // The component with a free force decides: if it falls, the set is empty.
         None => match decide_verdict(

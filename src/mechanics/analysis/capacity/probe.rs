@@ -1,13 +1,13 @@
 //! [`Probe`]: a component with an unlimited force at one point of a block. The program finds which forces can act
 //! there.
 
-use crate::analysis::decide::{decided_forces, proved_forces, proved_motion};
+use crate::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
 use crate::program::{Program, Scale};
 use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::scene::{Limits, RobotId};
-use crate::solve::{Amounts, Support, support};
+use crate::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
 
 /// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
 /// is linear in the force, so the proof holds up to the line on which the power is 0.
@@ -173,6 +173,11 @@ impl Probe {
         }
     }
 
+    /// Returns the polygon of all carried forces, as the simplex method finds it. `None` if it was not found.
+    pub fn polygon(&self) -> Option<ForcePolygon> {
+        force_polygon(&self.program, self.given.grips.len())
+    }
+
     /// True if a force and a half-plane are both proved, and the force lies on the boundary of the half-plane.
     fn agree(&self, carried: &Option<CarriedForce>, half_plane: &Option<HalfPlane>) -> bool {
         let (Some(carried), Some(half_plane)) = (carried, half_plane) else {
@@ -240,7 +245,8 @@ impl Probe {
         }
     }
 
-    fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
+    /// Proves the force of the grip that amounts of the program contain. `None` if these amounts have no proof.
+    pub fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
         let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
         let own = forces.grips.pop()?;
         Some(CarriedForce {
@@ -285,11 +291,13 @@ impl Probe {
 
     /// Returns the half-plane normal · F ≤ limit that a motion proves: the velocities `y` of the program exclude every
     /// force outside it. `None` if a force just beyond `near` gives no proof, or if the point hardly moves.
-    fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
+    pub fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (SHARE_BEYOND_LIMIT * size));
         let program = Program::new(&beyond, self.program.scale);
-        let (motion, proof) = proved_motion(&beyond, &program, y)?;
+        // The motions of a basis have no error except rounding; those of an interior-point method are corrected.
+        let (motion, proof) = proved_exact_motion(&beyond, &program, y)
+            .or_else(|| proved_motion(&beyond, &program, y))?;
         let own = &motion[self.body];
         let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
         let speed = velocity.norm();

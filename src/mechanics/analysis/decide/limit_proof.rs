@@ -51,6 +51,26 @@ pub(in crate::mechanics::analysis) fn proved_motion(
     in_scale_of(assembly, program).prove_motion(program, y, &mut Effort::default())
 }
 
+/// Returns velocities `y` of a program as a motion of each body, with the proof that the component falls by it. `None`
+/// if the motion violates a contact by more than rounding, or if the proof is too weak.
+pub(in crate::mechanics::analysis) fn proved_exact_motion(
+    assembly: &Assembly,
+    program: &Program,
+    y: &[f64],
+) -> Option<(Vec<Motion>, Proof)> {
+    let component = in_scale_of(assembly, program);
+    let (_, motion) = component.to_motions(y);
+    let proof = component.check_mechanism(&motion);
+    let is_exact = matches!(proof, Proof::Mechanism { worst_violation, .. } if worst_violation <= MAX_ROUNDING);
+    (is_exact && component.accepts_motion(&motion, &proof)).then_some((motion, proof))
+}
+
+/// A motion violates contacts only by rounding if the violation is at most this; the fastest point has speed 1. Forces
+/// of a thousand times the loads could then change a limit by at most 1e-10 of the loads. Long chains of blocks have a
+/// rounding of 1e-14, so a tenth of this value would need more corrections of motions; ten times this value would
+/// count a correction of [`repair_motion`](crate::solve::repair_motion) as rounding.
+const MAX_ROUNDING: f64 = 1e-13;
+
 fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {
     Component {
         scale: program.scale,
