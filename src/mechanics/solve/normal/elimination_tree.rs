@@ -1,16 +1,78 @@
 //! Finds the order of elimination of a sparse symmetric matrix, its elimination tree and the column counts of its
 //! factor.
 //!
-//! Steps: approximate minimum degree order (crate `amd`), or nested dissection for large graphs, elimination tree,
-//! postorder of the tree, column counts.
+//! Steps: approximate minimum degree order (crate `amd`), elimination tree, postorder of the tree, column counts.
 //! Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapters 4 and 7.
 
-use super::graph::Graph;
-use super::nested_dissection;
+use super::column_groups::ColumnGroups;
 
-/// Graphs of fewer unknowns are ordered by minimum degree alone: nested dissection saves little there. 3 000 unknowns are
-/// 1 000 blocks.
-const MIN_DISSECTED: usize = 3000;
+/// The sparsity pattern of A·Aᵀ: for every unknown, the unknowns that share a column with it, itself included, in
+/// ascending order.
+pub(super) struct Graph {
+    starts: Vec<usize>,
+    list: Vec<u32>,
+}
+
+impl Graph {
+    pub fn new(columns: &ColumnGroups) -> Graph {
+        let n = columns.unknowns();
+        // Count, for each unknown, the groups that have an entry in its row.
+        let mut begin = vec![0; n + 1];
+        let groups = || (0..columns.group_count()).map(|k| columns.group(k).rows);
+        for row in groups().flatten() {
+            begin[*row as usize + 1] += 1;
+        }
+        for k in 0..n {
+            begin[k + 1] += begin[k];
+        }
+        // Counting sort: list the groups that have an entry in each row.
+        let mut next = begin.clone();
+        let mut groups_of = vec![0; begin[n]];
+        for (k, rows) in groups().enumerate() {
+            for row in rows {
+                groups_of[next[*row as usize]] = k;
+                next[*row as usize] += 1;
+            }
+        }
+        let mut graph = Graph {
+            starts: Vec::with_capacity(n + 1),
+            // `list` includes the diagonal entries, which `amd` expects and does not count as neighbours.
+            list: Vec::new(),
+        };
+        graph.starts.push(0);
+        // The neighbours of an unknown are the union of the rows of its groups. `seen` marks the neighbours that are
+        // already in the list.
+        let mut seen = vec![usize::MAX; n];
+        for unknown in 0..n {
+            let first = graph.list.len();
+            seen[unknown] = unknown;
+            graph.list.push(unknown as u32);
+            for k in &groups_of[begin[unknown]..begin[unknown + 1]] {
+                for other in columns.group(*k).rows {
+                    if seen[*other as usize] != unknown {
+                        seen[*other as usize] = unknown;
+                        graph.list.push(*other);
+                    }
+                }
+            }
+            graph.list[first..].sort_unstable();
+            graph.starts.push(graph.list.len());
+        }
+        graph
+    }
+
+    fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Converts the pattern to the 32-bit integers that `amd` expects. `None` if there are too many entries for 32
+    /// bits.
+    fn as_i32(&self) -> Option<(Vec<i32>, Vec<i32>)> {
+        let starts = self.starts.iter().map(|k| i32::try_from(*k).ok());
+        let list = self.list.iter().map(|k| i32::try_from(*k).ok());
+        Some((starts.collect::<Option<_>>()?, list.collect::<Option<_>>()?))
+    }
+}
 
 /// The pattern of the matrix in the order of elimination, with the elimination tree.
 pub(super) struct OrderedGraph<'a> {
@@ -27,53 +89,37 @@ pub(super) struct OrderedGraph<'a> {
 impl<'a> OrderedGraph<'a> {
     /// Finds an order of elimination with little fill-in, and sorts it into a postorder of the elimination tree. `None`
     /// if the graph is too large for 32-bit indices or `amd` finds no order.
-    ///
-    /// For large graphs, the order by nested dissection is tried too. It is taken if its factor takes fewer operations.
     pub fn new(graph: &'a Graph) -> Option<OrderedGraph<'a>> {
-        let by_degree = OrderedGraph::with_order(graph, graph.by_minimum_degree()?);
-        if graph.count() < MIN_DISSECTED {
-            return Some(by_degree);
-        }
-        let Some(order) = nested_dissection::order(graph) else {
-            return Some(by_degree);
-        };
-        let dissected = OrderedGraph::with_order(graph, order);
-        let is_better = dissected.operations() < by_degree.operations();
-        Some(if is_better { dissected } else { by_degree })
-    }
-
-    /// Sorts an order of elimination into a postorder of its elimination tree. This has the same fill-in and makes
-    /// columns with equal rows consecutive.
-    fn with_order(graph: &'a Graph, order: Vec<usize>) -> OrderedGraph<'a> {
-        let given = OrderedGraph {
+        let count = i32::try_from(graph.count()).ok()?;
+        let (starts, list) = graph.as_i32()?;
+        // Approximate minimum degree order (Amestoy, Davis and Duff 1996).
+        let (order, _, _) = amd::order(count, &starts, &list, &amd::Control::default()).ok()?;
+        let order: Vec<usize> = order.iter().map(|k| *k as usize).collect();
+        let by_degree = OrderedGraph {
             graph,
             position: inverse(&order),
             order,
             parent: Vec::new(),
         };
-        let parent = given.elimination_tree();
+        // A postorder of the tree has the same fill-in and makes columns with equal rows consecutive.
+        let parent = by_degree.elimination_tree();
         let post = postorder(&parent);
         let new_position = inverse(&post);
-        let order: Vec<usize> = post.iter().map(|k| given.order[*k]).collect();
+        let order: Vec<usize> = post.iter().map(|k| by_degree.order[*k]).collect();
         let parents = post.iter().map(|k| parent[*k].map(|p| new_position[p]));
-        OrderedGraph {
+        Some(OrderedGraph {
             graph,
             position: inverse(&order),
             parent: parents.collect(),
             order,
-        }
-    }
-
-    /// Returns the number of multiplications of a factorization in this order.
-    fn operations(&self) -> f64 {
-        let counts = self.column_counts();
-        counts.iter().map(|count| (count * count) as f64).sum()
+        })
     }
 
     /// Returns the positions, in the order of elimination, of the entries in the row at position `k`.
     pub fn row(&self, k: usize) -> impl Iterator<Item = usize> {
         let unknown = self.order[k];
-        let others = self.graph.neighbours(unknown).iter();
+        let of = self.graph.starts[unknown]..self.graph.starts[unknown + 1];
+        let others = self.graph.list[of].iter();
         others.map(|other| self.position[*other as usize])
     }
 
@@ -163,64 +209,4 @@ fn postorder(parent: &[Option<usize>]) -> Vec<usize> {
         }
     }
     post
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::solve::normal::column_groups::ColumnGroups;
-
-    /// The graph of a square wall: every block has three unknowns and touches its four neighbours and one on a diagonal.
-    fn wall(side: usize) -> Graph {
-        let at = |x: usize, y: usize| 3 * (x * side + y);
-        let mut columns: Vec<[usize; 2]> = Vec::new();
-        for (x, y) in (0..side * side).map(|k| (k / side, k % side)) {
-            let others = [(x + 1, y), (x, y + 1), (x + 1, y + 1)];
-            let inside = others.into_iter().filter(|(x, y)| *x < side && *y < side);
-            columns.extend(inside.map(|(i, j)| [at(x, y), at(i, j)]));
-        }
-        let numbered = columns.iter().enumerate();
-        let entries = numbered.flat_map(|(k, blocks)| {
-            let rows = blocks.iter().flat_map(|first| *first..first + 3);
-            rows.map(move |row| (k, row, 1.0))
-        });
-        Graph::new(&ColumnGroups::new(3 * side * side, columns.len(), entries))
-    }
-
-    /// An order by nested dissection contains every unknown once. In a wall of 10 000 blocks, its factor takes fewer
-    /// operations than that of the order by minimum degree, and the operations grow at most with the power 1.6.
-    #[test]
-    fn nested_dissection_takes_fewer_operations_in_large_walls() {
-        let operations = [50, 100].map(|side| {
-            let graph = wall(side);
-            let order = nested_dissection::order(&graph).expect("an order");
-            let mut sorted = order.clone();
-            sorted.sort_unstable();
-            assert!(
-                sorted.iter().copied().eq(0..3 * side * side),
-                "a permutation"
-            );
-            let by_degree = graph.by_minimum_degree().expect("an order");
-            [order, by_degree].map(|order| OrderedGraph::with_order(&graph, order).operations())
-        });
-        let [[small, _], [large, by_degree]] = operations;
-        assert!(large < 0.95 * by_degree, "{large:e} and {by_degree:e}");
-        assert!(large < small * 4.0_f64.powf(1.6), "{small:e} to {large:e}");
-        let graph = wall(100);
-        let chosen = OrderedGraph::new(&graph).expect("an order");
-        assert!(chosen.operations() <= large);
-    }
-
-    /// Parts that are not connected, and a single block, are ordered too.
-    #[test]
-    fn nested_dissection_orders_separate_parts() {
-        let towers: Vec<(usize, usize, f64)> = (0..3000)
-            .filter(|k| k % 10 != 9)
-            .flat_map(|k| [(k, 3 * k, 1.0), (k, 3 * k + 3, 1.0)])
-            .collect();
-        let graph = Graph::new(&ColumnGroups::new(9000, 3000, towers.into_iter()));
-        let mut order = nested_dissection::order(&graph).expect("an order");
-        order.sort_unstable();
-        assert!(order.into_iter().eq(0..9000));
-    }
 }

@@ -27,11 +27,9 @@ mod cholesky;
 mod column_groups;
 mod dense;
 mod elimination_tree;
-mod graph;
 mod interior_point;
 mod iterate;
 mod least_norm;
-mod nested_dissection;
 mod newton;
 mod residuals;
 mod slack_trend;
@@ -78,19 +76,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     if rows < 3 * MIN_BLOCKS {
         return None;
     }
-    let t = std::time::Instant::now();
-    let a = solve_any_size(problem, criteria, CHAIN_OPERATIONS);
-    eprintln!(
-        "TRACE lin{} eq{} quad{} unk{} -> {:?} it {:?} {:.2}s",
-        ProblemKind::new(problem).is_some(),
-        problem.equalities > 0,
-        problem.quadratic.len(),
-        problem.unknowns,
-        a.as_ref().map(|a| a.status),
-        a.as_ref().map(|a| a.iterations),
-        t.elapsed().as_secs_f64()
-    );
-    a
+    solve_any_size(problem, criteria, CHAIN_OPERATIONS)
 }
 
 /// True if a problem is a least-squares problem in forces: it has balance equations and a quadratic objective.
@@ -117,14 +103,8 @@ fn solve_any_size(
     if columns.max_entries() > MAX_COLUMN_ENTRIES {
         return None;
     }
-    let t0 = std::time::Instant::now();
     let mut factor = Cholesky::new(&mut columns)?;
     let is_chain = is_chain(&factor, &columns, chain_operations);
-    eprintln!(
-        "OPS {:e} {:.3}",
-        factor.operations(),
-        t0.elapsed().as_secs_f64()
-    );
     let lp = LinearProgram {
         columns: &columns,
         cost: &cost,

@@ -7,8 +7,7 @@
 use std::ops::Range;
 
 use super::column_groups::ColumnGroups;
-use super::elimination_tree::OrderedGraph;
-use super::graph::Graph;
+use super::elimination_tree::{Graph, OrderedGraph};
 
 /// Consecutive columns of the factor with the same rows below them.
 #[derive(Clone, Debug)]

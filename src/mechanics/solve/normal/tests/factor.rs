@@ -11,7 +11,7 @@ fn elements(unknowns: usize, columns: &[Vec<(usize, f64)>]) -> ColumnGroups {
 #[test]
 fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
     let mut numbers = RandomNumbers(7);
-    for (wide, high) in [(1, 1), (1, 30), (30, 1), (9, 12), (23, 5), (40, 40)] {
+    for (wide, high) in [(1, 1), (1, 30), (30, 1), (9, 12), (23, 5)] {
         let (unknowns, columns) = lattice(wide, high, &mut numbers);
         let mut posed = elements(unknowns, &columns);
         let plain = posed.clone();
