@@ -295,7 +295,7 @@ fn held(edit: &dyn Fn(&mut serde_json::Value)) -> Facts {
         "ground": [{ "polygon": [[-9, -1], [9, -1], [9, 0], [-9, 0]] }],
         "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 10 }],
         "loads": [{ "block": "a", "force": [1, -2], "at": [1, 1] }],
-        "robots": [{ "id": "arm", "limits": { "fx": 5, "fy": 6, "torque": 1 }, "hold": { "block": "a", "at": [1, 0.5] } }] });
+        "robots": [{ "id": "arm", "limits": { "fx": 5, "fy": 6, "torque": 1 }, "holds": "a", "at": [1, 0.5] }] });
     edit(&mut file);
     let scene = Scene::from_json(&file.to_string()).unwrap_or_else(|problems| panic!("{problems}"));
     Facts::new(&Analysis::new(&scene), DIGITS)
