@@ -344,6 +344,7 @@ fn an_equal_change_of_many_blocks_is_one_line() {
     };
     let changes = row(0.7).changes(&row(0.5));
     assert_eq!(changes[0].words, "6 blocks: μ 0.7 → 0.5");
+    assert_eq!(changes[1].words, "6 interfaces: μ 0.7 → 0.5");
     let blocks = changes
         .iter()
         .filter(|change| change.words.contains("block"));

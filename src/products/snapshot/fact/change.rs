@@ -13,21 +13,23 @@ pub struct Change {
     pub(super) weight: f64,
 }
 
-/// If more than this number of blocks changed in the same way, one line reports all of them.
-pub(super) const MAX_SINGLE_BLOCKS: usize = 4;
+/// If more than this number of blocks or interfaces changed in the same way, one line reports all of them.
+pub(super) const MAX_SINGLE_CHANGES: usize = 4;
 
-/// If more than [`MAX_SINGLE_BLOCKS`] blocks changed in the same way, reports them in one line: `20 blocks: μ 0.7 → 0.5`.
-/// Considers the changes from index `from` on.
-pub(super) fn group_equal(from: usize, changes: &mut Vec<Change>) {
+/// If more than [`MAX_SINGLE_CHANGES`] facts of a kind changed in the same way, reports them in one line, such as
+/// `20 blocks: μ 0.7 → 0.5` for the kind `block`. Considers the changes from index `from` on. Their words begin with
+/// `place`, which is the frame or empty.
+pub(super) fn group_equal(from: usize, place: &str, kind: &str, changes: &mut Vec<Change>) {
     let how = |words: &str| -> Option<String> {
-        let (_, how) = words.strip_prefix("block ")?.rsplit_once(": ")?;
+        let words = words.strip_prefix(place)?.strip_prefix(kind)?;
+        let (_, how) = words.strip_prefix(' ')?.rsplit_once(": ")?;
         how.contains(" → ").then(|| how.to_owned())
     };
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     for words in changes[from..].iter().filter_map(|c| how(&c.words)) {
         *counts.entry(words).or_default() += 1;
     }
-    counts.retain(|_, count| *count > MAX_SINGLE_BLOCKS);
+    counts.retain(|_, count| *count > MAX_SINGLE_CHANGES);
     let mut is_first = counts.clone();
     let mut index = 0;
     changes.retain_mut(|change| {
@@ -36,7 +38,7 @@ pub(super) fn group_equal(from: usize, changes: &mut Vec<Change>) {
         let Some(how) = same else {
             return true;
         };
-        change.words = format!("{} blocks: {how}", counts[&how]);
+        change.words = format!("{place}{} {kind}s: {how}", counts[&how]);
         is_first.remove(&how).is_some()
     });
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::change::{Change, MAX_SINGLE_BLOCKS, group_equal};
+use super::change::{Change, MAX_SINGLE_CHANGES, group_equal};
 use super::round::{UNITLESS_STEP, last_digit, short};
 use super::{Fact, Facts, Section, Value};
 
@@ -110,8 +110,10 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
         };
         changes.extend(change);
     }
+    for kind in ["block", "interface"] {
+        group_equal(before, &place, kind, changes);
+    }
     if !is_frame {
-        group_equal(before, changes);
         for cause in &mut changes[before..] {
             cause.weight += CAUSE_WEIGHT;
         }
@@ -162,7 +164,7 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
     names
 }
 
-/// If more than [`MAX_SINGLE_BLOCKS`] blocks begin to fall, reports all of them in one line, and removes their keys
+/// If more than [`MAX_SINGLE_CHANGES`] blocks begin to fall, reports all of them in one line, and removes their keys
 /// from `names`. Does the same for blocks that no longer fall.
 fn group_falling(
     was: &ByName<'_>,
@@ -179,7 +181,7 @@ fn group_falling(
             .filter(|k| fresh(k))
             .map(|k| k.1.join("–"))
             .collect();
-        if who.len() <= MAX_SINGLE_BLOCKS {
+        if who.len() <= MAX_SINGLE_CHANGES {
             continue;
         }
         names.retain(|key| !fresh(key));
