@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { open, sceneOf, shot, start, stop, verdict, violations } from "./lib/page.mjs";
+import { open, sceneOf, shot, start, stop, verdict, violations, undoUntilItStands } from "./lib/page.mjs";
 
 before(start);
 after(stop);
@@ -95,8 +95,7 @@ test("everything can be done with the keyboard", async () => {
   await verdict(page, "falls");
   // The verdict is announced when it no longer changes.
   await page.waitForFunction(() => /^It falls/.test(document.querySelector("#announcement")?.textContent ?? ""));
-  await keyboard.press("Control+z");
-  await verdict(page, "stands");
+  await undoUntilItStands(page, "#verdict");
   await focused("body:blocks/4");
   const original = await sceneOf(page);
   await keyboard.press("r");

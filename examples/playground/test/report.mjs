@@ -8,7 +8,7 @@ import os from "node:os";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drag, middle, root, shot, start, stop, violations, visit } from "./lib/page.mjs";
+import { drag, middle, root, shot, start, stop, violations, visit, undoUntilItStands } from "./lib/page.mjs";
 
 const program = process.env.DRYSTONE ?? path.join(root, "../../target/debug/drystone");
 let folder = "";
@@ -71,8 +71,7 @@ test("with the keyboard alone, on a dark page", async () => {
   await page.waitForTimeout(3600);
   await page.screenshot({ path: shot("report-dark") });
   assert.deepEqual(await violations(page), []);
-  await page.keyboard.press("Control+z");
-  await verdict(page, "stands");
+  await undoUntilItStands(page, ".stones-verdict");
   await close();
 });
 

@@ -92,6 +92,21 @@ export async function violations(page) {
   });
 }
 
+/**
+ * Undoes changes with the keyboard until the structure stands. Keys that are pressed in quick succession are undone
+ * together, but on a busy machine they may be undone in several steps.
+ * @param {any} page @param {string} selector of the element with the verdict
+ */
+export async function undoUntilItStands(page, selector) {
+  const stands = `${selector}[data-state="stands"]`;
+  for (let step = 0; step < 14; step++) {
+    await page.keyboard.press("Control+z");
+    const found = await page.waitForSelector(stands, { state: "attached", timeout: 5_000 }).catch(() => null);
+    if (found) return;
+  }
+  throw new Error("it does not stand after 14 steps of undo");
+}
+
 /** Waits for a verdict. @param {any} page @param {"stands" | "falls" | "wrong" | "undecided"} state */
 export async function verdict(page, state) {
   await page.waitForFunction((/** @type {string} */ s) => document.querySelector("#verdict")?.getAttribute("data-state") === s, state, { timeout: 20_000 });
