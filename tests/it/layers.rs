@@ -136,7 +136,10 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
     ),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("clarabel", &["solve/"]),
-    ("amd", &["solve/normal/elimination_tree.rs"]),
+    (
+        "amd",
+        &["solve/basis_factor.rs", "solve/normal/elimination_tree.rs"],
+    ),
     (
         "resvg",
         &[

@@ -336,6 +336,8 @@ fn an_equal_change_of_many_blocks_is_one_line() {
         };
         let blocks: Vec<_> = (0..6).map(block).collect();
         held(&|file| {
+            let ground = serde_json::json!([[-9, -1], [20, -1], [20, 0], [-9, 0]]);
+            file["ground"][0]["polygon"] = ground;
             file["blocks"] = blocks.clone().into();
             file["friction"] = friction.into();
             file["loads"] = serde_json::json!([]);
