@@ -138,8 +138,8 @@ fn very_small_loads_that_cannot_be_carried_have_a_load_factor_of_zero() {
 }
 
 /// Of a block under 5·10⁶ N, the horizontal load of the stone of 5 N on top was once 0.032 instead of 0.25: the end was
-/// moved to the safe side by the tolerance of the forces, not by their error. In the other scenes, the kernel was up to
-/// 7·10⁻⁷ too large, because a verdict is stable just beyond it within its tolerance.
+/// moved to the safe side by the tolerance of the forces, not by their error. In the other scenes, the kernel was too
+/// large, because a verdict is stable just beyond it within its tolerance.
 #[test]
 fn loads_far_larger_or_smaller_than_weights_leave_the_other_margins_exact() {
     for number in [594, 5000082, 5000231, 5000275] {

@@ -65,8 +65,8 @@ const STABLE_BEYOND: f64 = 4e-6;
 const MIN_UNSURE: f64 = 1e-3;
 /// If no forces are known near an end, this is taken for their relative error: half of the tolerance of the proofs.
 const UNKNOWN_ERROR: f64 = 0.5 * Proof::IMBALANCE_TOL;
-/// The least relative error of forces from which the error of an end follows. The error of the contact forces counts, but
-/// the loads may be smaller than these. With a tenth of this value, one end of a random scene was 2·10⁻⁶ too far out.
+/// The relative error of known forces counts as at least this value. Without it, one end of a random scene was too far
+/// out by 2·10⁻⁶ of its value.
 const LEAST_ERROR: f64 = 2e-10;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const OFFSET_GROWTH: f64 = 16.0;
