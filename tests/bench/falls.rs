@@ -1,6 +1,6 @@
 //! Compares the times of structures that fall and of structures that stand: the same stacks, arches and walls with
-//! tilted and with vertical gravity. Both are also compared with the time of the solver alone. It solves the hard
-//! program of the source, and the answer is only "solved" or "infeasible".
+//! tilted and with vertical gravity. Both are also compared with the time of the solver alone. It solves only the
+//! program with hard constraints of the source, which shows whether forces exist, and not where a structure fails.
 //!
 //! `cargo bench --bench falls` prints the rows of `src/doc/performance.md`. With arguments after `--`, such as `--
 //! "wall 915"`, only the rows whose name contains all of them are measured. `BLOCKS=10000` includes structures of

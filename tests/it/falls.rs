@@ -202,7 +202,7 @@ fn the_verdict_of_a_high_tilted_stack_needs_at_most_one_program() {
 
 /// A stack that leans by nine tenths of its limit, alone and with another brick that touches the lowest one. With
 /// that brick the forces are not unique: an arbitrary balance may have no proof, but the balance of least forces has
-/// one. The program of the least residual would end without a status after 200 iterations.
+/// one. The program of the least residual would end without a result after 200 iterations.
 #[test]
 fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_needs_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);

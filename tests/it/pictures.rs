@@ -288,7 +288,7 @@ fn loads_and_robots_torques_have_their_arrows() {
         (load.at, load.force),
         (Point::new(3.0, 2.0), Vector::new(1.0, -2.0))
     );
-    // The unit edge is 0.6·√8 m here and stands for 10 N.
+    // The unit length is 0.6·√8 m here and stands for 10 N.
     assert!((load.vector - Vector::new(1.0, -2.0) * (0.06 * 8f64.sqrt())).norm() < 1e-12);
     assert_eq!(marks.turns.len(), 1);
     assert_eq!(

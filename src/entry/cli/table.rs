@@ -68,7 +68,7 @@ const MEANINGS: [[&str; 2]; 16] = [
     ],
     [
         "margins",
-        "with --margins: the values at which the frame stands, and the present value; the factor on the loads comes first, or otherwise the margin closest to its limit",
+        "with --margins: the values at which the frame stands, and the current value; the factor on the loads comes first, or otherwise the margin closest to its limit",
     ],
     [
         "note",

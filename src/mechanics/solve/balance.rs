@@ -60,7 +60,7 @@ const MANY_BLOCKS: usize = 200;
 /// The largest number of iterations for a program of many blocks.
 ///
 /// Walls of 400 to 2 000 bricks take 6 to 60 iterations unless they are within a thousandth of their limit. Closer to
-/// the limit, least force ends without a status after 100 iterations with either conditioning, while the program
+/// the limit, least force ends without a result after 100 iterations with either conditioning, while the program
 /// without cost is solved in 30.
 const MAX_ITERATIONS_MANY: usize = 60;
 

@@ -58,7 +58,7 @@ impl Dual {
 }
 
 /// Finds the forces of least cost that balance the loads, by solving the kinematic dual. If plain conditioning ends
-/// without a status, solves the dual again with full conditioning.
+/// without a result, solves the dual again with full conditioning.
 ///
 /// `cost` returns the cost of one unit of a column.
 pub fn dual(
@@ -175,7 +175,7 @@ pub(super) fn solve_static_form(
     solved
 }
 
-/// Solves a program. If plain conditioning ends without a status, solves it again with full conditioning.
+/// Solves a program. If plain conditioning ends without a result, solves it again with full conditioning.
 pub(super) fn solve_with_retry(
     conic: &QuadraticProgram,
     settings: impl Into<SolverSettings>,

@@ -31,10 +31,10 @@ const MAX_ROUNDS: usize = 4;
 /// of the total time.
 const MAX_ROUNDS_MANY: usize = 1;
 
-/// Costs 1/β of admissible forces relative to adhesion, tried in turn if stage 1 ends without a status at cost 0.
+/// Costs 1/β of admissible forces relative to adhesion, tried in turn if stage 1 ends without a result at cost 0.
 ///
 /// If wedged blocks can press each other without limit, the dual of stage 1 has no interior, and the solver may end
-/// without a status. With a positive cost the dual has an interior.
+/// without a result. With a positive cost the dual has an interior.
 const FORCE_COSTS: [f64; 2] = [1e-6, 1e-4];
 
 /// Stage 3 drops adhesion at a point below this fraction of the largest adhesion.
@@ -108,7 +108,7 @@ pub fn least_adhesion(program: &Program, conditioning: Conditioning) -> LeastAdh
 /// Like [`least_adhesion`], but with all solver settings.
 ///
 /// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts to solve a wall of
-/// 410 bricks slightly beyond its limit each ended without a status after a hundred iterations; with loads of 1 it is
+/// 410 bricks slightly beyond its limit each ended without a result after a hundred iterations; with loads of 1 it is
 /// solved in 69.
 pub fn least_adhesion_in(program: &Program, settings: SolverSettings) -> LeastAdhesion {
     determinate::least_adhesion(program).unwrap_or_else(|| by_programs(program, settings))
@@ -232,7 +232,7 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
     }
 }
 
-/// Stage 1 for many blocks: solves the kinematic form without redundant columns. If it ends without a status, the
+/// Stage 1 for many blocks: solves the kinematic form without redundant columns. If it ends without a result, the
 /// static form is solved.
 fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effort) -> Dual {
     // Without redundant columns, the kinematic form has fewer rows.
@@ -301,7 +301,7 @@ fn later_stages(
         return from_first_stage();
     };
     // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance needs. The least squares
-    // then need full conditioning: with plain conditioning they end without a status.
+    // then need full conditioning: with plain conditioning they end without a result.
     let squares = match size {
         Size::Many => SolverSettings {
             conditioning: Conditioning::Full,
@@ -356,7 +356,7 @@ fn least_force_face(
 
 /// Solves the kinematic dual of stage 2 or 3.
 ///
-/// With many blocks, a stage that ends without a status also does so with full conditioning, after two to four times as
+/// With many blocks, a stage that ends without a result also does so with full conditioning, after two to four times as
 /// long. It is therefore not solved again; the caller keeps the result of the previous stage.
 fn solve_stage(
     face: &Face,

@@ -1,7 +1,7 @@
 //! Two linear programs for components near the limit of stability, where the program of least force fails: any
 //! balance, and least residual.
 //!
-//! Near that limit the program of least force ends without a status: just before the limit its optimum grows without
+//! Near that limit the program of least force ends without a result: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:
 //!
 //! - *any balance*, in static form and without a cost. For a wall of 410 bricks, 10⁻⁵ of the load on either side of its
@@ -43,7 +43,7 @@ const BALANCE_TOL: f64 = 1e-9;
 
 /// A program scaled to a largest load of 1.
 ///
-/// For a wall of 410 bricks pushed to its limit, the solver ends without a status with loads of 300; with loads of 1 it
+/// For a wall of 410 bricks pushed to its limit, the solver ends without a result with loads of 300; with loads of 1 it
 /// finds the optimum after about 70 iterations.
 struct ScaledProgram<'p> {
     program: &'p Program,
@@ -81,7 +81,7 @@ impl ScaledProgram<'_> {
 }
 
 /// Finds forces that balance the loads, or a motion that proves that no forces balance them. The forces and the motion
-/// are 0 if the solver ends without a status.
+/// are 0 if the solver ends without a result.
 pub fn any_balance(program: &Program) -> Residual {
     let scaled = ScaledProgram::new(program);
     let (loads, columns) = (&scaled.loads, &scaled.reduced_columns.columns);

@@ -52,7 +52,7 @@ impl From<Limit> for ExtremeValue {
 }
 
 /// From this number of blocks on, the finest of [`TOLERANCES`] is not tried: with it, a wall of 410 bricks ends
-/// without a status.
+/// without a result.
 const MANY_BLOCKS: usize = 200;
 
 /// The right-hand side of directionᵀy ≥ 1 for many blocks: it scales the velocities.

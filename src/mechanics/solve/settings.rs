@@ -48,7 +48,7 @@ pub(super) struct StoppingCriteria {
     pub crossover: Option<CrossoverTolerance>,
     /// The largest number of iterations.
     pub iterations: usize,
-    /// The time at which the method stops without a status.
+    /// The time at which the method stops without a result.
     pub deadline: Option<Instant>,
 }
 

@@ -1,7 +1,7 @@
 //! The single entry point to the solvers: takes a [`QuadraticProgram`] and returns an [`Answer`].
 //!
 //! Linear programs of many blocks are first solved on the normal equations ([`super::normal`]), all others by
-//! clarabel. If a chain of blocks, such as an arch, ends there without a status, clarabel solves it at once. Other
+//! clarabel. If a chain of blocks, such as an arch, ends there without a result, clarabel solves it at once. Other
 //! programs are solved by clarabel only if the caller tries again with full conditioning. Data with NaN are rejected
 //! here, because the solvers would report them as solved.
 

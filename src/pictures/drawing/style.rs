@@ -84,13 +84,13 @@ pub struct Theme {
 /// Widths of lines and arrows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widths {
-    /// Shaft of the arrow of a force, in unit edges.
+    /// Shaft of the arrow of a force, in unit lengths.
     pub force: f64,
-    /// Shaft of the arrow of a robot, in unit edges.
+    /// Shaft of the arrow of a robot, in unit lengths.
     pub robot: f64,
-    /// Shaft of the arrow of a failure, in unit edges.
+    /// Shaft of the arrow of a failure, in unit lengths.
     pub failure: f64,
-    /// Radius of the disc of a robot, in unit edges.
+    /// Radius of the disc of a robot, in unit lengths.
     pub disc: f64,
     /// Outline of a large block, pixels; small blocks have thinner outlines.
     pub outline: f64,

@@ -146,13 +146,13 @@ pub struct Marks {
     pub arrows: Vec<ForceArrow>,
     /// The arrows of torques.
     pub turns: Vec<TurnArrow>,
-    /// The force whose arrow is one unit edge long, N; 0 if there are no forces.
+    /// The force whose arrow is one unit length long, N; 0 if there are no forces.
     pub newtons_per_unit: f64,
 }
 
 impl Marks {
     /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
-    /// all arrows are visible. `unit` is the unit edge in metres; `scale` is in pixels per metre.
+    /// all arrows are visible. `unit` is the unit length in metres; `scale` is in pixels per metre.
     pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
         let least = MIN_VISIBLE_ARROW / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
@@ -175,7 +175,7 @@ impl Marks {
         (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
     }
 
-    /// Returns the largest force in newtons that an arrow shows, but at least the force whose arrow is one unit edge
+    /// Returns the largest force in newtons that an arrow shows, but at least the force whose arrow is one unit length
     /// long.
     pub(crate) fn largest(&self) -> f64 {
         let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
@@ -227,8 +227,8 @@ fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
 mod tests {
     use super::*;
 
-    /// A torque arrow of length L shows a torque of L times the newtons per unit edge. With an arrow of just under the
-    /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit edge.
+    /// A torque arrow of length L shows a torque of L times the newtons per unit length. With an arrow of just under the
+    /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit length.
     #[test]
     fn the_note_on_hidden_torques_states_their_limit_in_newton_metres() {
         let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;

@@ -30,7 +30,7 @@ const ROBOT_LAYER: &str = "robots";
 const NAME_LAYER: &str = "guide names";
 const THRUST_LAYER: &str = "guide thrust line";
 const MECHANISM_LAYER: &str = "guide mechanism";
-/// The height of letters relative to the unit edge of the scene.
+/// The height of letters relative to the unit length of the scene.
 const LETTER_SHARE: f64 = 0.15;
 
 /// Writes a frame as DXF. The drawing shows the ground, the blocks with their names, and the grip points of robots. If

@@ -84,27 +84,27 @@ impl PanelContent for CarriedForces {
             true => "tips of the forces that the block can carry",
             false => "tips of the forces that the block can carry; all tails are at the dot",
         };
-        entries.push(Entry::Sign(area_sign, 20.0, area.into()));
+        entries.push(Entry::Symbol(area_symbol, 20.0, area.into()));
         if !first.is_apart {
-            entries.push(Entry::Sign(dot_sign, 10.0, "no force".into()));
+            entries.push(Entry::Symbol(dot_symbol, 10.0, "no force".into()));
         }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
-            entries.push(Entry::Sign(
-                open_sign,
+            entries.push(Entry::Symbol(
+                open_symbol,
                 26.0,
                 "continues without limit".into(),
             ));
         }
         if plans.len() > 1 {
-            entries.push(Entry::Sign(
-                before_sign,
+            entries.push(Entry::Symbol(
+                before_symbol,
                 26.0,
                 "in the previous step".into(),
             ));
         }
         if plans.iter().any(|p| !p.pictures.is_empty()) {
-            entries.push(Entry::Sign(
-                number_sign,
+            entries.push(Entry::Symbol(
+                number_symbol,
                 14.0,
                 "how the structure begins to fall just beyond this edge, enlarged".into(),
             ));
@@ -348,7 +348,7 @@ fn open_end(end: PagePoint, other: PagePoint) -> Outline {
     ])
 }
 
-fn area_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn area_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let swatch = PageRect {
         at: at.moved(0.0, -6.5),
         width: 20.0,
@@ -363,11 +363,11 @@ fn area_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn dot_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot(at.moved(5.0, 0.0), theme).into()]
 }
 
-fn open_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn open_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let end = at.moved(19.0, 0.0);
     let stroke = Stroke::new(edge_colour(theme), EDGE_WIDTHS.1);
     vec![
@@ -376,12 +376,12 @@ fn open_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-fn before_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn before_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(26.0, 0.0)]);
     vec![Path::stroked(line, before_stroke(theme)).into()]
 }
 
-fn number_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn number_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let size = theme.sizes.amount;
     let at = at.moved(2.0, 0.36 * size);
     vec![Text::new(at, "1", Face::SansBold, size, edge_colour(theme)).into()]

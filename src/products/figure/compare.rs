@@ -24,7 +24,7 @@ use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Th
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// The radius of the ring around a change in unit edges, with its least and largest allowed radius in pixels.
+/// The radius of the ring around a change in unit lengths, with its least and largest allowed radius in pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
@@ -203,7 +203,7 @@ impl PanelContent for Comparison {
         }
         if came {
             let words = if altered { "new or changed" } else { "new" };
-            entries.push(Entry::Sign(new_sign, 20.0, words.to_owned()));
+            entries.push(Entry::Symbol(new_symbol, 20.0, words.to_owned()));
         }
         if went {
             let words = if altered {
@@ -211,11 +211,11 @@ impl PanelContent for Comparison {
             } else {
                 "gone"
             };
-            entries.push(Entry::Sign(gone_sign, 20.0, words.to_owned()));
+            entries.push(Entry::Symbol(gone_symbol, 20.0, words.to_owned()));
         }
         if changed {
             let what = "force changed by over 5 %; the previous force is faint".to_owned();
-            entries.push(Entry::Sign(ring_sign, 14.0, what));
+            entries.push(Entry::Symbol(ring_symbol, 14.0, what));
         }
         entries
     }
@@ -310,15 +310,15 @@ fn swatch(at: PagePoint) -> Outline {
     Outline::rounded(rect, 0.0)
 }
 
-fn new_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn new_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![new_path(swatch(at), theme).into()]
 }
 
-fn gone_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn gone_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![gone_path(swatch(at), theme).into()]
 }
 
-fn ring_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn ring_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let ring = Outline::circle(at.moved(7.0, 0.0), 6.0);
     vec![Path::stroked(ring, Stroke::new(theme.motion, 1.6)).into()]
 }

@@ -47,7 +47,7 @@ pub(crate) struct About {
     pub colours_show_amplitudes: bool,
     /// Whether the forces on each block are drawn. Arrows on one line are then moved apart.
     pub draws_forces: bool,
-    /// Whether arrows may be longer than a unit edge if unit edges are short on the page.
+    /// Whether arrows may be longer than a unit length if unit lengths are short on the page.
     pub stretches_arrows: bool,
     /// Whether lines are drawn across blocks. The letters of labels then have a border in the background colour.
     pub lines_cross_names: bool,
@@ -73,19 +73,19 @@ pub(crate) trait PanelContent: Sync {
         &[]
     }
 
-    /// Returns the force, in newtons, whose arrow is one unit edge long if each panel has its own scale of arrows. The
+    /// Returns the force, in newtons, whose arrow is one unit length long if each panel has its own scale of arrows. The
     /// result is 0 for a kind of figure without arrows.
     fn largest_force(&self, _of: FrameSource<'_>) -> f64 {
         0.0
     }
 
-    /// Returns the arrows of a frame. The arrow of a force of `newtons_per_unit` newtons is one unit edge long.
+    /// Returns the arrows of a frame. The arrow of a force of `newtons_per_unit` newtons is one unit length long.
     fn marks(&self, _of: FrameSource<'_>, _newtons_per_unit: f64) -> Marks {
         Marks::default()
     }
 
     /// Returns the paths along which the blocks of a frame are displaced. Returns an empty course if no block is
-    /// displaced. `unit` is the unit edge in metres.
+    /// displaced. `unit` is the unit length in metres.
     fn course(&self, _analysis: &Analysis, _frame: usize, _unit: f64) -> Course {
         Course::default()
     }
@@ -96,7 +96,7 @@ pub(crate) trait PanelContent: Sync {
     }
 
     /// Returns a box, in metres, around all items of a frame other than blocks, ground, robots and arrows. Returns
-    /// `None` if there are no such items. `unit` is the unit edge in metres.
+    /// `None` if there are no such items. `unit` is the unit length in metres.
     fn extent(&self, _of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
         None
     }
@@ -105,7 +105,7 @@ pub(crate) trait PanelContent: Sync {
     /// cut off.
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group;
 
-    /// Returns the entries of the legend, which explain all symbols in the figure. `unit` is the unit edge in pixels.
+    /// Returns the entries of the legend, which explain all symbols in the figure. `unit` is the unit length in pixels.
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry>;
 
     /// Returns the text below the verdict of a frame, which states the reason or the main result.
@@ -228,11 +228,11 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
 
 /// Least length of the longest arrow, pixels: in a single panel in a column of print (8.5 mm), and in other figures.
 const MIN_LONGEST_ARROW: (f64, f64) = (40.0, 34.0);
-/// Largest length of an arrow in unit edges: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
+/// Largest length of an arrow in unit lengths: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
 /// other figures.
-const MAX_ARROW_UNIT_EDGES: (f64, f64) = (3.0, 1.5);
-/// The same in a single panel in a column of print, where unit edges are short.
-const MAX_COLUMN_ARROW_UNIT_EDGES: (f64, f64) = (6.0, 3.5);
+const MAX_ARROW_UNIT_LENGTHS: (f64, f64) = (3.0, 1.5);
+/// The same in a single panel in a column of print, where unit lengths are short.
+const MAX_COLUMN_ARROW_UNIT_LENGTHS: (f64, f64) = (6.0, 3.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a fraction of the longer side of the shown part.
 const MAX_ARROW_SHARE: f64 = 0.25;
@@ -240,8 +240,8 @@ const MAX_ARROW_SHARE: f64 = 0.25;
 /// Least length of the longest arrow of a load, pixels.
 const MIN_LONGEST_LOAD_ARROW: f64 = 24.0;
 
-/// Returns two lengths. The first is the length of the longest arrow in unit edges, at least 1. It is larger than 1 if
-/// a unit edge is short on the page, so that small arrows keep a visible shaft. The second is the least length of the
+/// Returns two lengths. The first is the length of the longest arrow in unit lengths, at least 1. It is larger than 1 if
+/// a unit length is short on the page, so that small arrows keep a visible shaft. The second is the least length of the
 /// longest load arrow, in metres.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
@@ -251,8 +251,8 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     // Longer arrows need the space around one panel. Several panels are too narrow for them.
     let one_panel = options.is_column() && analysis.frames.len() == 1;
     let (least, (few, many)) = match one_panel {
-        true => (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_EDGES),
-        false => (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_EDGES),
+        true => (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_LENGTHS),
+        false => (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_LENGTHS),
     };
     let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
         true => many,

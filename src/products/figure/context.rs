@@ -1,4 +1,4 @@
-//! [`FigureContext`]: the data that all panels of a figure share, such as the unit edge, the view, the colours and the
+//! [`FigureContext`]: the data that all panels of a figure share, such as the unit length, the view, the colours and the
 //! arrows of each frame. The code in `content.rs` computes this data.
 
 use core::cell::{Cell, OnceCell};
@@ -15,8 +15,8 @@ use crate::geometry::{Bounds, Point, Vector};
 /// elements would make a file slow to open.
 pub(crate) const MANY_BLOCKS: usize = 1000;
 
-/// If a unit edge is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
-const MIN_UNIT_EDGE: f64 = 8.4;
+/// If a unit length is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
+const MIN_UNIT_LENGTH: f64 = 8.4;
 /// If every frame has fewer blocks than this, the figure always has arrows. A note counts the arrows that are too
 /// short to be visible.
 const MIN_CROWD: usize = 40;
@@ -32,7 +32,7 @@ pub(crate) struct FigureContext<'a> {
     /// Whether lines are drawn across blocks. The letters of labels then have a border in the background colour.
     pub lines_cross_names: bool,
     pub options: &'a Options,
-    /// The unit edge, metres.
+    /// The unit length, metres.
     pub unit: f64,
     /// A box around everything that each frame shows, metres.
     pub shown: Vec<Bounds>,
@@ -112,7 +112,7 @@ impl<'a> FigureContext<'a> {
         let frames = self.analysis.scene.frames.iter();
         let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
         most >= MIN_CROWD
-            && (self.unit * scale < MIN_UNIT_EDGE || self.few_arrows_visible(scale))
+            && (self.unit * scale < MIN_UNIT_LENGTH || self.few_arrows_visible(scale))
             && has_plain_block
             && !self.plain()
             && !self.options.printed()

@@ -26,10 +26,10 @@ pub(crate) use group::rigid_bodies;
 use linkage::Linkage;
 pub(crate) use rigid::Displacement;
 
-/// Least displacement of the fastest point, unit edges.
+/// Least displacement of the fastest point, unit lengths.
 const MIN_DISPLACEMENT: f64 = 0.35;
 /// Least displacement of the fastest point, as a fraction of the diagonal of the group. In an arch of many voussoirs,
-/// a displacement of a unit edge is too small to make an open hinge visible.
+/// a displacement of a unit length is too small to make an open hinge visible.
 const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;
@@ -58,7 +58,7 @@ struct GroupCourse {
 
 impl Course {
     /// Computes the paths of the blocks of a frame that falls. For any other frame the course is empty. `unit` is the
-    /// unit edge in metres.
+    /// unit length in metres.
     pub fn new(analysis: &Analysis, frame: usize, unit: f64) -> Course {
         if analysis.frames[frame].verdict != Verdict::Unstable {
             return Course::default();
@@ -185,7 +185,7 @@ pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> 
 }
 
 /// Returns the displacement, in metres, of a point of speed 1 at the end of the path of a group. Overlaps with other
-/// blocks are not considered. `unit` is the unit edge in metres.
+/// blocks are not considered. `unit` is the unit length in metres.
 fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);

@@ -110,7 +110,7 @@ impl Fills {
             }
             FillScale::Friction => (
                 ends("100 %".into()),
-                "largest share of the friction available at a joint of a block".into(),
+                "largest used share of the available friction at a joint of a block".into(),
             ),
             FillScale::Plain => (ends(String::new()), String::new()),
         }
@@ -132,7 +132,10 @@ impl Fills {
                 format!("colour: {}", quantity(share * largest, self.units.stress()))
             }
             FillScale::Friction => {
-                format!("colour: {:.1} % of the friction available", 100.0 * share)
+                format!(
+                    "colour: {:.1} % of the available friction used",
+                    100.0 * share
+                )
             }
             FillScale::Plain => String::new(),
         }

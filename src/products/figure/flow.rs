@@ -32,7 +32,7 @@ use crate::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, St
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 
-/// The width of the band of the largest force in unit edges, with its least and largest allowed width in pixels.
+/// The width of the band of the largest force in unit lengths, with its least and largest allowed width in pixels.
 const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
 /// Least width of a band, pixels; thinner bands are not visible.
 const MIN_BAND_WIDTH: f64 = 0.4;
@@ -41,7 +41,7 @@ const MAX_SINGLE_STRANDS: usize = 150;
 
 /// Width of the dashed edge of a band of missing forces, pixels.
 const MISSING_EDGE: f64 = 0.9;
-/// Width of the legend sign for a band of missing forces, pixels.
+/// Width of the legend symbol for a band of missing forces, pixels.
 const MISSING_SIGN: f64 = 26.0;
 
 /// The figure of force flow.
@@ -86,7 +86,7 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// Returns the largest magnitude of a load or missing force in a frame, N. A torque is divided by the unit edge and
+/// Returns the largest magnitude of a load or missing force in a frame, N. A torque is divided by the unit length and
 /// counts as a force.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
@@ -139,7 +139,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit length in pixels.
 fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_BAND_WIDTH;
     (width * unit).clamp(least, most)
@@ -293,7 +293,7 @@ impl<'a> Picture<'a> {
             let reach = mark.map_or(radius, |_| limit::reach(radius));
             ink.disc(at, reach + 1.0);
             let path = match mark {
-                Some(mark) => mark.sign(at, radius, self.theme),
+                Some(mark) => mark.symbol(at, radius, self.theme),
                 None => dot_at(at, radius, self.theme),
             };
             group.items.push(dot.with(path).into());
@@ -331,7 +331,7 @@ fn filled(outline: Outline, colour: Colour, kind: StrandKind, theme: &Theme) -> 
 }
 
 /// Draws a band of missing forces for the legend.
-fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let rect = PageRect {
         at: at.moved(0.0, -2.5),
         width: MISSING_SIGN,
@@ -342,7 +342,7 @@ fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![filled(outline, colour, StrandKind::Missing, theme).into()]
 }
 
-/// Returns the radius of the dot at a joint, in pixels. `unit` is the unit edge in pixels.
+/// Returns the radius of the dot at a joint, in pixels. `unit` is the unit length in pixels.
 fn dot(unit: f64) -> f64 {
     (0.06 * unit).clamp(1.1, 3.2)
 }
@@ -351,6 +351,6 @@ fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
 }
 
-fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn dot_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot_at(at.moved(4.0, 0.0), 3.0, theme).into()]
 }

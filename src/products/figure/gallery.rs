@@ -122,7 +122,7 @@ const PLATES: [(&str, Subject); 10] = [
 /// consider.
 ///
 /// Arrows are drawn as in the thesis: normal and friction forces have separate arrows, and the arrow of the largest
-/// single unknown is one unit edge long.
+/// single unknown is one unit length long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
     PLATES
         .iter()

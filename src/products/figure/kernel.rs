@@ -19,7 +19,7 @@ use crate::geometry::{Bounds, Point};
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.
 const KERNEL_TOL: f64 = 1.0 + 1e-6;
-/// The width of the line of a safe part in unit edges, with its least and largest allowed width in pixels.
+/// The width of the line of a safe part in unit lengths, with its least and largest allowed width in pixels.
 const SAFE_LINE_WIDTH: (f64, f64, f64) = (0.085, 1.6, 4.6);
 
 /// The figure of kernels.
@@ -57,10 +57,10 @@ impl PanelContent for Kernel {
         let mut entries = Vec::new();
         if frames.iter().any(|f| !f.contacts.is_empty()) {
             let safe = "safe part of an interface".to_owned();
-            entries.push(Entry::Sign(safe_sign, SIGN_WIDTH, safe));
+            entries.push(Entry::Symbol(safe_symbol, SYMBOL_WIDTH, safe));
             if scene.kernel > 0.0 {
                 let rest = format!("unsafe part, for a kernel of {}", scene.kernel);
-                entries.push(Entry::Sign(rest_sign, SIGN_WIDTH, rest));
+                entries.push(Entry::Symbol(rest_symbol, SYMBOL_WIDTH, rest));
             }
         }
         let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
@@ -71,11 +71,11 @@ impl PanelContent for Kernel {
         let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) =
             bearings.iter().partition(|b| at_end(b));
         if !within.is_empty() {
-            entries.push(Entry::Sign(within_sign, 9.0, "resultant".into()));
+            entries.push(Entry::Symbol(within_symbol, 9.0, "resultant".into()));
         }
         if !ends.is_empty() {
-            let what = "resultant at the end of the safe part".to_owned();
-            entries.push(Entry::Sign(end_sign, 11.0, what));
+            let what = "resultant at an end of the safe part".to_owned();
+            entries.push(Entry::Symbol(end_symbol, 11.0, what));
         }
         entries.extend(legend::robots(context));
         entries
@@ -140,13 +140,13 @@ fn at_end(bearing: &Bearing) -> bool {
         .is_some_and(|share| share >= FULL_UTILISATION)
 }
 
-/// Returns the width of the line of a safe part, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line of a safe part, in pixels. `unit` is the unit length in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = SAFE_LINE_WIDTH;
     (width * unit).clamp(least, most)
 }
 
-/// Returns the radius of the dot of a resultant, in pixels. `unit` is the unit edge in pixels.
+/// Returns the radius of the dot of a resultant, in pixels. `unit` is the unit length in pixels.
 fn dot(unit: f64) -> f64 {
     0.5 * bold(unit) + (0.045 * unit).clamp(0.8, 2.4)
 }
@@ -232,7 +232,7 @@ fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PageP
         let Some(bearing) = bearing else { continue };
         let at = pen.camera.place(contact.resultant.at);
         ink(at);
-        let (fill, outline) = sign(&bearing, at, radius, theme);
+        let (fill, outline) = resultant_symbol(&bearing, at, radius, theme);
         if pen.many() {
             joined.add(fill, outline);
             continue;
@@ -258,7 +258,12 @@ fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PageP
 
 /// Returns the colour and the outline of the mark of a resultant: a disc for a resultant inside the safe part, a
 /// diamond at an end of this part, and a red diamond outside it.
-fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
+fn resultant_symbol(
+    bearing: &Bearing,
+    at: PagePoint,
+    radius: f64,
+    theme: &Theme,
+) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;
         let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
@@ -269,30 +274,30 @@ fn sign(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour
     (theme.ink, Outline::circle(at, radius))
 }
 
-/// Width of the sign of an interface in the legend, pixels.
-const SIGN_WIDTH: f64 = 26.0;
+/// Width of the symbol of an interface in the legend, pixels.
+const SYMBOL_WIDTH: f64 = 26.0;
 
-fn safe_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+fn safe_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
     vec![Path::stroked(line, Stroke::new(theme.safe, 4.0)).into()]
 }
 
-fn rest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+fn rest_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
     vec![Path::stroked(line, rest_stroke(theme, 4.0)).into()]
 }
 
-fn within_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn within_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = Outline::circle(at.moved(4.5, 0.0), 3.6);
     vec![Path::filled(outline, theme.ink).into()]
 }
 
-fn end_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn end_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let end = Bearing {
         pressed: 1.0,
         eccentricity: Some(1.0),
         friction: None,
     };
-    let (fill, outline) = sign(&end, at.moved(5.5, 0.0), 3.8, theme);
+    let (fill, outline) = resultant_symbol(&end, at.moved(5.5, 0.0), 3.8, theme);
     vec![Path::filled(outline, fill).into()]
 }

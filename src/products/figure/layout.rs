@@ -23,10 +23,10 @@ const MAX_PAGE_RATIO: f64 = 1.2;
 const MAX_COLUMN_RATIO: f64 = 2.2;
 /// Height of the verdict and its text below a panel, pixels.
 const VERDICT_HEIGHT: f64 = 64.0;
-/// Longest unit edge in a strip, pixels.
-const MAX_UNIT_EDGE: f64 = 72.0;
-/// Shortest unit edge, pixels, if fewer columns can achieve it.
-const MIN_UNIT_EDGE: f64 = 30.0;
+/// Longest unit length in a strip, pixels.
+const MAX_UNIT_LENGTH: f64 = 72.0;
+/// Shortest unit length, pixels, if fewer columns can achieve it.
+const MIN_UNIT_LENGTH: f64 = 30.0;
 
 /// The part of a figure that has to fit on a page.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -151,7 +151,7 @@ impl Row<'_> {
         // If the rows may be distributed over several pages, panels may have a small scale, but they must not be
         // narrow.
         let fits = |columns: usize| {
-            (fit == Fit::Rows || self.scale(columns) * self.context.unit >= MIN_UNIT_EDGE)
+            (fit == Fit::Rows || self.scale(columns) * self.context.unit >= MIN_UNIT_LENGTH)
                 && self.room(columns) >= MIN_PANEL_WIDTH.min(across)
         };
         let most = match count {
@@ -205,7 +205,7 @@ impl Row<'_> {
         };
         let scale = ((wide - dimensions(context)).max(1.0) / context.view.width())
             .min(high / context.view.height())
-            .min(MAX_UNIT_EDGE / context.unit);
+            .min(MAX_UNIT_LENGTH / context.unit);
         // The scale is infinite if the size of the scene is 0 or tiny. Use 1 in this case.
         if scale.is_finite() { scale } else { 1.0 }
     }

@@ -104,10 +104,10 @@ impl<'a> MarkedJoint<'a> {
 
     /// Returns the diamond that marks the joint at `at`: filled if the joint is at its limit, otherwise open. `radius`
     /// is in pixels.
-    pub(crate) fn sign(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
+    pub(crate) fn symbol(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
         match self.reached {
-            true => sign(at, radius, theme),
-            false => open_sign(at, radius, theme),
+            true => symbol(at, radius, theme),
+            false => open_symbol(at, radius, theme),
         }
     }
 }
@@ -167,12 +167,12 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
 const LEAST_DIAMOND: f64 = 2.9;
 
 /// Returns the symbol of a joint at its limit: a filled diamond. `radius` is in pixels.
-fn sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+fn symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(diamond(at, reach(radius)), theme.ink).cased(theme.page, 0.35 * radius)
 }
 
 /// Returns the symbol of the joint nearest to its limit: an open diamond. `radius` is in pixels.
-fn open_sign(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+fn open_symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     let outline = diamond(at, reach(radius));
     Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
 }
@@ -188,9 +188,9 @@ fn diamond(at: PagePoint, r: f64) -> Outline {
 }
 
 /// Draws the symbol of a joint at its limit for the legend.
-pub(crate) fn key_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    vec![sign(at.moved(5.5, 0.0), 3.2, theme).into()]
+pub(crate) fn key_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![symbol(at.moved(5.5, 0.0), 3.2, theme).into()]
 }
 
-/// The meaning of the sign in the legend.
+/// The meaning of the symbol in the legend.
 pub(crate) const LEGEND_TEXT: &str = "joint at its limit: friction used up, or force at the edge";

@@ -148,19 +148,19 @@ impl PanelContent for CollapseMargin {
         let joints: Vec<Vec<Joint>> = ghosts.map(|(f, ghost)| joints(&ghost, f)).collect();
         if !joints.is_empty() {
             let ghost = "how it would begin to fall".to_owned();
-            entries.push(Entry::Sign(ghost_sign, 20.0, ghost));
+            entries.push(Entry::Symbol(ghost_symbol, 20.0, ghost));
             entries.extend(mechanism::joint_entries(&joints.concat()));
             match toward {
                 Toward::Tilt => {
                     let gravity =
                         "direction of gravity at the margin; pale: at its other end".to_owned();
-                    entries.push(Entry::Sign(gravity_sign, 26.0, gravity));
+                    entries.push(Entry::Symbol(gravity_symbol, 26.0, gravity));
                 }
                 Toward::HorizontalLoad => {
                     let push =
                         "largest additional load perpendicular to gravity; pale: the other way"
                             .to_owned();
-                    entries.push(Entry::Sign(push_sign, 26.0, push));
+                    entries.push(Entry::Symbol(push_symbol, 26.0, push));
                 }
                 Toward::LoadFactor => {}
             }
@@ -200,7 +200,7 @@ fn falling_copy(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(An
 }
 
 /// Returns how the blocks are displaced by the mechanism just beyond the margin, indexed by block, and the value of the
-/// parameter at the margin. Returns `None` if there is no margin. `unit` is the unit edge in metres.
+/// parameter at the margin. Returns `None` if there is no margin. `unit` is the unit length in metres.
 fn displacements_beyond_margin(
     analysis: &Analysis,
     frame: usize,
@@ -292,7 +292,7 @@ fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
     Path::stroked(outline, stroke)
 }
 
-fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
+fn ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     let swatch = PageRect {
         at: at.moved(0.0, -6.5),
         width: 20.0,
@@ -301,7 +301,7 @@ fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     vec![ghost_path(Outline::rounded(swatch, 0.0), 1.0, theme).into()]
 }
 
-fn gravity_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
+fn gravity_symbol(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     let from = at.moved(8.0, -8.0);
     let now = Outline::line([from, from.moved(0.0, 16.0)]);
     let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
@@ -311,7 +311,7 @@ fn gravity_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     ]
 }
 
-fn push_sign(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
+fn push_symbol(at: PagePoint, theme: &Theme) -> Vec<crate::drawing::Item> {
     let from = at.moved(4.0, -8.0);
     let now = Outline::line([from, from.moved(0.0, 16.0)]);
     let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);

@@ -18,7 +18,7 @@ use super::joint::{Joint, joints};
 use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
-use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_EDGE, Pen};
+use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_LENGTH, Pen};
 use super::thrust;
 use super::verdict;
 use super::words::quantity;
@@ -29,9 +29,9 @@ use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, BodyId};
 use crate::wording;
 
-/// Radius of the ring of a hinge, unit edges.
+/// Radius of the ring of a hinge, unit lengths.
 const HINGE_RADIUS: f64 = 0.085;
-/// Length of a half-arrow and its distance from the interface, unit edges.
+/// Length of a half-arrow and its distance from the interface, unit lengths.
 const SLIP_ARROW: (f64, f64) = (0.5, 0.11);
 /// Length of the barb of a half-arrow, as a fraction of the arrow.
 const BARB_LENGTH: f64 = 0.34;
@@ -128,9 +128,9 @@ impl PanelContent for Mechanism {
             .any(|f| !analysis.frames[f].mechanism.is_empty())
         {
             let stood = "where the blocks stand now".to_owned();
-            entries.push(Entry::Sign(ghost_sign, SIGN_WIDTH, stood));
+            entries.push(Entry::Symbol(ghost_symbol, SYMBOL_WIDTH, stood));
             let goes = "how the blocks begin to move, enlarged".to_owned();
-            entries.push(Entry::Sign(moved_sign, SIGN_WIDTH, goes));
+            entries.push(Entry::Symbol(moved_symbol, SYMBOL_WIDTH, goes));
         }
         entries.extend(joint_entries(&joints));
         entries.extend(legend::loads(context));
@@ -166,7 +166,7 @@ pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> 
 pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     let mut entries = Vec::new();
     if joints.iter().any(|j| j.hinge.is_some()) {
-        entries.push(Entry::Sign(ring_sign, 10.0, "hinge".into()));
+        entries.push(Entry::Symbol(ring_symbol, 10.0, "hinge".into()));
     }
     if joints.iter().any(|j| j.slip != 0.0) {
         let slides = if joints.iter().any(|j| j.lift != 0.0) {
@@ -174,7 +174,7 @@ pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
         } else {
             "slides along its joint"
         };
-        entries.push(Entry::Sign(slip_sign, 26.0, slides.to_owned()));
+        entries.push(Entry::Symbol(slip_symbol, 26.0, slides.to_owned()));
     }
     entries
 }
@@ -221,7 +221,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     let width = pen.line.clamp(0.6, 1.1);
     let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
     // Small outlines are partly transparent, so that many of them do not hide the displaced blocks.
-    let opacity = if pen.unit() < MIN_READABLE_UNIT_EDGE {
+    let opacity = if pen.unit() < MIN_READABLE_UNIT_LENGTH {
         0.6
     } else {
         1.0
@@ -369,14 +369,14 @@ fn half_arrow(
 }
 
 /// Width of the sign of a block in the legend, pixels.
-const SIGN_WIDTH: f64 = 20.0;
+const SYMBOL_WIDTH: f64 = 20.0;
 
-fn ghost_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let stroke = Stroke::new(theme.outline, 1.2).dashed([4.0, 3.0]);
     vec![Path::stroked(Outline::rounded(swatch(at), 0.0), stroke).into()]
 }
 
-fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn moved_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = Outline::rounded(swatch(at), 0.0);
     let edge = Stroke::new(theme.motion.mixed(theme.ink, 0.25), 1.2);
     vec![
@@ -390,16 +390,16 @@ fn moved_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 fn swatch(at: PagePoint) -> PageRect {
     PageRect {
         at: at.moved(0.0, -6.5),
-        width: SIGN_WIDTH,
+        width: SYMBOL_WIDTH,
         height: 13.0,
     }
 }
 
-fn ring_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn ring_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![ring(at.moved(5.0, 0.0), 4.5, theme).into()]
 }
 
-fn slip_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn slip_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let mut items = Vec::new();
     items.extend(half_arrow(
         at.moved(0.0, -3.5),

@@ -15,7 +15,7 @@ pub enum ForceStyle {
     Components,
 }
 
-/// The force whose arrow is one unit edge long. The unit edge is the side of a lattice cell, or a typical size of a
+/// The force whose arrow is one unit length long. The unit length is the side of a lattice cell, or a typical size of a
 /// block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -24,7 +24,7 @@ pub enum Normalisation {
     #[default]
     Drawn,
     /// The largest weight, load or single unknown of the analysis (normal force of a corner, friction force of an
-    /// interface, force component of a robot). Arrows of sums can then be longer than one unit edge. Each block has a
+    /// interface, force component of a robot). Arrows of sums can then be longer than one unit length. Each block has a
     /// separate scale for its missing forces. The figures of the thesis use this scale.
     Source,
 }
@@ -80,7 +80,7 @@ pub enum Corners {
 pub struct Options {
     /// Whether the force of an interface is drawn as one arrow or as components.
     pub style: ForceStyle,
-    /// The force whose arrow is one unit edge long.
+    /// The force whose arrow is one unit length long.
     pub normalisation: Normalisation,
     /// Whether each panel has its own scale of arrows or all panels share one scale.
     pub scale: ArrowScale,
@@ -158,7 +158,7 @@ const PRINT_COLUMN: f64 = 520.0;
 impl Options {
     setters! {
         style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
-        normalisation: Normalisation, "The force whose arrow is one unit edge long.";
+        normalisation: Normalisation, "The force whose arrow is one unit length long.";
         scale: ArrowScale, "Whether each panel has its own scale of arrows or all panels share one scale.";
         fill: Fill, "The quantity that the colours of blocks show, such as stresses.";
         corners: Corners, "Which forces of interfaces a free-body diagram shows.";

@@ -4,7 +4,7 @@
 use super::joint_name::joint_name;
 use super::label::{self, Callout};
 use super::limit;
-use super::pen::{MIN_READABLE_UNIT_EDGE, Pen};
+use super::pen::{MIN_READABLE_UNIT_LENGTH, Pen};
 use super::unit::unit;
 use super::view;
 use crate::drawing::placement::Ink;
@@ -36,7 +36,7 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
         }
         .into(),
     );
-    if !many && !too_small && pen.unit() >= MIN_READABLE_UNIT_EDGE {
+    if !many && !too_small && pen.unit() >= MIN_READABLE_UNIT_LENGTH {
         group.items.push(pen.heads().into());
     }
     group.items.push(pen.arrows(true).into());
@@ -65,9 +65,9 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let pair = joint_name(scene, frame_analysis, contact);
         let is = if marked.reached { "at" } else { "nearest to" };
         let title = format!("The joint between {pair} is {is} its limit");
-        let sign = marked.sign(at, radius, theme);
-        let sign = Group::with_class("limit").titled(title).with(sign);
-        group.items.push(sign.into());
+        let symbol = marked.symbol(at, radius, theme);
+        let mark = Group::with_class("limit").titled(title).with(symbol);
+        group.items.push(mark.into());
     }
     group
 }

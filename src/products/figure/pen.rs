@@ -23,14 +23,14 @@ pub(crate) const DOT_RADIUS: f64 = 2.8;
 /// Radius of the dot of a missing force that is too small for an arrow, pixels.
 pub(crate) const MISSING_RADIUS: f64 = 1.6;
 
-/// If a unit edge is shorter than this, pixels, single arrows cannot be read, and small signs on arrows are left out.
-pub(crate) const MIN_READABLE_UNIT_EDGE: f64 = 20.0;
+/// If a unit length is shorter than this, pixels, single arrows cannot be read, and small symbols on arrows are left out.
+pub(crate) const MIN_READABLE_UNIT_LENGTH: f64 = 20.0;
 /// Opacity of the fill of a displaced block.
 pub(crate) const DISPLACED_OPACITY: f64 = 0.38;
-/// If a unit edge is at least this long, pixels, outlines have their full width.
-const FULL_OUTLINE_UNIT_EDGE: f64 = 1.5 / 0.028;
-/// If a unit edge is at least this long, pixels, borders of arrows have their full width.
-const FULL_CASING_UNIT_EDGE: f64 = 0.9 / 0.012;
+/// If a unit length is at least this long, pixels, outlines have their full width.
+const FULL_OUTLINE_UNIT_LENGTH: f64 = 1.5 / 0.028;
+/// If a unit length is at least this long, pixels, borders of arrows have their full width.
+const FULL_CASING_UNIT_LENGTH: f64 = 0.9 / 0.012;
 /// Least width of a shaft, pixels, if blocks are large enough for it.
 const MIN_SHAFT_WIDTH: f64 = 2.5;
 
@@ -98,10 +98,10 @@ impl<'a> Pen<'a> {
             context,
             number,
             camera,
-            line: (unit / FULL_OUTLINE_UNIT_EDGE).clamp(1.0 / 6.0, 1.0) * widths.outline,
-            casing: (unit / FULL_CASING_UNIT_EDGE).clamp(1.0 / 9.0, 1.0) * widths.casing,
+            line: (unit / FULL_OUTLINE_UNIT_LENGTH).clamp(1.0 / 6.0, 1.0) * widths.outline,
+            casing: (unit / FULL_CASING_UNIT_LENGTH).clamp(1.0 / 9.0, 1.0) * widths.casing,
             // If blocks are very small on the page, wider arrows would hide them.
-            wider: if unit < MIN_READABLE_UNIT_EDGE {
+            wider: if unit < MIN_READABLE_UNIT_LENGTH {
                 1.0
             } else {
                 (MIN_SHAFT_WIDTH / (widths.force * unit)).clamp(1.0, 1.35)
@@ -109,7 +109,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns the unit edge in pixels.
+    /// Returns the unit length in pixels.
     pub(crate) fn unit(&self) -> f64 {
         self.camera.length(self.context.unit)
     }

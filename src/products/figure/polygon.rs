@@ -34,7 +34,7 @@ const POLYGON_SIZE: f64 = 0.75;
 const POLYGON_HEIGHT: f64 = 0.4;
 /// Longest arrow that shows the scale of a polygon in the legend, pixels.
 const SCALE_ARROW: f64 = 64.0;
-/// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit edges.
+/// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit lengths.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
 /// A polygon is closed if its gap is at most this fraction of the sum of all forces. Rounding errors are far smaller,
 /// and missing forces are far larger.
@@ -119,7 +119,7 @@ impl PanelContent for ForcePolygon {
         let mut sides = context.marks.iter().flat_map(outer);
         if sides.any(|arrow| arrow.kind.is_failure()) {
             let what = "side of the polygon that shows a missing force".to_owned();
-            entries.push(Entry::Sign(missing_sign, 26.0, what));
+            entries.push(Entry::Symbol(missing_symbol, 26.0, what));
         }
         let frames = context.marks.iter().enumerate();
         let scales = frames.filter_map(|(frame, marks)| {
@@ -341,7 +341,7 @@ fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
     Path::filled(outline, theme.page).with_stroke(edge)
 }
 
-fn missing_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = straight(at, (26.0, 0.0), 4.0);
     vec![missing(outline, theme.failure, theme).into()]
 }

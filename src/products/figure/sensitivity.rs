@@ -85,7 +85,7 @@ impl PanelContent for CornerEffects {
         let mut entries = Vec::new();
         if plans.iter().any(|plan| !plan.arrows.is_empty()) {
             let words = "direction in which to move a corner; the length shows the effect";
-            entries.push(Entry::Sign(arrow_sign, 26.0, words.into()));
+            entries.push(Entry::Symbol(arrow_symbol, 26.0, words.into()));
         }
         let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
         if let Some(plan) = plans.iter().max_by(strongest) {
@@ -97,12 +97,12 @@ impl PanelContent for CornerEffects {
             .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
         {
             let words = "one of the most effective moves: new value below";
-            entries.push(Entry::Sign(numbered_sign, 26.0, words.into()));
+            entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
             let words = "change of a weight, load or joint: new value below";
             let wide = 1.6 * disc_radius(&context.options.theme);
-            entries.push(Entry::Sign(disc_sign, wide, words.into()));
+            entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
         }
         entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
@@ -313,7 +313,7 @@ fn format_change(kind: MarginKind, amount: f64) -> String {
     }
 }
 
-/// Returns the width of the shaft of an arrow, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the shaft of an arrow, in pixels. `unit` is the unit length in pixels.
 fn width(unit: f64, is_numbered: bool) -> f64 {
     let width = (0.045 * unit).clamp(1.4, 2.6);
     match is_numbered {
@@ -351,15 +351,15 @@ fn numbered(at: PagePoint, number: usize, theme: &Theme) -> Group {
         .with(words.anchored(Anchor::Middle))
 }
 
-fn arrow_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn arrow_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![Path::filled(straight(at, (26.0, 0.0), 2.0), colour(theme, false)).into()]
 }
 
-fn numbered_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn numbered_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![Path::filled(straight(at, (26.0, 0.0), 3.0), colour(theme, true)).into()]
 }
 
-fn disc_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn disc_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let radius = 0.8 * disc_radius(theme);
     let disc = Outline::circle(at.moved(radius, 0.0), radius);
     vec![Path::filled(disc, number_colour(theme)).into()]

@@ -10,7 +10,7 @@ use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::scene::{Body, shape};
 
 /// Length of the side of a lattice cell, pixels.
-const UNIT_EDGE: f64 = 46.0;
+const UNIT_LENGTH: f64 = 46.0;
 /// Largest width of a row of shapes, pixels.
 const MAX_ROW_WIDTH: f64 = 900.0;
 
@@ -85,7 +85,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     let shapes = named.iter();
     let shapes = shapes.filter_map(|(name, cells)| SheetShape::new(lattice, name, cells));
     let shapes: Vec<SheetShape<'_>> = shapes.collect();
-    let scale = UNIT_EDGE / lattice.side;
+    let scale = UNIT_LENGTH / lattice.side;
     // The shapes of a row are on the same baseline. The tallest shape of the sheet determines the height of all rows.
     let heights = shapes.iter().map(|shape| shape.view.height() * scale);
     let tallest = heights.fold(0.0, f64::max);

@@ -11,7 +11,9 @@ mod line;
 mod state;
 
 use fan::Fans;
-use line::{carried_colour, colour, dot_sign, dots, lines, schematic_colour, seams, widest, width};
+use line::{
+    carried_colour, colour, dot_symbol, dots, lines, schematic_colour, seams, widest, width,
+};
 use state::{central_thrust_text, limit_entries, limits, other_figures_note, uniqueness_note};
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
@@ -152,7 +154,7 @@ impl PanelContent for ThrustLine {
                 true => "resultant",
                 false => "where a joint's resultant acts",
             };
-            entries.push(Entry::Sign(dot_sign, 8.0, dot.to_owned()));
+            entries.push(Entry::Symbol(dot_symbol, 8.0, dot.to_owned()));
             entries.extend(limit_entries(context));
         }
         if schematic {
@@ -177,14 +179,16 @@ impl PanelContent for ThrustLine {
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }
-            Verdict::Unstable => "the path of the carried forces is no line of equilibrium".into(),
-            Verdict::Undecided => format!("no line of equilibrium is proved; {why}"),
+            Verdict::Unstable => {
+                "the line shows the carried forces only, so it is not in equilibrium".into()
+            }
+            Verdict::Undecided => format!("no line of thrust is proved; {why}"),
         }
     }
 }
 
 /// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. The arrow of a
-/// load of `newtons_per_unit` newtons is one unit edge long.
+/// load of `newtons_per_unit` newtons is one unit length long.
 pub(crate) fn marks(
     analysis: &Analysis,
     frame: usize,
@@ -215,7 +219,7 @@ pub(crate) fn marks(
     }
 }
 
-/// Returns the load whose arrow is one unit edge long, N, so that the arrow of the largest load of a frame has a
+/// Returns the load whose arrow is one unit length long, N, so that the arrow of the largest load of a frame has a
 /// readable length. Weights are not loads.
 pub(crate) fn load_scale(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
     let loads = scene
@@ -243,7 +247,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
 }
 
 /// Returns the force polygon for the line of thrust that the figure shows. Returns `None` if the frame does not stand,
-/// or if no chain of blocks has a horizontal thrust. `unit` is the unit edge in metres.
+/// or if no chain of blocks has a horizontal thrust. `unit` is the unit length in metres.
 fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
     let scene = &analysis.scene;
     let frame_analysis = &analysis.frames[frame];

@@ -1,4 +1,4 @@
-//! [`unit`]: computes the unit edge, a typical size of the blocks. Arrows and labels are scaled with this length.
+//! [`unit`]: computes the unit length, a typical size of the blocks. Arrows and labels are scaled with this length.
 
 use super::view;
 use crate::geometry::Bounds;
@@ -7,7 +7,7 @@ use crate::scene::{Block, BlockId, Scene};
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// Returns the unit edge in metres. On a lattice, this is the side of a cell, unless the blocks are larger. Otherwise
+/// Returns the unit length in metres. On a lattice, this is the side of a cell, unless the blocks are larger. Otherwise
 /// it is 0.6·√A, about the edge of a regular hexagon of area A. A is the area of the median block, or the mean area if
 /// this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its surroundings.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
@@ -40,7 +40,7 @@ const LONGEST_LOAD: f64 = 0.1;
 pub(crate) const LOAD_SHAFT: f64 = 0.055;
 
 /// Returns the length of the longest arrow of a load in figures that show no other forces to the same scale, metres. It
-/// is at least the unit edge.
+/// is at least the unit length.
 pub(crate) fn longest_load(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let edge = unit(scene, zoom);
     let blocks = scene.blocks.iter();

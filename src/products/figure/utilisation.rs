@@ -4,7 +4,7 @@
 //! The forces shown are one of many equilibrium states. In another state, some joints may use less friction, and other
 //! joints more.
 
-mod sign;
+mod symbol;
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
@@ -22,9 +22,9 @@ use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
 use crate::scene::Scene;
-use sign::{SIGN_WIDTH, full_sign, idle_sign, smooth_sign};
+use symbol::{SYMBOL_WIDTH, full_symbol, idle_symbol, smooth_symbol};
 
-/// The width of the line of an interface in unit edges, with its least and largest allowed width in pixels.
+/// The width of the line of an interface in unit lengths, with its least and largest allowed width in pixels.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
 /// Length of the bar across an interface that uses all its friction, as a multiple of the width of its line.
 const BAR_LENGTH: f64 = 3.2;
@@ -72,9 +72,9 @@ impl PanelContent for Utilisation {
         let shared = all.iter().flatten().any(|b| b.friction.is_some());
         if shared || robots {
             let what = match (shared, robots) {
-                (true, false) => "of the friction available",
+                (true, false) => "of the available friction",
                 (false, _) => "of a robot's limits",
-                (true, true) => "of the friction available; in discs, of a robot's limits",
+                (true, true) => "of the available friction; in discs, of a robot's limits",
             };
             let ends = ["0".to_owned(), "100 %".to_owned()];
             entries.push(Entry::Amplitudes(
@@ -94,14 +94,14 @@ impl PanelContent for Utilisation {
             } else {
                 "all of it: about to slide".to_owned()
             };
-            entries.push(Entry::Sign(full_sign, SIGN_WIDTH, all));
+            entries.push(Entry::Symbol(full_symbol, SYMBOL_WIDTH, all));
         }
         if all.iter().flatten().any(|b| b.friction.is_none()) {
             let smooth = "no friction available".to_owned();
-            entries.push(Entry::Sign(smooth_sign, SIGN_WIDTH, smooth));
+            entries.push(Entry::Symbol(smooth_symbol, SYMBOL_WIDTH, smooth));
         }
         if all.iter().any(Option::is_none) {
-            entries.push(Entry::Sign(idle_sign, SIGN_WIDTH, "no force".into()));
+            entries.push(Entry::Symbol(idle_symbol, SYMBOL_WIDTH, "no force".into()));
         }
         entries.extend(legend::robots(context));
         entries
@@ -156,15 +156,13 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         None => {}
         Some((share, _)) if share < 1e-6 => stated.push("no interface uses friction".to_owned()),
         Some(_) if sliding > 1 => {
-            stated.push(format!(
-                "{sliding} interfaces use all the friction available"
-            ));
+            stated.push(format!("{sliding} interfaces use all of their friction"));
         }
         Some((share, contact)) => {
             let pair = joint_name(scene, frame_analysis, contact);
             let share = percent(share);
             stated.push(format!(
-                "most between {pair}: {share} of the friction available"
+                "most between {pair}: {share} of the available friction"
             ));
         }
     }
@@ -198,7 +196,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     }
 }
 
-/// Returns the width of the line of an interface, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line of an interface, in pixels. `unit` is the unit length in pixels.
 fn bold(unit: f64) -> f64 {
     let (width, least, most) = LINE_WIDTH;
     (width * unit).clamp(least, most)
@@ -309,7 +307,7 @@ fn used_interface(pen: &Pen<'_>, contact: &Contact, bearing: &Bearing) -> Group 
     let pressed = quantity(bearing.pressed, scene.units.force());
     let title = match bearing.friction {
         Some(share) => format!(
-            "Between {pair}: {} of the friction available, {} under {pressed}",
+            "Between {pair}: {} of the available friction, {} under {pressed}",
             percent(share),
             quantity(contact.friction_force.abs(), scene.units.force()),
         ),

@@ -5,19 +5,19 @@ use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// The width of ground shown beyond the blocks, as a fraction of the structure's diagonal; at least one unit edge is
+/// The width of ground shown beyond the blocks, as a fraction of the structure's diagonal; at least one unit length is
 /// shown.
 const SIDE_GROUND_SHARE: f64 = 0.12;
-/// A piece of ground near the structure is not cut if both its width and its height are at most this, unit edges.
+/// A piece of ground near the structure is not cut if both its width and its height are at most this, unit lengths.
 const MAX_UNCUT_GROUND: f64 = 3.0;
 /// Distance from a block to the edge of its zoomed view, as a fraction of the block's larger side.
 const ZOOM_PADDING: f64 = 0.5;
-/// Space around all shown items, unit edges.
+/// Space around all shown items, unit lengths.
 const PADDING: f64 = 0.08;
 
 /// Returns, for each frame, a box in metres around everything that the frame shows: blocks, planned blocks, arrows
 /// (`marks`), robots, the box `reach` of other items, and the ground near the blocks of any frame. `disc` is the radius
-/// of a robot's disc in unit edges; `unit` is the unit edge in metres.
+/// of a robot's disc in unit lengths; `unit` is the unit length in metres.
 pub(crate) fn shown(
     scene: &Scene,
     marks: &[Marks],
@@ -71,7 +71,7 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
 }
 
 /// Returns a box, in metres, around the part of the ground that the figures of a scene show: the ground near the blocks,
-/// or all of the ground if no block is shown. Returns `None` if there is no such ground. `unit` is the unit edge in
+/// or all of the ground if no block is shown. Returns `None` if there is no such ground. `unit` is the unit length in
 /// metres.
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());

@@ -260,7 +260,7 @@ fn every_kind_of_figure_states_what_it_shows() {
         ),
         (
             "thrust",
-            "is no line of equilibrium",
+            "so it is not in equilibrium",
             "line of thrust, this thick for",
         ),
         (

@@ -41,7 +41,7 @@ impl Settings {
     }
 
     /// Compares the settings with those of an earlier run; `earlier` is the header of its resume file. Returns a text
-    /// for each setting that differs, with its name, its earlier value and its present value.
+    /// for each setting that differs, with its name, its earlier value and its current value.
     fn differences(&self, earlier: &str) -> Vec<String> {
         let value_then = |name: &str| {
             let mut pairs = earlier.lines().filter_map(|line| line.split_once(": "));

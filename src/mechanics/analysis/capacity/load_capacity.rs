@@ -47,7 +47,8 @@ pub struct LoadCapacity {
     /// How the frame begins to fall whatever the force is. If each of several cases carries some forces, but none in
     /// common, this is the motion of one edge of a case. Empty unless the set is empty and a motion proves this.
     pub mechanism: Vec<Motion>,
-    /// The number of extreme cases in which each of these forces is carried; 1 if no range was given.
+    /// The number of extreme cases of the given ranges. The structure carries each force of this result in all of
+    /// these cases. It is 1 if no range was given.
     pub cases: usize,
 }
 

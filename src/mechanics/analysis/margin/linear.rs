@@ -1,6 +1,6 @@
 //! Computes the values of a parameter between which a component stands, if its loads are linear in the parameter.
 //!
-//! 1. If the component falls at the present value, find the nearest value at which it stands ([`nearest_start`]).
+//! 1. If the component falls at the current value, find the nearest value at which it stands ([`nearest_start`]).
 //! 2. From a value at which it stands, find the end in each direction ([`end`]): one linear program, confirmed by
 //!    verdicts.
 
@@ -14,7 +14,7 @@ use crate::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
 /// A value at which the component stands.
 struct Start {
     value: f64,
-    /// The end that faces the present value, according to the linear program; `None` if the component stands there.
+    /// The end that faces the current value, according to the linear program; `None` if the component stands there.
     facing_end: Option<f64>,
 }
 
@@ -145,7 +145,7 @@ fn solved_closer(
 }
 
 /// Finds the end of the interval in the direction `outward` from `start`, a value at which the component stands. `base`
-/// is the present value if the component stands there, otherwise `None`.
+/// is the current value if the component stands there, otherwise `None`.
 fn end(
     trial: &mut Trial,
     line: &Line,

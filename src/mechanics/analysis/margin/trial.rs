@@ -222,7 +222,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Adds the results of the program for an end of an interval to the cache: its forces, for the value `at`, and its
-    /// motion, for the value `beyond`. If `base` (the present value) is given, also adds interpolated forces for the
+    /// motion, for the value `beyond`. If `base` (the current value) is given, also adds interpolated forces for the
     /// value `inside`.
     pub fn cache_extreme(
         &mut self,

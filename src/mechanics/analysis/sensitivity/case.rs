@@ -9,7 +9,7 @@ use crate::solve::{LimitState, limit_state};
 
 /// One component at one end of the interval of a parameter.
 pub(super) struct Case<'a> {
-    /// The component with the present values of all parameters.
+    /// The component with the current values of all parameters.
     pub component: &'a Assembly,
     /// The parameter whose interval ends.
     pub kind: MarginKind,

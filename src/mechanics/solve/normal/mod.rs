@@ -55,7 +55,7 @@ const MIN_BLOCKS: usize = 60;
 
 /// A structure is a chain, such as an arch, if its factor takes fewer operations than this for each unknown.
 ///
-/// If a chain ends here without a status, clarabel solves it. Chains take little time in either solver. Long chains
+/// If a chain ends here without a result, clarabel solves it. Chains take little time in either solver. Long chains
 /// lose digits in the normal equations: for an arch of 10 000 stones a residual of 10⁻⁶ of the loads remains.
 const CHAIN_OPERATIONS: f64 = 1e3;
 
@@ -63,10 +63,10 @@ const CHAIN_OPERATIONS: f64 = 1e3;
 /// factor.
 const MAX_COLUMN_ENTRIES: usize = 12;
 
-/// Solves a program. Returns an optimum, a certificate that there is no optimum, or an answer without a status.
+/// Solves a program. Returns an optimum, a certificate that there is no optimum, or an answer without a result.
 ///
 /// Returns `None` if clarabel should solve the program. This is the case if it has few blocks or another form, or if
-/// no order of elimination was found. It is also the case if the method ended without a status for a chain or for a
+/// no order of elimination was found. It is also the case if the method ended without a result for a chain or for a
 /// program with squares, which clarabel may still solve.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     let rows = match problem.equalities {
@@ -111,7 +111,7 @@ fn solve_any_size(
         loads: &factor.to_elimination_order(&loads),
         velocity_weight: f64::from(u8::from(form == LinearForm::ShortestVelocities)),
     };
-    // If the method ends without a status for a chain or for the shortest velocities, clarabel is tried.
+    // If the method ends without a result for a chain or for the shortest velocities, clarabel is tried.
     let solution = interior_point::solve(&lp, &mut factor, criteria);
     if (is_chain || form == LinearForm::ShortestVelocities) && solution.termination.is_none() {
         return None;

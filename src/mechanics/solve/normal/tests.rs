@@ -240,7 +240,7 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     };
     let unsolved = |least_work: f64| solve_any_size(&plain, few, least_work);
     assert!(unsolved(0.0).is_some_and(|a| a.status == Status::Unsolved));
-    assert!(unsolved(1e9).is_none(), "a chain without a status");
+    assert!(unsolved(1e9).is_none(), "a chain without a result");
     let mut squared = plain.clone();
     squared.quadratic.push((0, 0, 1.0));
     let mut heavy = plain.clone();

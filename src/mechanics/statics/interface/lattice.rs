@@ -11,7 +11,7 @@ use crate::scene::{BodyId, Scene};
 
 type Node = (i64, i64);
 
-/// The bodies that own each unit edge of a lattice. When a block is added to a structure, its contacts are looked up
+/// The bodies that own each unit length of a lattice. When a block is added to a structure, its contacts are looked up
 /// here.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LatticeEdges {
@@ -56,7 +56,7 @@ impl LatticeEdges {
         lattice: &Lattice,
         edges: impl Iterator<Item = ((Node, Node), BodyId)>,
     ) -> Vec<Interface> {
-        // The unit edges that each pair of bodies shares in each direction, as a map from start node to end node. The
+        // The unit lengths that each pair of bodies shares in each direction, as a map from start node to end node. The
         // direction is that of the first body's edge.
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
@@ -86,7 +86,7 @@ pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
     edges.interfaces(scene, lattice, all)
 }
 
-/// Joins consecutive unit edges between the same two bodies along one line into one interface each.
+/// Joins consecutive unit lengths between the same two bodies along one line into one interface each.
 fn joined(
     scene: &Scene,
     lattice: &Lattice,

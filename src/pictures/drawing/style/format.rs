@@ -173,15 +173,15 @@ type WidthField = (
 );
 
 const WIDTH_FIELDS: [WidthField; 6] = [
-    ("force", |w| &mut w.force, [0.005, 0.5], EDGE_UNIT),
-    ("robot", |w| &mut w.robot, [0.005, 0.5], EDGE_UNIT),
-    ("failure", |w| &mut w.failure, [0.005, 0.5], EDGE_UNIT),
-    ("disc", |w| &mut w.disc, [0.02, 2.0], EDGE_UNIT),
+    ("force", |w| &mut w.force, [0.005, 0.5], LENGTH_UNIT),
+    ("robot", |w| &mut w.robot, [0.005, 0.5], LENGTH_UNIT),
+    ("failure", |w| &mut w.failure, [0.005, 0.5], LENGTH_UNIT),
+    ("disc", |w| &mut w.disc, [0.02, 2.0], LENGTH_UNIT),
     ("outline", |w| &mut w.outline, [0.05, 20.0], PIXEL_UNIT),
     ("casing", |w| &mut w.casing, [0.0, 20.0], PIXEL_UNIT),
 ];
 
-const EDGE_UNIT: &str = "unit edges";
+const LENGTH_UNIT: &str = "unit lengths";
 const PIXEL_UNIT: &str = "pixels";
 
 /// A field of [`Sizes`]: its key and the field.

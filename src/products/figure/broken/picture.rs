@@ -163,7 +163,7 @@ pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options
             theme.ink
         };
         let stroke = Stroke::new(colour, 1.6);
-        let sign = match mark.code {
+        let symbol = match mark.code {
             Some(Code::CrossingOutline) => {
                 let mut cross = cross_arm(place, 5.0, 5.0);
                 cross.extend(cross_arm(place, 5.0, -5.0));
@@ -178,7 +178,7 @@ pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options
         let ring = Group::with_class("mark")
             .titled(format!("mark {}", mark.number))
             .with(Path::stroked(leader, Stroke::new(colour, 0.8)))
-            .with(sign)
+            .with(symbol)
             .with(disc(mark.number, at, options));
         group = group.with(ring);
     }

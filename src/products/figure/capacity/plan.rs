@@ -99,7 +99,7 @@ impl SmallPicture {
 
 impl<'a> Plan<'a> {
     /// Computes the positions of the polygon and of the small pictures of a frame. Returns `None` if the carried forces
-    /// of this frame were not computed, or if the block can carry no force. `unit` is the unit edge in metres.
+    /// of this frame were not computed, or if the block can carry no force. `unit` is the unit length in metres.
     pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
         let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
         let structure = structure(analysis)?;

@@ -6,12 +6,12 @@ use super::super::option::ArrowScale;
 use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
 use super::{
-    MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_sign, largest,
-    missing_sign, widest,
+    MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_symbol, largest,
+    missing_symbol, widest,
 };
 use crate::analysis::Verdict;
 
-/// Returns the legend entries of a figure of force flow. `unit` is the unit edge in pixels.
+/// Returns the legend entries of a figure of force flow. `unit` is the unit length in pixels.
 pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let scene = &*context.analysis.scene;
     let frames = || scene.frames.iter().zip(&context.analysis.frames);
@@ -32,7 +32,7 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
             true => "resultant",
             false => "resultant of a joint",
         };
-        entries.push(Entry::Sign(dot_sign, 8.0, words.to_owned()));
+        entries.push(Entry::Symbol(dot_symbol, 8.0, words.to_owned()));
     }
     entries.extend(legend::limits(context));
     entries.extend(legend::loads(context));
@@ -45,7 +45,7 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
 }
 
 /// Returns the legend entries for the bands. `all` contains each strand of the figure with the verdict of its frame.
-/// `unit` is the unit edge in pixels.
+/// `unit` is the unit length in pixels.
 fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> Vec<Entry> {
     let theme = &context.options.theme;
     let mut entries = Vec::new();
@@ -77,7 +77,7 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
     }
     if any(StrandKind::Missing).is_some() {
         let words = "force that cannot be carried".to_owned();
-        entries.push(Entry::Sign(missing_sign, MISSING_SIGN, words));
+        entries.push(Entry::Symbol(missing_symbol, MISSING_SIGN, words));
         entries.push(Entry::Missing);
     }
     entries

@@ -348,7 +348,7 @@ impl ForceSource<'_> {
     }
 }
 
-/// Returns the force that the longest arrow shows, N. A torque is divided by `edge`, the unit edge in metres, and
+/// Returns the force that the longest arrow shows, N. A torque is divided by `edge`, the unit length in metres, and
 /// counts as a force. Returns 0 if the lengths of arrows do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);

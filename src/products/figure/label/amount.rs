@@ -30,7 +30,7 @@ pub(crate) struct Callout {
     pub colour: Colour,
 }
 
-/// Returns the font size of labels with magnitudes, in pixels. Small unit edges have smaller labels.
+/// Returns the font size of labels with magnitudes, in pixels. Small unit lengths have smaller labels.
 fn amount_size(pen: &Pen<'_>) -> f64 {
     (0.2 * pen.unit())
         .max(MIN_SIZE)

@@ -33,8 +33,8 @@ use crate::scene::BlockId;
 
 /// In frames with more blocks, only blocks that the text mentions have labels.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
-/// If a unit edge is at least this long, pixels, names may be at any distance from their blocks.
-const ROOMY_UNIT_EDGE: f64 = 26.0;
+/// If a unit length is at least this long, pixels, names may be at any distance from their blocks.
+const ROOMY_UNIT_LENGTH: f64 = 26.0;
 /// In frames with at most this many blocks, names may be at any distance from their blocks.
 const FEW_BLOCKS: usize = 12;
 /// Largest distance of a name from its block in other frames, pixels; longer leaders would hide the figure.
@@ -221,7 +221,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 /// to its block, because long leader lines would hide the figure.
 fn close_name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let placed = pen.context.analysis.scene.frames[pen.number].placed.len();
-    let any_distance = pen.unit() >= ROOMY_UNIT_EDGE || placed <= FEW_BLOCKS;
+    let any_distance = pen.unit() >= ROOMY_UNIT_LENGTH || placed <= FEW_BLOCKS;
     let mut label = name(pen, id, view)?;
     if !any_distance {
         let far = label.request.max_distance;

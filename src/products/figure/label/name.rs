@@ -17,7 +17,7 @@ const DISTANCE_STEP: f64 = 1e-3;
 const INSET: f64 = 4.0;
 /// Length of a block's edge for the font size of its name, as a fraction of the square root of its area.
 const EDGE_SHARE: f64 = 0.6;
-/// If the edge of a block is longer than this, in unit edges, its name has a larger font size.
+/// If the edge of a block is longer than this, in unit lengths, its name has a larger font size.
 const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 
 /// Returns the font size of a block's name, in pixels. `edge` is the length of an edge of the block in pixels.
@@ -34,7 +34,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     if zoomed && view::intersection(view, block.body.polygon.bounds()).is_none() {
         return None;
     }
-    // The name of a block that is much larger than the unit edge has a larger font size.
+    // The name of a block that is much larger than the unit length has a larger font size.
     let own = pen
         .camera
         .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));

@@ -6,10 +6,10 @@ use super::super::description;
 use super::super::label::{CROWDED_AMOUNTS, MAX_AMOUNTS};
 use super::super::limit;
 use super::super::option::{ArrowScale, Options};
-use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_EDGE};
+use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_LENGTH};
 use super::super::words::{counted, quantity, round_below_in};
 use super::entry::Entry;
-use super::sign::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_sign, missing_dot, weight_sign};
+use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_symbol, missing_dot, weight_symbol};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
 use crate::scene::format::UnitsEntry;
@@ -23,7 +23,7 @@ const MAX_NAMED_BLOCKS: usize = 6;
 /// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.
 const MAX_NAME_LENGTH: usize = 12;
 
-/// Returns the legend entries for all symbols that occur in a figure of forces. `unit` is the unit edge in pixels.
+/// Returns the legend entries for all symbols that occur in a figure of forces. `unit` is the unit length in pixels.
 pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let options = context.options;
     let mut entries = Vec::new();
@@ -35,14 +35,14 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     // The arrow of a weight has a small circle at its tail. Small figures omit this circle, so their legend does not
     // explain it.
     if !options.printed()
-        && unit >= MIN_READABLE_UNIT_EDGE
+        && unit >= MIN_READABLE_UNIT_LENGTH
         && drawn.any(|kind| kind == ArrowKind::Weight)
     {
         let words = match options.is_column() {
             true => "weight",
             false => "weight, from the centroid",
         };
-        let weight = Entry::Sign(weight_sign, SAMPLE_LENGTH, words.to_owned());
+        let weight = Entry::Symbol(weight_symbol, SAMPLE_LENGTH, words.to_owned());
         entries.push(weight);
     }
     if !options.printed() && !drawn.too_small {
@@ -53,11 +53,11 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(missing(context, &drawn));
     if drawn.any_dot(|kind| kind == ArrowKind::Load) {
         let words = "load too small for an arrow".to_owned();
-        entries.push(Entry::Sign(load_dot, 2.0 * DOT_RADIUS, words));
+        entries.push(Entry::Symbol(load_dot, 2.0 * DOT_RADIUS, words));
     }
     if drawn.any_dot(ArrowKind::is_failure) {
         let words = "missing force too small for an arrow".to_owned();
-        entries.push(Entry::Sign(missing_dot, 2.0 * DOT_RADIUS, words));
+        entries.push(Entry::Symbol(missing_dot, 2.0 * DOT_RADIUS, words));
     }
     let mut blocks = context.analysis.scene.blocks.iter();
     if blocks.any(|b| b.body.fill.is_none()) && context.fills.vary() {
@@ -148,7 +148,7 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
 }
 
 /// Returns the legend entry for the scale of arrows: a sample arrow for a round force. The arrow of `newtons` N is one
-/// unit edge (`unit` pixels) long, and `largest` is the largest force in N. Returns `None` if there are no forces.
+/// unit length (`unit` pixels) long, and `largest` is the largest force in N. Returns `None` if there are no forces.
 pub(crate) fn scale(
     newtons: f64,
     largest: f64,
@@ -172,7 +172,7 @@ pub(crate) fn scale(
 }
 
 /// Returns the legend entry for the scale of arrows that all panels share; `None` if there are no forces. `unit` is the
-/// unit edge in pixels.
+/// unit length in pixels.
 pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Entry> {
     let most = |of: fn(&Marks) -> f64| context.marks.iter().map(of).fold(0.0, f64::max);
     let newtons = most(|m| m.newtons_per_unit);
@@ -192,12 +192,12 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
     let any = frames.any(|frame_analysis| !limit::reached(scene, frame_analysis).is_empty());
-    any.then(|| Entry::Sign(limit::key_sign, 11.0, limit::LEGEND_TEXT.to_owned()))
+    any.then(|| Entry::Symbol(limit::key_symbol, 11.0, limit::LEGEND_TEXT.to_owned()))
 }
 
 /// True if the entry explains the mark of joints at their limit.
 pub(crate) fn is_limit(entry: &Entry) -> bool {
-    matches!(entry, Entry::Sign(_, _, words) if words == limit::LEGEND_TEXT)
+    matches!(entry, Entry::Symbol(_, _, words) if words == limit::LEGEND_TEXT)
 }
 
 /// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.
@@ -231,7 +231,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     } else {
         words
     };
-    Some(Entry::Sign(load_sign, SAMPLE_LENGTH, words))
+    Some(Entry::Symbol(load_symbol, SAMPLE_LENGTH, words))
 }
 
 /// True if a frame has so many loads that magnitudes are written only for the largest.

@@ -1,6 +1,6 @@
 //! [`Entry`]: an entry of the legend, which consists of a symbol and a text.
 
-use super::sign::{self, LINE_LENGTH, ON_BLOCK, SIGN_GAP, written};
+use super::symbol::{self, LINE_LENGTH, ON_BLOCK, SYMBOL_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
@@ -38,9 +38,9 @@ pub(crate) enum Entry {
     /// An entry of a numbered list: its number, the colour of the number, its meaning, and the width of the list's columns
     /// in pixels.
     Numbered(usize, Colour, String, f64),
-    /// A sign: the function that draws it, its width in pixels, and its meaning. The function gets the middle of the
+    /// A symbol: the function that draws it, its width in pixels, and its meaning. The function gets the middle of the
     /// left edge.
-    Sign(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
+    Symbol(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
 }
 
 impl Entry {
@@ -77,7 +77,7 @@ impl Entry {
             (Entry::Numbered(a, _, what, _), Entry::Numbered(b, _, other, _)) => {
                 (a, what) == (b, other)
             }
-            (Entry::Note(a), Entry::Note(b)) | (Entry::Sign(_, _, a), Entry::Sign(_, _, b)) => {
+            (Entry::Note(a), Entry::Note(b)) | (Entry::Symbol(_, _, a), Entry::Symbol(_, _, b)) => {
                 a == b
             }
             _ => false,
@@ -85,15 +85,15 @@ impl Entry {
     }
 
     /// Returns the width of the symbol to the left of the text, including the gap between symbol and text, in pixels.
-    pub(super) fn sign_width(&self, theme: &Theme) -> f64 {
+    pub(super) fn symbol_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
             Entry::Blocks(blocks) => blocks
                 .iter()
                 .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
                 .fold(wide(ON_BLOCK), |sum, block| sum + block),
-            Entry::Colours(colours, short) => sign::colour_pitch(*short) * colours.len() as f64,
-            Entry::Robot(..) | Entry::Planned(_) => 2.0 * SIGN_GAP + 7.0,
+            Entry::Colours(colours, short) => symbol::colour_pitch(*short) * colours.len() as f64,
+            Entry::Robot(..) | Entry::Planned(_) => 2.0 * SYMBOL_GAP + 7.0,
             Entry::Missing => 34.0 + 7.0,
             Entry::Amplitudes([low, high], _, _, bar) => {
                 wide(low) + 7.0 + bar + 7.0 + wide(high) + 8.0
@@ -102,7 +102,7 @@ impl Entry {
             Entry::Line(..) => LINE_LENGTH + 7.0,
             Entry::Note(_) => 0.0,
             Entry::Numbered(..) => 1.9 * theme.sizes.key,
-            Entry::Sign(_, width, _) => width + 7.0,
+            Entry::Symbol(_, width, _) => width + 7.0,
         }
     }
 
@@ -130,24 +130,24 @@ impl Entry {
             | Entry::Metres(_, words)
             | Entry::Numbered(_, _, words, _)
             | Entry::Note(words)
-            | Entry::Sign(_, _, words) => words.clone(),
+            | Entry::Symbol(_, _, words) => words.clone(),
         }
     }
 
     /// Returns the width of the entry, pixels, if its text is written in one line.
     pub(super) fn width(&self, theme: &Theme) -> f64 {
         let words = text::width(&self.words(), Face::Sans, theme.sizes.key);
-        self.sign_width(theme) + words
+        self.symbol_width(theme) + words
     }
 
     /// Draws the entry in one line: its symbol and its text. `at` is the middle of its left edge on the page.
     pub(super) fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
-        let mut items = self.sign(at, theme);
+        let mut items = self.symbol(at, theme);
         let words = self.words();
         if !words.is_empty() {
             items.push(written(
                 &words,
-                at.moved(self.sign_width(theme), 0.0),
+                at.moved(self.symbol_width(theme), 0.0),
                 theme,
             ));
         }
@@ -155,26 +155,26 @@ impl Entry {
     }
 
     /// Draws the symbol of the entry. `at` is the middle of the left edge of the symbol on the page.
-    pub(super) fn sign(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
+    pub(super) fn symbol(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         match self {
-            Entry::Blocks(blocks) => sign::blocks(blocks, at, theme),
-            Entry::Colours(colours, short) => sign::colours(colours, *short, at),
-            Entry::Robot(colour, _) => vec![sign::robot(*colour, at, theme)],
-            Entry::Planned(colour) => vec![sign::planned(*colour, at)],
-            Entry::Missing => vec![sign::arrow(at, (34.0, 4.0), theme.failure)],
+            Entry::Blocks(blocks) => symbol::blocks(blocks, at, theme),
+            Entry::Colours(colours, short) => symbol::colours(colours, *short, at),
+            Entry::Robot(colour, _) => vec![symbol::robot(*colour, at, theme)],
+            Entry::Planned(colour) => vec![symbol::planned(*colour, at)],
+            Entry::Missing => vec![symbol::arrow(at, (34.0, 4.0), theme.failure)],
             Entry::Amplitudes(ends, _, ramp, bar) => {
-                sign::amplitudes(ends, (*ramp, *bar), at, theme)
+                symbol::amplitudes(ends, (*ramp, *bar), at, theme)
             }
-            Entry::Line(colour, width, _) => vec![sign::line(*colour, *width, at)],
-            Entry::Metres(length, _) => vec![sign::metres(*length, at, theme)],
+            Entry::Line(colour, width, _) => vec![symbol::line(*colour, *width, at)],
+            Entry::Metres(length, _) => vec![symbol::metres(*length, at, theme)],
             Entry::Note(_) => Vec::new(),
             Entry::Numbered(number, colour, ..) => {
                 let right = at.moved(1.4 * theme.sizes.key, 0.0);
-                vec![sign::number(*number, *colour, right, theme)]
+                vec![symbol::number(*number, *colour, right, theme)]
             }
-            Entry::Sign(sign, ..) => sign(at, theme),
+            Entry::Symbol(symbol, ..) => symbol(at, theme),
             Entry::Scale(length, width, _) => {
-                vec![sign::arrow(at, (*length, *width), theme.faint)]
+                vec![symbol::arrow(at, (*length, *width), theme.faint)]
             }
         }
     }

@@ -1,7 +1,7 @@
 //! [`draw`]: arranges the entries of a legend in lines, and draws them.
 
 use super::entry::Entry;
-use super::sign::written;
+use super::symbol::written;
 use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
 
 /// Distance of the lines of an entry that needs several lines, as a multiple of the font size.
@@ -32,8 +32,8 @@ impl<'e> WrappedEntry<'e> {
     /// Breaks the text of an entry into lines, so that the entry is at most `room` pixels wide.
     fn new(entry: &'e Entry, room: f64, theme: &Theme) -> WrappedEntry<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
-        let sign = entry.sign_width(theme);
-        let left = (room - sign).max(MIN_TEXT_WIDTH);
+        let symbol = entry.symbol_width(theme);
+        let left = (room - symbol).max(MIN_TEXT_WIDTH);
         let lines = text::balanced(
             &with_unbroken_numbers(&words),
             Face::Sans,
@@ -47,7 +47,7 @@ impl<'e> WrappedEntry<'e> {
             .collect();
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
         let column = entry.column().unwrap_or(0.0).min(room);
-        let width = (sign + widths.fold(0.0, f64::max)).max(column);
+        let width = (symbol + widths.fold(0.0, f64::max)).max(column);
         WrappedEntry {
             entry,
             lines,
@@ -62,9 +62,9 @@ impl<'e> WrappedEntry<'e> {
 
     /// Draws the entry with all its text lines. `at` is the middle of its left edge on the page.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
-        let mut items = self.entry.sign(at, theme);
+        let mut items = self.entry.symbol(at, theme);
         let first = at.moved(
-            self.entry.sign_width(theme),
+            self.entry.symbol_width(theme),
             -0.5 * self.extra_height(theme),
         );
         for (number, line) in self.lines.iter().enumerate() {

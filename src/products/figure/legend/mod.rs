@@ -3,12 +3,12 @@
 mod content;
 mod entry;
 mod lines;
-mod sign;
+mod symbol;
 
 pub(crate) use content::{entries, is_limit, limits, loads, metres, robots, scale, shared_scale};
 pub(crate) use entry::Entry;
 pub(crate) use lines::draw;
-pub(crate) use sign::BAR_LENGTH;
+pub(crate) use symbol::BAR_LENGTH;
 
 use crate::drawing::{Item, PagePoint, Theme};
 

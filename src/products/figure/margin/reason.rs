@@ -65,7 +65,7 @@ fn parameter(toward: Toward) -> &'static str {
     }
 }
 
-/// Describes the margin of a frame that stands: the value nearest to the present value at which the frame begins to
+/// Describes the margin of a frame that stands: the value nearest to the current value at which the frame begins to
 /// fall. For the load factor, also describes the least factor at which the frame stands.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     // The frame may also fall below a least load factor, but this factor does not limit how much the loads may grow.

@@ -11,7 +11,7 @@ use crate::scene::{BodyId, ForceCause, Frame, Scene};
 /// Forces below this fraction of the largest force are not drawn, because they may be errors of the solver. Forces
 /// have a relative accuracy of about 1e-9.
 pub(super) const FORCE_TOL: f64 = 1e-6;
-/// In [`Normalisation::Drawn`], arrows shorter than this, unit edges, have a thinner shaft and a smaller head.
+/// In [`Normalisation::Drawn`], arrows shorter than this, unit lengths, have a thinner shaft and a smaller head.
 const FULL_WIDTH_LENGTH: f64 = 0.35;
 /// Least width of a shaft, as a fraction of the full width. With the full width, arrows of small forces would only be
 /// heads.
@@ -21,7 +21,7 @@ const MIN_WIDTH_SHARE: f64 = 0.65;
 pub(super) struct ArrowMaker<'a> {
     pub scene: &'a Scene,
     pub options: &'a Options,
-    /// The unit edge, metres.
+    /// The unit length, metres.
     pub edge: f64,
     /// The length of the arrow of a force of 1 N, metres.
     pub metres_per_newton: f64,
@@ -29,7 +29,7 @@ pub(super) struct ArrowMaker<'a> {
 
 impl ArrowMaker<'_> {
     /// Adds the arrow of a force on the body `on`, unless the force is so small that it may be an error of the solver.
-    /// `look` is the colour of the arrow, and the width of its shaft in unit edges.
+    /// `look` is the colour of the arrow, and the width of its shaft in unit lengths.
     pub(super) fn straight(
         &self,
         marks: &mut Marks,
@@ -69,7 +69,7 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit edges; short
+    /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit lengths; short
     /// arrows are thinner.
     pub(super) fn width(&self, full: f64, vector: Vector) -> f64 {
         let share = match self.options.normalisation {
@@ -83,7 +83,7 @@ impl ArrowMaker<'_> {
     }
 
     /// Adds the arrow of a torque on the body `on`. In printed figures, the torque of a robot is drawn as in the
-    /// thesis: as two vertical arrows, half a unit edge to the left and to the right of the point `at`.
+    /// thesis: as two vertical arrows, half a unit length to the left and to the right of the point `at`.
     pub(super) fn torque(
         &self,
         marks: &mut Marks,

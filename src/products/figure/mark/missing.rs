@@ -9,11 +9,11 @@ use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Least length of the arrow of the largest missing force, unit edges. If this arrow is shorter at the scale of the
+/// Least length of the arrow of the largest missing force, unit lengths. If this arrow is shorter at the scale of the
 /// other forces, missing forces have a separate scale. The second number is the least length of the arrow of any
 /// missing force.
 const MISSING_LENGTHS: (f64, f64) = (0.8, 0.25);
-/// Length, in unit edges, of the arrow of a missing force that is as large as the largest force on its block. The
+/// Length, in unit lengths, of the arrow of a missing force that is as large as the largest force on its block. The
 /// thesis uses this scale.
 const SOURCE_FAILURE_SCALE: f64 = 0.4;
 

@@ -28,9 +28,9 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
     marks(analysis, frame, options, reference).arrows
 }
 
-/// Returns the force, in N, whose arrow is one unit edge long if the scale is chosen for this frame.
+/// Returns the force, in N, whose arrow is one unit length long if the scale is chosen for this frame.
 ///
-/// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit edge.
+/// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit length.
 /// With [`Normalisation::Source`], this is the largest single unknown, weight or load.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
@@ -90,10 +90,10 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     most
 }
 
-/// Returns all arrows of frame `frame` (from 0). The arrow of a force of `newtons_per_unit` newtons is one unit edge
+/// Returns all arrows of frame `frame` (from 0). The arrow of a force of `newtons_per_unit` newtons is one unit length
 /// long.
 ///
-/// The unit edge is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
+/// The unit length is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
 /// exist or `newtons_per_unit` is not above 0.
 pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let mut marks = Marks {

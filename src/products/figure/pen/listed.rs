@@ -5,7 +5,7 @@ use super::Pen;
 use crate::drawing::{Group, Outline, Path, Stroke};
 use crate::geometry::{Point, Vector};
 
-/// Length of a normal in unit edges. The friction cone has the same length.
+/// Length of a normal in unit lengths. The friction cone has the same length.
 const NORMAL_LENGTH: f64 = 0.75;
 /// Length of the head of a normal, as a fraction of the normal.
 const HEAD_SHARE: f64 = 0.18;

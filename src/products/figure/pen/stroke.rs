@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_EDGE, MISSING_RADIUS, Pen};
+use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
 use crate::drawing::arrow::{head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{
@@ -13,7 +13,7 @@ use crate::figure::description;
 use crate::geometry::{Point, Vector};
 use crate::scene::BodyId;
 
-/// Radius of the arrow of a torque in unit edges, larger than a robot's disc.
+/// Radius of the arrow of a torque in unit lengths, larger than a robot's disc.
 pub(crate) const TURN_RADIUS: f64 = 0.46;
 /// Least angle of the arrow of a load's torque, radians.
 const MIN_SWEEP: f64 = 1.2;
@@ -77,7 +77,7 @@ impl Pen<'_> {
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
             && !self.context.options.printed()
-            && self.unit() >= MIN_READABLE_UNIT_EDGE;
+            && self.unit() >= MIN_READABLE_UNIT_LENGTH;
         let width = self.width(arrow);
         let ring = Outline::circle(self.camera.place(arrow.at), CENTROID_RADIUS * width);
         let edge = Stroke::new(arrow.colour, (0.45 * width).clamp(0.8, 2.0));

@@ -11,7 +11,7 @@ use crate::wording::sensitivity::{
 };
 
 /// The length of the longest arrow is the larger of two lengths: this fraction of the structure's size, and this
-/// number of unit edges.
+/// number of unit lengths.
 const MAX_ARROW_SHARES: (f64, f64) = (0.09, 0.8);
 /// The largest number of numbered changes: in a figure of one frame, in a figure of one frame in a column of print,
 /// and in each panel of several frames.

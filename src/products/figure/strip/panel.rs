@@ -64,8 +64,8 @@ impl Strip<'_> {
         if context.options.verdicts || context.options.keys {
             below.y += 8.0;
             let half = context.options.theme.sizes.verdict * 10.0 / 13.5;
-            let (signs, more) = self.verdict(frame, below.moved(0.0, half));
-            group.items.extend(signs);
+            let (symbols, more) = self.verdict(frame, below.moved(0.0, half));
+            group.items.extend(symbols);
             below.y += 2.2 * half + more;
             let (lines, end) = self.reason(frame, below, cramped);
             group.items.extend(lines);

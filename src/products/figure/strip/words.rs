@@ -82,13 +82,13 @@ impl Strip<'_> {
         let size = self.context.options.theme.sizes.verdict;
         let frame_analysis = &self.context.analysis.frames[frame];
         let words = self.content.headline(self.context, frame);
-        let sign = 1.2 * size + 6.0;
+        let symbol = 1.2 * size + 6.0;
         let room = match (self.layout.columns, self.context.options.width) {
             (1, None) => self.layout.panel.max(300.0),
             (1, Some(width)) => width - 2.0 * self.layout.margin,
             _ => self.layout.panel,
         };
-        if sign + text::width(&words, Face::SansBold, size) <= room {
+        if symbol + text::width(&words, Face::SansBold, size) <= room {
             return (words, None);
         }
         let badge = verdict::badge(frame_analysis);

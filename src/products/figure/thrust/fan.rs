@@ -58,7 +58,7 @@ pub(crate) struct Fans {
 
 impl Fans {
     /// Computes the force polygons of a frame, one fan of rays for each chain of blocks, to the right of the structure.
-    /// Returns `None` if no chain of blocks has a thrust. `unit` is the unit edge in metres.
+    /// Returns `None` if no chain of blocks has a thrust. `unit` is the unit length in metres.
     pub fn new(
         scene: &Scene,
         frame: &Frame,

@@ -11,7 +11,7 @@ use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::scene::{BodyId, Scene};
 
-/// The width of the line of the largest force in unit edges, with its least and largest allowed width in pixels.
+/// The width of the line of the largest force in unit lengths, with its least and largest allowed width in pixels.
 const LARGEST_FORCE_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
 /// Width of the line of a force of zero, as a fraction of the largest width.
 const MIN_WIDTH_SHARE: f64 = 0.22;
@@ -34,7 +34,7 @@ pub(super) fn carried_colour(theme: &Theme) -> Colour {
     theme.block.mixed(theme.faint, 0.7)
 }
 
-/// Returns the width of the line where it carries the largest force, in pixels. `unit` is the unit edge in pixels.
+/// Returns the width of the line where it carries the largest force, in pixels. `unit` is the unit length in pixels.
 pub(super) fn widest(unit: f64) -> f64 {
     let (width, least, most) = LARGEST_FORCE_WIDTH;
     (width * unit).clamp(least, most)
@@ -203,6 +203,6 @@ fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
 }
 
 /// Draws the symbol of a resultant for the legend: a dot.
-pub(super) fn dot_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+pub(super) fn dot_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![dot_at(at.moved(4.0, 0.0), 3.2, theme).into()]
 }

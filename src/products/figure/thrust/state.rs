@@ -48,14 +48,14 @@ pub(super) fn central_thrust_text(context: &FigureContext<'_>) -> Option<String>
 pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     let least = thrust_states_of_frames(context).find_map(|family| family.least.as_ref());
     let greatest = thrust_states_of_frames(context).find_map(|family| family.greatest.as_ref());
-    let entry = |state: Option<&ThrustState>, sign: fn(PagePoint, &Theme) -> Vec<Item>, name| {
+    let entry = |state: Option<&ThrustState>, symbol: fn(PagePoint, &Theme) -> Vec<Item>, name| {
         let words = amount_in_words(context, state?.thrust);
         let words = words.replace(", horizontal thrust", "");
-        Some(Entry::Sign(sign, 26.0, format!("{name}{words}")))
+        Some(Entry::Symbol(symbol, 26.0, format!("{name}{words}")))
     };
     [
-        entry(least, least_sign, "least thrust"),
-        entry(greatest, greatest_sign, "greatest thrust"),
+        entry(least, least_symbol, "least thrust"),
+        entry(greatest, greatest_symbol, "greatest thrust"),
     ]
     .into_iter()
     .flatten()
@@ -122,12 +122,12 @@ fn thin(outline: Outline, dashes: [f64; 2], theme: &Theme) -> Path {
     Path::stroked(outline, Stroke::new(colour, LINE_WIDTH).dashed(dashes))
 }
 
-fn least_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn least_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(26.0, 0.0)]);
     vec![thin(line, LEAST_DASHES, theme).into()]
 }
 
-fn greatest_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+fn greatest_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(26.0, 0.0)]);
     vec![thin(line, GREATEST_DASHES, theme).into()]
 }

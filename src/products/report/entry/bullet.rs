@@ -1,4 +1,4 @@
-//! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the present value.
+//! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the current value.
 
 use crate::analysis::{End, FrameAnalysis, Interval};
 use crate::scene::Scene;
@@ -17,12 +17,12 @@ pub enum BarEnd {
     Open,
 }
 
-/// A margin: the values at which the structure stands, and the present value.
+/// A margin: the values at which the structure stands, and the current value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MarginBar {
     /// The parameter that varies.
     pub name: String,
-    /// The values at which the structure stands, and the present value, in words.
+    /// The values at which the structure stands, and the current value, in words.
     pub words: String,
     /// The lowest and the highest value on the scale.
     pub scale: (f64, f64),
@@ -30,13 +30,13 @@ pub struct MarginBar {
     pub safe: Option<(f64, f64)>,
     /// How the ends of `safe` are drawn.
     pub ends: (BarEnd, BarEnd),
-    /// The least and the largest present value; `None` if there is no present value or if it is infinite.
+    /// The least and the largest current value; `None` if there is no current value or if it is infinite.
     pub now: Option<(f64, f64)>,
-    /// The position of the present value: inside the interval, outside, or unknown.
+    /// The position of the current value: inside the interval, outside, or unknown.
     pub position: Position,
     /// Whether this is the factor on the loads.
     pub is_load_factor: bool,
-    /// The relative distance of the present value from the nearest end: 0 at the end, 1 if there is no end.
+    /// The relative distance of the current value from the nearest end: 0 at the end, 1 if there is no end.
     pub reserve: f64,
 }
 
@@ -48,10 +48,10 @@ pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginB
         .collect()
 }
 
-/// A legend for readers: the meaning of the ends of a bar and of the mark at the present value.
+/// A legend for readers: the meaning of the ends of a bar and of the mark at the current value.
 pub(super) const SHAPES_LEGEND: &str = "A bar covers the values at which the structure stands. The structure falls \
                                  beyond a stroke (dashed: not confirmed), and still stands beyond an arrow. The \
-                                 present value is a disc inside the bar, a cross outside it, or a ring if its \
+                                 current value is a disc inside the bar, a cross outside it, or a ring if its \
                                  position is unknown.";
 
 /// The upper end of the scale, as a multiple of the largest absolute value that is drawn.
@@ -106,7 +106,7 @@ impl MarginBar {
         }
     }
 
-    /// True if the present value is inside the interval of values at which the structure stands.
+    /// True if the current value is inside the interval of values at which the structure stands.
     pub(crate) fn is_inside(&self) -> bool {
         self.position == Position::Inside
     }

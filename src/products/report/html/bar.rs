@@ -13,7 +13,7 @@ const INSET: f64 = 7.0;
 
 /// Draws a margin as a bar that covers the values at which the structure stands. An end is a stroke, which is dashed
 /// if the end is not confirmed, or an arrow if the values have no end there. An end of the domain of the parameter
-/// has no mark. The present value is a disc inside the bar, a cross outside it, or a ring if its position is unknown.
+/// has no mark. The current value is a disc inside the bar, a cross outside it, or a ring if its position is unknown.
 /// The shapes differ, so that they are clear without colours.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR_SIZE;
@@ -50,7 +50,7 @@ pub(super) fn bar(bullet: &MarginBar) -> Markup {
     }
 }
 
-/// Draws the mark of the present value. `at` is its x coordinate in pixels.
+/// Draws the mark of the current value. `at` is its x coordinate in pixels.
 fn now(position: Position, at: f64) -> Markup {
     html! {
         @match position {

@@ -82,7 +82,7 @@ impl BarPlace<'_> {
         }
     }
 
-    /// Draws the present value: a disc in the safe part, a cross outside it, or a ring if its position is unknown. If
+    /// Draws the current value: a disc in the safe part, a cross outside it, or a ring if its position is unknown. If
     /// only two bounds of the value are known, both bounds are drawn.
     fn present_value(&self, flow: &mut Flow) {
         let Some((least, most)) = self.bar.now else {

@@ -1,4 +1,4 @@
-//! [`stated`] lists the margins of a frame, each with the present value of its parameter.
+//! [`stated`] lists the margins of a frame, each with the current value of its parameter.
 
 use super::{Parameter, Position, StatedMargin};
 use crate::analysis::{FrameAnalysis, Interval, Intervals, Verdict};

@@ -1,5 +1,5 @@
 //! Describes margins in words. A margin is the interval of values of a parameter at which a frame stands, compared
-//! with the present value.
+//! with the current value.
 //!
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
@@ -66,7 +66,7 @@ impl Parameter {
     }
 }
 
-/// The position of the present value.
+/// The position of the current value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
     /// The frame stands at this value.
@@ -77,7 +77,7 @@ pub enum Position {
     Unknown,
 }
 
-/// One margin of a frame: its interval and its present value.
+/// One margin of a frame: its interval and its current value.
 #[derive(Clone, Debug)]
 pub struct StatedMargin<'a> {
     /// The parameter.
@@ -86,15 +86,15 @@ pub struct StatedMargin<'a> {
     pub name: String,
     /// The values at which the frame stands.
     pub interval: &'a Interval,
-    /// The least and the largest present value. They differ if interfaces have different friction, and are infinite
+    /// The least and the largest current value. They differ if interfaces have different friction, and are infinite
     /// if a robot has no limit. `None` for the friction of a frame without interfaces.
     pub present: Option<(f64, f64)>,
-    /// The position of the present value.
+    /// The position of the current value.
     pub position: Position,
 }
 
 impl StatedMargin<'_> {
-    /// Describes the interval and the present value of the margin: `stands from 0.3 to 2.4; now 1`.
+    /// Describes the interval and the current value of the margin: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         match self.present_words() {
             None => self.stands(),
@@ -102,13 +102,13 @@ impl StatedMargin<'_> {
         }
     }
 
-    /// Describes the interval of the margin without the present value: `stands from 0.3 to 2.4`.
+    /// Describes the interval of the margin without the current value: `stands from 0.3 to 2.4`.
     pub fn stands(&self) -> String {
         stands(self.parameter, self.interval)
     }
 
-    /// Describes the present value, and whether it is outside the interval or undecided: `now 3, outside`. Returns
-    /// `None` if there is no present value.
+    /// Describes the current value, and whether it is outside the interval or undecided: `now 3, outside`. Returns
+    /// `None` if there is no current value.
     fn present_words(&self) -> Option<String> {
         let (low, high) = self.present?;
         let value = |value: f64| self.parameter.value(value);
@@ -134,11 +134,11 @@ impl StatedMargin<'_> {
             && (from_zero || free(self.interval.low()))
     }
 
-    /// Returns the relative distance of the present value from the nearest end of the interval, from 0 to 1. It is 0
-    /// if the frame is not known to stand at the present value. It is 1 if the interval has no end or is undecided.
+    /// Returns the relative distance of the current value from the nearest end of the interval, from 0 to 1. It is 0
+    /// if the frame is not known to stand at the current value. It is 1 if the interval has no end or is undecided.
     ///
     /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the
-    /// present value. There are three exceptions: the distance of a tilt is divided by 90°, that of a kernel by 1
+    /// current value. There are three exceptions: the distance of a tilt is divided by 90°, that of a kernel by 1
     /// minus the present kernel, and a horizontal force is already a fraction of the weight.
     pub fn reserve(&self) -> f64 {
         if self.position != Position::Inside {

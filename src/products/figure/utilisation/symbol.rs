@@ -4,12 +4,12 @@ use super::{idle_stroke, rimmed};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Length of the line of a symbol, pixels.
-pub(super) const SIGN_WIDTH: f64 = 26.0;
+pub(super) const SYMBOL_WIDTH: f64 = 26.0;
 
 /// Draws the legend symbol of an interface that uses all its friction.
-pub(super) fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
-    let middle = at.moved(SIGN_WIDTH / 2.0, 0.0);
+pub(super) fn full_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
+    let middle = at.moved(SYMBOL_WIDTH / 2.0, 0.0);
     let bar = Outline::line([middle.moved(0.0, -7.0), middle.moved(0.0, 7.0)]);
     vec![
         rimmed(line.clone(), 4.5, 0.7, theme).into(),
@@ -19,8 +19,8 @@ pub(super) fn full_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 /// Draws the legend symbol of an interface without friction.
-pub(super) fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+pub(super) fn smooth_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
     vec![
         rimmed(line.clone(), 4.5, 0.7, theme).into(),
         Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
@@ -28,7 +28,7 @@ pub(super) fn smooth_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 /// Draws the legend symbol of an interface without force.
-pub(super) fn idle_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let line = Outline::line([at, at.moved(SIGN_WIDTH, 0.0)]);
+pub(super) fn idle_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
     vec![Path::stroked(line, idle_stroke(theme, 4.5)).into()]
 }

@@ -8,8 +8,8 @@ use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
 pub(super) const SAMPLE_LENGTH: f64 = 26.0;
-/// Distance of the centre of a disc from the left end of its sign, pixels.
-pub(super) const SIGN_GAP: f64 = 9.0;
+/// Distance of the centre of a disc from the left end of its symbol, pixels.
+pub(super) const SYMBOL_GAP: f64 = 9.0;
 /// Length of a line in the legend, pixels.
 pub(super) const LINE_LENGTH: f64 = 26.0;
 /// Usual length of a bar of colours, pixels.
@@ -63,7 +63,7 @@ pub(super) fn colour_pitch(short: bool) -> f64 {
 
 /// Draws the disc that marks the grip of a robot.
 pub(super) fn robot(colour: Colour, at: PagePoint, theme: &Theme) -> Item {
-    let disc = Outline::circle(at.moved(SIGN_GAP, 0.0), 0.8 * SIGN_GAP);
+    let disc = Outline::circle(at.moved(SYMBOL_GAP, 0.0), 0.8 * SYMBOL_GAP);
     let edge = Stroke::new(colour.mixed(theme.ink, 0.35), 0.8);
     Path::filled(disc, colour).with_stroke(edge).into()
 }
@@ -78,7 +78,8 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
         (0.5, 0.87),
         (-0.5, 0.87),
     ];
-    let corner = |(x, y): (f64, f64)| at.moved(SIGN_GAP + 0.85 * SIGN_GAP * x, 0.85 * SIGN_GAP * y);
+    let corner =
+        |(x, y): (f64, f64)| at.moved(SYMBOL_GAP + 0.85 * SYMBOL_GAP * x, 0.85 * SYMBOL_GAP * y);
     let outline = Outline::ring(hexagon.map(corner));
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
@@ -134,7 +135,7 @@ pub(super) fn metres(length: f64, at: PagePoint, theme: &Theme) -> Item {
     Path::stroked(bar, Stroke::new(theme.faint, 1.4)).into()
 }
 
-pub(super) fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+pub(super) fn weight_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let (colour, from) = (theme.arrow(1), at.moved(4.0, 0.0));
     let arrow = straight(from, (SAMPLE_LENGTH - 4.0, 0.0), 2.6);
     let ring = Outline::circle(from, CENTROID_RADIUS * 2.6);
@@ -146,7 +147,7 @@ pub(super) fn weight_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-pub(super) fn load_sign(at: PagePoint, theme: &Theme) -> Vec<Item> {
+pub(super) fn load_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let arrow = straight(at, (SAMPLE_LENGTH, 0.0), 3.4);
     vec![
         Path::filled(arrow, theme.page)
