@@ -183,7 +183,7 @@ fn interfaces_that_use_all_friction_are_marked_and_no_others() {
         assert!(
             titles
                 .iter()
-                .all(|t| t.contains(": 100\u{a0}% of the friction"))
+                .all(|t| t.contains(": 100\u{a0}% of the available friction"))
         );
         marked += used;
     }
