@@ -121,10 +121,10 @@ fn the_most_effective_changes_are_listed_with_their_values() {
     let analysis = analysed(&of_assets("study/arch-27.json"), MarginKind::Tilt);
     let text = svg::write(&draw(&analysis));
     assert!(
-        text.contains("tilt to the right 15.9°, the upper end of its margin"),
+        text.contains("tilt 15.9° right, the right end of its interval"),
         "{text}"
     );
-    assert!(text.contains("+2 mm → 16.1°"), "{text}");
+    assert!(text.contains("+2 mm → about 16.1° right"), "{text}");
     let starter = Analysis::with(
         of_assets("starter.json"),
         &AnalysisOptions::default().sensitivity(MarginKind::LoadFactor),

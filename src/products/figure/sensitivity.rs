@@ -28,7 +28,7 @@ use crate::drawing::{
 use crate::geometry::Bounds;
 use crate::scene::Scene;
 use crate::wording::number::digits;
-use crate::wording::sensitivity::{length, name, value, without};
+use crate::wording::sensitivity::{end_name, length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
 
 /// Radius of the disc of a number without an arrow, as a multiple of the font size.
@@ -96,11 +96,11 @@ impl PanelContent for CornerEffects {
             .iter()
             .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
         {
-            let words = "one of the most effective moves: new value below";
+            let words = "one of the most effective moves: new value below, estimated";
             entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words = "change of a weight, load or joint: new value below";
+            let words = "change of a weight, load or joint: new value below, estimated";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
         }
@@ -132,9 +132,9 @@ impl PanelContent for CornerEffects {
         let Some(plan) = Plan::new(context.analysis, frame, context.options) else {
             return String::new();
         };
-        let end = if plan.is_high { "upper" } else { "lower" };
+        let end = end_name(plan.kind, plan.is_high);
         let stated = format!(
-            "{} {}, the {end} end of its margin",
+            "{} {}, the {end} end of its interval",
             name(plan.kind, plan.is_high),
             value(plan.kind, plan.value)
         );
@@ -175,7 +175,7 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         ink.arrow(from, along, width);
         let outline = straight(from, along, width);
         let casing = Stroke::new(theme.page, 1.6);
-        let per_step = value(plan.kind, arrow.effect.norm() * plan.step);
+        let per_step = format_change(plan.kind, arrow.effect.norm() * plan.step);
         let title = format!(
             "{per_step} for {}",
             length(&context.analysis.scene, plan.step)
@@ -245,8 +245,9 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     group
 }
 
-/// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The candidates
-/// lie on circles around `preferred`, up to `most` times `radius` away. Returns `None` if no candidate is free.
+/// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The
+/// candidates lie on circles around `preferred`, up to `most` times `radius` away. Returns `None` if no candidate is
+/// free.
 fn nearest_free_position(
     ink: &Ink,
     preferred: PagePoint,
@@ -292,16 +293,17 @@ fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     let longest = plan.strongest() * pixels;
     let amount = round_below(longest.min(MAX_SCALE_ARROW) / pixels * plan.step);
     let drawn = amount / plan.step * pixels;
-    let sign = match (plan.kind, plan.is_high) {
-        (MarginKind::Tilt | MarginKind::HorizontalLoad, _) | (_, true) => '+',
-        _ => '−',
+    let name = name(plan.kind, plan.is_high);
+    let change = format_change(plan.kind, amount);
+    let change = match (plan.kind, plan.is_high) {
+        (MarginKind::Tilt | MarginKind::HorizontalLoad, is_high) => {
+            let side = end_name(plan.kind, is_high);
+            format!("{name} {change} farther to the {side}")
+        }
+        (_, true) => format!("{name} +{change}"),
+        (_, false) => format!("{name} −{change}"),
     };
-    let words = format!(
-        "{} {sign}{} for {}",
-        name(plan.kind, plan.is_high),
-        format_change(plan.kind, amount),
-        length(scene, plan.step)
-    );
+    let words = format!("{change} for {}", length(scene, plan.step));
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }
 

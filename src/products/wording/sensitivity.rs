@@ -101,8 +101,8 @@ pub fn visible(
 
 /// Returns the best move of each corner. Each entry has the index of the corner in [`EndSensitivity::corners`], the
 /// unit vector along which the interval grows most, and the growth per metre. The move is `None` if no known derivative
-/// enlarges the interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and −1 for the
-/// lower end.
+/// enlarges the interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and
+/// −1 for the lower end.
 pub fn corner_moves(
     frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
@@ -268,23 +268,36 @@ pub fn toward(direction: Vector) -> String {
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Friction, _) => "least friction",
-        (MarginKind::Tilt, true) => "tilt to the right",
-        (MarginKind::Tilt, false) => "tilt to the left",
-        (MarginKind::HorizontalLoad, true) => "horizontal share to the right",
-        (MarginKind::HorizontalLoad, false) => "horizontal share to the left",
+        (MarginKind::Tilt, _) => "tilt",
+        (MarginKind::HorizontalLoad, _) => "horizontal share",
         (MarginKind::Kernel, _) => "largest kernel",
         (MarginKind::LoadFactor, false) => "least load factor",
         _ => "load factor",
     }
 }
 
-/// Writes a value of a margin with three significant digits. Tilt and horizontal load are written without a sign,
-/// because [`name`] contains the direction.
+/// Writes a value of a margin with three significant digits. Tilt and horizontal load have their direction instead of
+/// a sign: `5.00° left`. Each value has it, because a change can move the end of an interval to the other side of 0.
 pub fn value(kind: MarginKind, value: f64) -> String {
+    let side = match value {
+        v if v < 0.0 => " left",
+        v if v > 0.0 => " right",
+        _ => "",
+    };
     match kind {
-        MarginKind::Tilt => format!("{}°", three(value.abs())),
-        MarginKind::HorizontalLoad => three(value.abs()),
+        MarginKind::Tilt => format!("{}°{side}", three(value.abs())),
+        MarginKind::HorizontalLoad => format!("{}{side}", three(value.abs())),
         _ => three(value),
+    }
+}
+
+/// Names an end of an interval. Tilts and horizontal loads to the right are positive.
+pub fn end_name(kind: MarginKind, is_high: bool) -> &'static str {
+    match (kind, is_high) {
+        (MarginKind::Tilt | MarginKind::HorizontalLoad, true) => "right",
+        (MarginKind::Tilt | MarginKind::HorizontalLoad, false) => "left",
+        (_, true) => "upper",
+        (_, false) => "lower",
     }
 }
 
@@ -303,15 +316,22 @@ pub fn lines(
         let before = value(kind, end.value);
         let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
+        let stated = format!(
+            "{name} {before}, the {} end of its interval",
+            end_name(kind, is_high)
+        );
         lines.push(match changes.is_empty() {
             true => {
-                format!("{name} {before}: no single small change improves it visibly")
+                format!("{stated}: no single small change improves it visibly")
             }
-            false => format!("{name} {before}; what changes it most:"),
+            false => format!("{stated}; what changes it most, estimated from derivatives:"),
         });
         for change in &changes {
             let after = value(kind, change.after);
-            lines.push(format!("  {}: {name} {before} → {after}", change.words));
+            lines.push(format!(
+                "  {}: {name} {before} → about {after}",
+                change.words
+            ));
         }
         let kinks = kinks(end);
         if kinks > 0 {
@@ -366,4 +386,19 @@ fn kinks(end: &EndSensitivity) -> usize {
     let loads = end.loads.iter();
     let loads = loads.filter(|(_, slopes)| slopes.iter().any(is_kink));
     corners.count() + weights.count() + friction.count() + loads.count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_of_a_tilt_can_be_on_the_same_side() {
+        assert_eq!(value(MarginKind::Tilt, -3.113), "3.11° left");
+        assert_eq!(value(MarginKind::Tilt, 3.32), "3.32° right");
+        assert_eq!(value(MarginKind::HorizontalLoad, -0.5), "0.500 left");
+        assert_eq!(value(MarginKind::Kernel, 0.25), "0.250");
+        assert_eq!(end_name(MarginKind::Tilt, true), "right");
+        assert_eq!(end_name(MarginKind::Friction, false), "lower");
+    }
 }

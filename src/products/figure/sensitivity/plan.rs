@@ -236,7 +236,7 @@ impl Sketch<'_> {
             at,
             is_load: matches!(change.target, Target::Load(..)),
             is_joint: matches!(change.target, Target::Friction(_)),
-            words: format!("{done} → {after}"),
+            words: format!("{done} → about {after}"),
         }
     }
 }
