@@ -363,3 +363,31 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     let drawing = figure::draw(&Analysis::new(&slide), Kind::Thrust, &options);
     assert!(svg::write(&drawing).contains("no force polygon"));
 }
+
+/// A load is drawn wherever it explains the result, with its amount; elsewhere the legend says that it is not drawn.
+#[test]
+fn no_kind_leaves_out_a_load_silently() {
+    let scene = Scene::from_json(
+        &json!({
+            "drystone": 1, "friction": 0.6,
+            "ground": [{ "polygon": [[-1, -1], [5, -1], [5, 0], [-1, 0]] }],
+            "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [3, 1], [0, 1]], "weight": 100 }],
+            "loads": [{ "block": "a", "force": [7, 0], "at": [0, 0.5] }]
+        })
+        .to_string(),
+    )
+    .expect("a sound scene");
+    let options = drystone::analysis::Options::default().capacity(
+        drystone::analysis::CapacityRequest::of_block(drystone::scene::BlockId(0)),
+    );
+    let analysis = Analysis::with(&scene, &options);
+    for kind in KINDS {
+        let text = svg::write(&draw(&analysis, kind));
+        assert!(text.contains("7 N"), "{kind:?}: {text}");
+    }
+    let text = svg::write(&draw(&analysis, Kind::Capacity));
+    assert!(
+        text.contains("one load also acts; it is not drawn"),
+        "{text}"
+    );
+}

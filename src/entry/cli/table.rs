@@ -389,7 +389,9 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     }
     remarks.extend(margin::lines(scene, frame));
     let carried = frame.capacity.iter();
-    remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, c))));
+    remarks.extend(
+        carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))),
+    );
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }

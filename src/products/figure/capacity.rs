@@ -23,6 +23,7 @@ use crate::drawing::{
     Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
 };
 use crate::geometry::{Bounds, Point};
+use crate::scene::Scene;
 use crate::wording;
 use plan::{Plan, SmallPicture, falling};
 
@@ -88,6 +89,10 @@ impl PanelContent for CarriedForces {
         if !first.is_apart {
             entries.push(Entry::Symbol(dot_symbol, 10.0, "no force".into()));
         }
+        if plans.iter().any(needs_force) {
+            let words = "example of such a force; without any, it falls";
+            entries.push(Entry::Symbol(force_symbol, 26.0, words.into()));
+        }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
             entries.push(Entry::Symbol(
                 open_symbol,
@@ -117,6 +122,7 @@ impl PanelContent for CarriedForces {
             let length = newtons * pixels_per_newton;
             entries.push(Entry::Scale(length, 2.6, quantity(newtons, force)));
         }
+        entries.extend(loads_note(&analysis.scene));
         entries.extend(legend::robots(context));
         entries
     }
@@ -124,13 +130,27 @@ impl PanelContent for CarriedForces {
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
         let frame_analysis = &context.analysis.frames[frame];
         match &frame_analysis.capacity {
-            Some(capacity) => wording::capacity::sentences(&context.analysis.scene, capacity),
+            Some(capacity) => {
+                let scene = &context.analysis.scene;
+                wording::capacity::sentences(scene, frame_analysis.verdict, capacity)
+            }
             None if context.analysis.frames.iter().any(|f| f.capacity.is_some()) => {
                 "the block is not placed yet".into()
             }
             None => "the forces that a block can carry were not computed".into(),
         }
     }
+}
+
+/// Returns a note that loads act besides the force of the figure. Their arrows are not drawn, because their lengths
+/// could be compared with the polygon, which has its own scale.
+fn loads_note(scene: &Scene) -> Option<Entry> {
+    let words = match scene.loads.len() {
+        0 => return None,
+        1 => "one load also acts; it is not drawn".to_owned(),
+        n => format!("{n} loads also act; they are not drawn"),
+    };
+    Some(Entry::Note(words))
 }
 
 /// Draws the polygon of carried forces: its area, its edges with their numbers, and a dot for the force 0.
@@ -192,11 +212,16 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     group
 }
 
+/// True if the polygon is drawn at the loaded point, and the structure falls without a force there.
+fn needs_force(plan: &Plan<'_>) -> bool {
+    !plan.is_apart && !plan.capacity.contains([0.0, 0.0])
+}
+
 /// Adds a dot for the force 0.
 fn with_zero(mut group: Group, pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     let theme = &pen.context.options.theme;
     let at = pen.camera.place(plan.zero);
-    if !plan.capacity.contains([0.0, 0.0]) {
+    if needs_force(plan) {
         // The block cannot carry the force 0. An arrow from the dot to the middle of the polygon shows that all forces
         // begin at the dot.
         let to = pen.camera.place(plan.middle());
@@ -361,6 +386,10 @@ fn area_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
             .into(),
         Path::stroked(outline, Stroke::new(edge_colour(theme), EDGE_WIDTHS.1)).into(),
     ]
+}
+
+fn force_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    vec![Path::filled(straight(at, (26.0, 0.0), 2.0), edge_colour(theme)).into()]
 }
 
 fn dot_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {

@@ -1,8 +1,9 @@
 //! Draws the safe part (kernel) of each interface, and a mark at the position of the resultant in it.
 
+use super::arrow::Marks;
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::{About, PanelContent};
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::joint_name::joint_name;
@@ -10,6 +11,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
+use super::thrust;
 use super::verdict;
 use super::words::{FULL_UTILISATION, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -35,6 +37,16 @@ impl PanelContent for Kernel {
         }
     }
 
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        // Loads are drawn in the same way as in a figure of the line of thrust.
+        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
+    }
+
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let scene = &of.analysis.scene;
+        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
+    }
+
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let frame_analysis = &context.analysis.frames[frame];
@@ -48,7 +60,13 @@ impl PanelContent for Kernel {
         let dots = dots(pen, frame_analysis, &mut |at| {
             ink.disc(at, dot(pen.unit()) + 1.0)
         });
-        composed(pen, view, pen.blocks(), vec![stretches, dots], ink)
+        composed(
+            pen,
+            view,
+            pen.blocks(),
+            vec![pen.arrows(false), stretches, dots],
+            ink,
+        )
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
@@ -77,6 +95,7 @@ impl PanelContent for Kernel {
             let what = "resultant at an end of the safe part".to_owned();
             entries.push(Entry::Symbol(end_symbol, 11.0, what));
         }
+        entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }

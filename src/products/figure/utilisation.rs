@@ -6,9 +6,10 @@
 
 mod symbol;
 
+use super::arrow::Marks;
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::{About, PanelContent};
+use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::joint_name::joint_name;
@@ -16,6 +17,7 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
+use super::thrust;
 use super::verdict;
 use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -42,6 +44,16 @@ impl PanelContent for Utilisation {
         }
     }
 
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        // Loads are drawn in the same way as in a figure of the line of thrust.
+        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
+    }
+
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        let scene = &of.analysis.scene;
+        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
+    }
+
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
         let (context, frame, camera) = (pen.context, pen.number, pen.camera);
         let frame_analysis = &context.analysis.frames[frame];
@@ -57,7 +69,8 @@ impl PanelContent for Utilisation {
         }
         let (idle, used) = interfaces(pen, frame_analysis);
         let robots = robots(pen, frame_analysis);
-        composed(pen, view, pen.blocks(), vec![idle, used, robots], ink)
+        let parts = vec![pen.arrows(false), idle, used, robots];
+        composed(pen, view, pen.blocks(), parts, ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
@@ -103,6 +116,7 @@ impl PanelContent for Utilisation {
         if all.iter().any(Option::is_none) {
             entries.push(Entry::Symbol(idle_symbol, SYMBOL_WIDTH, "no force".into()));
         }
+        entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }

@@ -1,12 +1,24 @@
 //! Describes in words which forces can act on a block without a collapse.
 
 use super::number::{digits, quantity};
-use crate::analysis::{CapacityShape, LoadCapacity};
+use crate::analysis::{CapacityShape, LoadCapacity, Verdict};
 use crate::scene::Scene;
 use crate::text;
 
-/// Describes a load capacity in words: where the force acts, and how large it may be in each direction.
-pub fn sentences(scene: &Scene, capacity: &LoadCapacity) -> String {
+/// Describes a load capacity in words: where the force acts, and how large it may be in each direction. `verdict` is
+/// the verdict of the frame.
+///
+/// The capacity is computed with the contacts as the scene gives them. If the verdict depends on whether bodies with a
+/// narrow gap touch, the capacity may be another one, and the words say which contacts are meant.
+pub fn sentences(scene: &Scene, verdict: Verdict, capacity: &LoadCapacity) -> String {
+    match verdict {
+        Verdict::Undecided => format!("with the contacts as drawn, {}", forces(scene, capacity)),
+        _ => forces(scene, capacity),
+    }
+}
+
+/// Describes where the force acts, and how large it may be in each direction.
+fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
     let for_all = match capacity.cases {
         1 => "",
