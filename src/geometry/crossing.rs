@@ -1,5 +1,5 @@
-//! [`crossings`]: finds the pairs of a polygon's sides that cross or touch. In a simple polygon, only neighbouring
-//! sides touch, at their common corner.
+//! [`crossings`]: finds the pairs of a polygon's sides that cross or touch. Neighbouring
+//! sides that meet only at their common corner do not count, so a simple polygon has no crossings.
 //!
 //! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`]. The answer therefore
 //! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
@@ -41,8 +41,8 @@ impl Side {
         self.edge.bounds()
     }
 
-    /// Returns a point that this side and a later side of the polygon share; `None` if they share none. Neighbouring sides
-    /// always share a corner; for them, returns this corner only if one side folds back onto the other.
+    /// Returns a point that this side and a later side of the polygon share; `None` if they share none. Neighbouring
+    /// sides always share a corner; for them, returns this corner only if one side folds back onto the other.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
         // Neighbouring sides share a corner. They share more than this corner only if one side folds back onto the

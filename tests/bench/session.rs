@@ -1,8 +1,8 @@
 //! The time of a step of a session: walls are built brick by brick on a square lattice and then changed.
 //!
-//! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered from the warm
-//! start. "From scratch" means that a scene file of the same blocks is read and analysed, in Rust. `BLOCKS=20 cargo
-//! bench --bench session` uses only walls of 20 blocks.
+//! `cargo bench --bench session` prints medians in microseconds, and how many steps were answered from the warm start.
+//! "From scratch" means that a scene of the same blocks is built in memory and analysed, without a warm start.
+//! `BLOCKS=20 cargo bench --bench session` uses only walls of 20 blocks.
 
 #![allow(
     clippy::print_stdout,

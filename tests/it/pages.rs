@@ -162,6 +162,8 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
                 "metres",
                 "kg",
                 "newtons",
+                "length unit of the scene",
+                "force unit of the scene",
                 "N·m",
                 "degrees",
                 "coefficient",

@@ -162,7 +162,7 @@ fn summary(values: &[f64]) -> String {
     let sources: BTreeSet<&str> = CASES.iter().map(|case| case.source).collect();
     let seen = CASES.iter().filter(|case| case.seen).count();
     format!(
-        "The page compares {} values from {} sources. {} values agree within 0.01 %, {} within 0.1 %, and {} within 1 %. {} of the\npublished values were found in a text or a program; the others have a † and were not checked.\n",
+        "The page compares {} values from {} sources. {} values agree within 0.01 %, {} within 0.1 %, and {} within 1 %. {} of the\npublished values were found in a publication that we read, or in a program; the others have a † and were not checked.\n",
         CASES.len(),
         sources.len(),
         within(0.01),

@@ -335,7 +335,8 @@ impl Render {
         Ok(analysis_options)
     }
 
-    /// Returns the parameter of `--margin`; `None` if there is no such option, or if its margin has no mechanism.
+    /// Returns the parameter of the margin that `--margin` names: tilt, horizontal load or load factor. Returns `None`
+    /// without this option, or if the margin has no mechanism.
     fn toward(&self) -> Option<Toward> {
         self.margin.and_then(|margin| Toward::from_margin(margin.0))
     }

@@ -92,8 +92,8 @@ pub(super) fn add_component(
     kernel: f64,
 ) {
     add_forces(analysis, component, findings, kernel);
-    // The bounds of the components add up, because no force acts between two components. If one bound is unknown, the
-    // sum is unknown, too.
+    // The bounds of the components add up, because no force acts between two components. If one bound is unknown,
+    // or one component is not stable, the sum is unknown.
     analysis.force_bound = match (analysis.force_bound, findings.force_bound) {
         (Some(sum), Some(own)) if findings.verdict == Verdict::Stable => Some(sum + own),
         _ => None,

@@ -74,7 +74,7 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub density: Option<f64>,
-    /// Thickness of all blocks across the plane in metres, at least 0. Default 1.
+    /// Thickness of all blocks across the plane, in the length unit of the scene, at least 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub thickness: Option<f64>,
@@ -106,8 +106,8 @@ pub struct SceneFile {
     /// Loads on blocks, in addition to their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
-    /// Edges within this distance of each other, in metres, touch, and bodies may overlap by up to this depth; at
-    /// least 0. Default: estimated from how the coordinates are written and how large the scene is.
+    /// Edges within this distance of each other, in the length unit of the scene, touch. Bodies may overlap by up to
+    /// this depth. At least 0. Default: estimated from how the coordinates are written and how large the scene is.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
@@ -141,8 +141,8 @@ impl SceneFile {
         friction: f64, "Friction coefficient μ of bodies without a coefficient of their own or of their material, at least 0.";
         kernel: f64, "Safety kernel, 0 to 1: the fraction of each contact's length that must stay free of force.";
         density: f64, "Density in kg/m³ of blocks without a density of their own or of their material, at least 0.";
-        thickness: f64, "Thickness of all blocks in metres, perpendicular to the plane of the scene, at least 0.";
-        contact_tolerance: f64, "Contact tolerance: the largest distance in metres between two edges that touch, at least 0.";
+        thickness: f64, "Thickness of all blocks in the length unit of the scene, perpendicular to the plane of the scene, at least 0.";
+        contact_tolerance: f64, "Contact tolerance: the largest distance, in the length unit of the scene, between two edges that touch, at least 0.";
         corner_contacts: bool, "Whether a corner that touches an edge or another corner transmits force.";
     }
 }
@@ -233,7 +233,7 @@ pub struct FrictionPairEntry {
 pub struct GridEntry {
     /// The kind of the lattice.
     pub kind: GridKind,
-    /// Edge length of a cell in metres, more than 0. Default 1.
+    /// Edge length of a cell in the length unit of the scene, more than 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 1.0, "exclusiveMinimum" = 0)))]
     pub side: Option<f64>,
@@ -281,13 +281,13 @@ pub enum CellHalf {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct ShapeEntry {
-    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
-    /// be concave.
+    /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must not
+    /// cross itself; it may be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
-    /// hole.
+    /// Holes in the polygon, each a list of corners in the length unit of the scene. A hole lies inside the outline and
+    /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, connected by edges, each listed once.

@@ -186,8 +186,8 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
-/// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is not a whole
-/// number or out of range.
+/// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is out of
+/// range or not a whole number.
 fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;

@@ -186,8 +186,8 @@ fn balance_by_levels(
     if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
         return None;
     }
-    // Refine the optimum, one order of magnitude of the loads after the other. Then choose the forces of least Σ force²
-    // on its face.
+    // Refine the optimum level by level, from the largest loads to the smallest. Then choose the forces of least
+    // Σ force² on its face.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.optimal_face(&optimum, 1.0);

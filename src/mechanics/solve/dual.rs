@@ -74,8 +74,8 @@ pub fn dual(
 }
 
 /// Converts a solver's answer for the kinematic dual `conic` to a [`Dual`]: velocities, the amount, slack and limit
-/// multiplier of each column, and the objective. `row_of` contains, for each column, the index of its row in `conic`, or
-/// `usize::MAX` for the second column of an opposite pair that shares one equality.
+/// multiplier of each column, and the objective. `row_of` contains, for each column, the index of its row in `conic`,
+/// or `usize::MAX` for the second column of an opposite pair that shares one equality.
 pub(super) fn from_kinematic_answer(
     loads: &[f64],
     columns: &[Column],
@@ -144,8 +144,8 @@ pub(super) fn solve_static_form(
 ) -> Dual {
     let conic = force_primal(loads, columns, cost, None);
     let answer = solve_once(&conic, settings.into(), effort);
-    // The static form is infeasible if the kinematic form is unbounded, and unbounded if the kinematic form is
-    // infeasible.
+    // Convert the status of the static form to that of its dual, the kinematic form. The dual of an infeasible program
+    // is unbounded, because velocities of 0 are always feasible. The dual of an unbounded program is infeasible.
     let status = match answer.status {
         Status::Infeasible => Status::Unbounded,
         Status::Unbounded => Status::Infeasible,

@@ -101,7 +101,8 @@ impl Face {
         both.filter(|(c, _)| c.force.is_adhesion()).map(|(_, a)| *a)
     }
 
-    /// Returns the sum of the amounts of the adhesion columns: the objective of stage 1 of the least adhesion.
+    /// Returns the sum of the amounts of the adhesion columns: the objective of stage 1 of the program of least
+    /// adhesion.
     pub fn adhesion_sum(&self, amounts: &[f64]) -> f64 {
         self.adhesion_amounts(amounts).sum()
     }

@@ -133,8 +133,8 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
         return without_balance(program, first, priced, effort);
     }
     let mut motion = Some(first.y.iter().map(|v| -v).collect());
-    // If loads or adhesion differ by many powers of ten, refine the optimum of stage 1, one order of magnitude after
-    // the other.
+    // If loads or adhesion differ by many powers of ten, refine the optimum of stage 1 level by level, from the
+    // largest amounts to the smallest.
     let many = size == Size::Many;
     let precise = least_adhesion_levels::precise_optimum(&whole, &first, many, &mut effort);
     let mut face = match &precise {

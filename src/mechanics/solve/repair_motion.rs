@@ -1,5 +1,5 @@
-//! Removes a solver's error from a motion. In the corrected motion, every contact opens a little or stays closed up
-//! to rounding errors.
+//! Removes a solver's error from a motion. In the corrected motion, every contact opens or stays closed, up to rounding
+//! errors. The proof subtracts any violation that remains.
 //!
 //! A motion from an interior-point method violates contacts by about a billionth of its speed. Contact forces of a
 //! billion times the loads could then oppose it. The method is iterative refinement: each round scales the violations

@@ -99,7 +99,8 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the arrows of loads and of missing forces. The tip of a load's arrow is at the point where the load acts.
+/// Returns the arrows of loads and missing forces, and the marks of their torques. The tip of a load's arrow is at the
+/// point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
@@ -206,14 +207,14 @@ impl<'a> Picture<'a> {
         )
     }
 
-    /// True if the frame has more than [`MAX_SINGLE_STRANDS`] blocks. All bands of one colour are then drawn as one shape
-    /// without tooltips, and joints have no dots.
+    /// True if the frame has more than [`MAX_SINGLE_STRANDS`] blocks. All bands of one colour are then drawn as one
+    /// shape without tooltips, and joints have no dots.
     fn many(&self) -> bool {
         self.scene.frames[self.pen.number].placed.len() > MAX_SINGLE_STRANDS
     }
 
-    /// Draws the bands in three layers: at the bottom the bands of weights, above them the bands of the forces that blocks
-    /// transmit, and on top the bands of missing forces.
+    /// Draws the bands in three layers: at the bottom the bands of weights, above them the bands of the forces that
+    /// blocks transmit, and on top the bands of missing forces.
     fn flow(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("flow");
         let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];

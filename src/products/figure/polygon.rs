@@ -253,8 +253,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 }
 
 /// Computes the force polygon of a frame from the external forces among the arrows in `marks`. The polygon is placed to
-/// the right of the structure. Returns `None` if the frame has no block, if there are fewer than two external forces, or
-/// if all of them are 0.
+/// the right of the structure. Returns `None` if the frame has no block, if there are fewer than two external forces,
+/// or if all of them are 0.
 fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames.iter().flat_map(|frame| &frame.placed);
@@ -346,8 +346,8 @@ fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![missing(outline, theme.failure, theme).into()]
 }
 
-/// Returns an arrow of a round force for each scale of the polygons. `scales` lists frames with their scales, pixels per
-/// newton.
+/// Returns an arrow of a round force for each scale of the polygons. `scales` lists frames with their scales, pixels
+/// per newton.
 fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, scale) in scales {
@@ -362,8 +362,8 @@ fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
         let amount = round_below_in(SCALE_ARROW / scale, unit);
         let amount_words = quantity(amount, unit);
         let words = match (is_only, frames.len()) {
-            (true, 1) => format!("{amount_words} in the force polygon, tip to tail"),
-            (true, _) => format!("{amount_words} in the force polygons, tip to tail"),
+            (true, 1) => format!("arrow of {amount_words} in the force polygon"),
+            (true, _) => format!("arrow of {amount_words} in the force polygons"),
             (false, 1) => format!("{amount_words} in the polygon of {}", listed(&frames)),
             (false, _) => format!("{amount_words} in the polygons of {}", listed(&frames)),
         };
@@ -392,7 +392,7 @@ mod tests {
         };
         assert_eq!(said(&[]), []);
         // 64 pixels show 12.8 N, and the largest round force below is 10 N.
-        let one = "10 N in the force polygon, tip to tail".to_owned();
+        let one = "arrow of 10 N in the force polygon".to_owned();
         assert_eq!(said(&[(0, 5.0)]), [(50.0, one)]);
         let both = [
             (50.0, "10 N in the polygons of (a) and (c)".to_owned()),

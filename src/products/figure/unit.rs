@@ -39,8 +39,8 @@ const LONGEST_LOAD: f64 = 0.1;
 /// Width of the shaft of the arrow of a load, as a fraction of the length of the longest arrow.
 pub(crate) const LOAD_SHAFT: f64 = 0.055;
 
-/// Returns the length of the longest arrow of a load in figures that show no other forces to the same scale, metres. It
-/// is at least the unit length.
+/// Returns the length in metres of the longest arrow in figures that draw loads and missing forces, and no contact
+/// forces, as arrows. It is a tenth of the longer side of the structure, and at least the unit length.
 pub(crate) fn longest_load(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let edge = unit(scene, zoom);
     let blocks = scene.blocks.iter();

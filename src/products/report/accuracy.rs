@@ -161,7 +161,7 @@ fn mark(mark: Mark) -> &'static str {
 /// Returns the summary as a Markdown table with one row for each combination of method and tolerance.
 pub fn markdown(study: &Study) -> String {
     let mut text = String::from(
-        "| method | tolerance | relative time | iterations | median error of total | worst error of total | worst error of largest force | wrong | undecided |\n\
+        "| method | tolerance | relative time | iterations | median error of total force | worst error of total force | worst error of largest force | wrong | undecided |\n\
          |---|---|---|---|---|---|---|---|---|\n",
     );
     for line in summary(study) {

@@ -1,6 +1,6 @@
 //! [`illustrate`]: an mdBook preprocessor that draws the scenes in the chapters of a book.
 //!
-//! A fenced code block that begins with `drystone` contains a scene, or names a scene file with `file=…`. The
+//! A fenced code block with the language `drystone` contains a scene, or names a scene file with `file=…`. The
 //! preprocessor replaces the block by a figure with a caption. Options follow the word `drystone`, as `name=value` or
 //! `name`:
 //!
@@ -91,7 +91,7 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// Returns the text of a chapter with a figure in place of each code block that begins with `drystone`. Adds a
+/// Returns the text of a chapter with a figure in place of each code block of the language `drystone`. Adds a
 /// message to `problems` for each code block that cannot be drawn.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();

@@ -102,7 +102,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::Kernel => match end(margin.interval.high(), &three_down) {
             Some(most) => format!("It stands up to a safety kernel of {most}"),
-            None => "It stands whatever the safety kernel".to_owned(),
+            None => "It stands with every safety kernel up to 1".to_owned(),
         },
         _ => format!("{}: {}", margin.name, margin.sentence()),
     }
@@ -124,7 +124,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             three_up(least)
         ),
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
-            "It falls whatever the friction coefficient".to_owned()
+            "It falls with every friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),
     }

@@ -182,7 +182,8 @@ pub fn letter(number: usize) -> String {
     letters.iter().rev().collect()
 }
 
-/// Writes a number with four significant digits, without trailing zeros.
+/// Writes a number with four significant digits, or with all digits of its whole part if it has more. Trailing zeros of
+/// decimals are dropped. Numbers below 0.001 or from a million on are written like `1.000e6`.
 pub fn digits(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {

@@ -54,7 +54,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
             worst_violation,
         } => vec![
             (
-                "power of the loads along the motion, relative to the loads of the moving blocks",
+                "power of the loads along the motion, less what robots can absorb, relative to the loads of the moving blocks",
                 digits(power),
             ),
             (
@@ -109,10 +109,10 @@ pub fn sentence(proof: Proof) -> String {
             let weak = if proof.holds() {
                 ""
             } else {
-                " The power of the loads is too small for a proof."
+                " Compared with its rounding errors, the power of the loads is too small for a proof."
             };
             format!(
-                "There is a motion along which the loads do work and that no contact or robot resists, {ruled_out}.{weak}"
+                "There is a motion that no contact resists, and along which the loads do more work than robots can absorb, {ruled_out}.{weak}"
             )
         }
     }

@@ -77,7 +77,7 @@ impl Report {
                 }
                 if tasks.is_empty() {
                     return Err(refuse(
-                        "--compare finds no file of the same name in both folders",
+                        "--compare finds no .json file with the same path in both folders",
                     ));
                 }
                 Ok((tasks, notes))

@@ -15,11 +15,11 @@ use crate::solve::{Effort, repair_motion};
 const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
 impl Component<'_> {
-    /// Returns the motion nearest to the velocities `y` (program units) that violates no contact, and its proof. `None`
-    /// if the proof is too weak.
+    /// Returns a motion near the velocities `y` (program units) that violates no contact, and its proof. Returns `None`
+    /// if no such motion is found, or if its proof is too weak.
     ///
-    /// Small violations are not accepted as rounding either: the motion of a wedge into its notch consists only of such
-    /// violations.
+    /// Even small violations are not ignored as rounding errors: the motion of a wedge into its notch consists only of
+    /// such violations.
     pub(super) fn prove_motion(
         &self,
         program: &Program,

@@ -184,6 +184,7 @@ impl Reduced {
     }
 
     /// Returns the derivative of [`Reduced::residual`] with respect to the parameter, at `value`.
+    /// `changed` is the component with the parameter at `value`. The amounts stay the same.
     pub fn growth(&self, case: &Case, changed: &Assembly, amounts: &[f64], value: f64) -> Vec<f64> {
         if let Some(growth) = case.growth(value) {
             let mut sum = self.grouped(changed, &growth);

@@ -19,8 +19,8 @@ pub struct GroundEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
-    /// hole.
+    /// Holes in the polygon, each a list of corners in the length unit of the scene. A hole lies inside the outline and
+    /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, connected by edges, each listed once.
@@ -30,8 +30,8 @@ pub struct GroundEntry {
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Position of its origin: in metres, or a lattice point if the scene has a grid (whole numbers for cells). Default
-    /// [0, 0].
+    /// Position of its origin: in the length unit of the scene, or a lattice point if the scene has a grid (whole
+    /// numbers for cells). Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
@@ -68,8 +68,8 @@ pub struct BlockEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in metres. A hole lies inside the outline and not inside another
-    /// hole.
+    /// Holes in the polygon, each a list of corners in the length unit of the scene. A hole lies inside the outline and
+    /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// Lattice cells, connected by edges, each listed once.
@@ -79,8 +79,8 @@ pub struct BlockEntry {
     /// Name of a shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Position of its origin: in metres, or a lattice point if the scene has a grid (whole numbers for cells). Default
-    /// [0, 0].
+    /// Position of its origin: in the length unit of the scene, or a lattice point if the scene has a grid (whole
+    /// numbers for cells). Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
@@ -92,11 +92,11 @@ pub struct BlockEntry {
     /// Name of its material.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Point [x, y] in metres at which the weight acts, for a block without an outline. Such a block needs a `mass` or a
-    /// `weight`, and touches other bodies only at the `contacts` of the scene.
+    /// Point [x, y] in the length unit of the scene at which the weight acts, for a block without an outline. Such a
+    /// block needs a `mass` or a `weight`, and touches other bodies only at the `contacts` of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre: Option<Pair>,
-    /// Weight in newtons along gravity, at least 0. Takes precedence over `mass` and `density`.
+    /// Weight in the force unit of the scene along gravity, at least 0. Takes precedence over `mass` and `density`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub weight: Option<f64>,
@@ -130,8 +130,8 @@ pub struct RobotEntry {
     /// The block it holds in a scene without steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub holds: Option<String>,
-    /// Grip point [x, y] in metres on the block that it `holds`; ignored without `holds`. Default: the block's
-    /// centroid.
+    /// Grip point [x, y] in the length unit of the scene on the block that it `holds`; ignored without `holds`.
+    /// Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
     /// Its largest force and torque. Default: any force, no torque.
@@ -145,11 +145,11 @@ pub struct RobotEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct LimitsEntry {
-    /// Largest horizontal force in newtons, at least 0. Default: `force`, else unlimited.
+    /// Largest horizontal force in the force unit of the scene, at least 0. Default: `force`, else unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub fx: Option<f64>,
-    /// Largest vertical force in newtons, at least 0. Default: `force`, else unlimited.
+    /// Largest vertical force in the force unit of the scene, at least 0. Default: `force`, else unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub fy: Option<f64>,
@@ -157,7 +157,7 @@ pub struct LimitsEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
     pub torque: Option<f64>,
-    /// Limit for `fx` and `fy` if they are not given; newtons, at least 0.
+    /// Limit for `fx` and `fy` if they are not given; in the force unit of the scene, at least 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub force: Option<f64>,
@@ -171,7 +171,7 @@ pub struct LimitsEntry {
 pub struct ContactEntry {
     /// Names of the two bodies; `ground` is the ground.
     pub bodies: [String; 2],
-    /// The point [x, y] in metres.
+    /// The point [x, y] in the length unit of the scene.
     pub at: Pair,
     /// Direction of the normal, which points into the first body: degrees anticlockwise from the x axis.
     pub normal: f64,
@@ -189,11 +189,11 @@ pub struct ContactEntry {
 pub struct LoadEntry {
     /// The loaded block.
     pub block: String,
-    /// Force [x, y] in newtons. Default [0, 0].
+    /// Force [x, y] in the force unit of the scene. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub force: Option<Pair>,
-    /// Where the force acts, [x, y] in metres. Default: the block's centroid.
+    /// Where the force acts, [x, y] in the length unit of the scene. Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
     /// Torque in N·m, anticlockwise positive. Default 0.

@@ -27,13 +27,14 @@ macro_rules! words {
 /// Declares methods that set an outline.
 macro_rules! outline {
     () => {
-        /// Sets the outline to a polygon. Its corners are [x, y] in metres, clockwise or anticlockwise.
+        /// Sets the outline to a polygon. Its corners are [x, y] in the length unit of the scene, clockwise or
+        /// anticlockwise.
         pub fn polygon(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.polygon = Some(corners.into());
             self
         }
 
-        /// Adds a hole to the polygon. The corners of the hole are [x, y] in metres.
+        /// Adds a hole to the polygon. The corners of the hole are [x, y] in the length unit of the scene.
         pub fn hole(mut self, corners: impl Into<Vec<Pair>>) -> Self {
             self.holes.push(corners.into());
             self
@@ -52,7 +53,7 @@ macro_rules! body {
     () => {
         outline!();
         optional_setters! {
-            at: Pair, "Position of the body's origin [x, y], in metres; in lattice coordinates if the scene has a grid.";
+            at: Pair, "Position of the body's origin [x, y], in the length unit of the scene; in lattice coordinates if the scene has a grid.";
             angle: f64, "Rotation of the body about its own origin, in degrees anticlockwise. The body is rotated before it is moved to `at`.";
             friction: f64, "Friction coefficient of this body, at least 0.";
         }
@@ -99,7 +100,7 @@ impl SceneFile {
         self
     }
 
-    /// Sets the kind of the lattice, and the edge length of its cells in metres.
+    /// Sets the kind of the lattice, and the edge length of its cells in the length unit of the scene.
     pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
         let side = Some(side);
         self.grid = Some(GridEntry { kind, side });
@@ -120,20 +121,21 @@ impl SceneFile {
         self
     }
 
-    /// Adds a shape, given by its corners in metres or as a [`ShapeEntry`]. Blocks and ground refer to it by `name`.
+    /// Adds a shape, given by its corners in the length unit of the scene or as a [`ShapeEntry`]. Blocks and ground
+    /// refer to it by `name`.
     pub fn shape(mut self, name: impl Into<String>, shape: impl Into<ShapeEntry>) -> Self {
         self.shapes.0.push((name.into(), shape.into()));
         self
     }
 
-    /// Adds a part of the ground, given by its corners in metres or as a [`GroundEntry`].
+    /// Adds a part of the ground, given by its corners in the length unit of the scene or as a [`GroundEntry`].
     pub fn ground(mut self, part: impl Into<GroundEntry>) -> Self {
         self.ground.push(part.into());
         self
     }
 
-    /// Adds a block, given by its corners in metres or as a [`BlockEntry`]. If a block has no id, its number in the
-    /// list is its id, counted from 1.
+    /// Adds a block, given by its corners in the length unit of the scene or as a [`BlockEntry`]. If a block has no id,
+    /// its number in the list is its id, counted from 1.
     pub fn block(mut self, block: impl Into<BlockEntry>) -> Self {
         self.blocks.push(block.into());
         self
@@ -204,8 +206,8 @@ impl BlockEntry {
 
     body!();
     optional_setters! {
-        centre: Pair, "Point [x, y] in metres at which the weight acts. Only for a block without an outline.";
-        weight: f64, "Weight of the block in newtons, at least 0. It takes precedence over mass and density.";
+        centre: Pair, "Point [x, y] in the length unit of the scene at which the weight acts. Only for a block without an outline.";
+        weight: f64, "Weight of the block in the force unit of the scene, at least 0. It takes precedence over mass and density.";
         mass: f64, "Mass of the block in kg, at least 0. It takes precedence over the density.";
         density: f64, "Density of this block in kg/m³, at least 0.";
     }
@@ -221,7 +223,7 @@ impl RobotEntry {
     }
 
     optional_setters! {
-        at: Pair, "Grip point [x, y] in metres on the block that the robot `holds`.";
+        at: Pair, "Grip point [x, y] in the length unit of the scene on the block that the robot `holds`.";
         limits: LimitsEntry, "The largest force and torque of the robot.";
     }
     words! {
@@ -232,17 +234,17 @@ impl RobotEntry {
 
 impl LimitsEntry {
     optional_setters! {
-        fx: f64, "Largest horizontal force in newtons, at least 0.";
-        fy: f64, "Largest vertical force in newtons, at least 0.";
+        fx: f64, "Largest horizontal force in the force unit of the scene, at least 0.";
+        fy: f64, "Largest vertical force in the force unit of the scene, at least 0.";
         torque: f64, "Largest torque in N·m, at least 0.";
-        force: f64, "Limit in newtons for `fx` and `fy` where these are not given, at least 0.";
+        force: f64, "Limit in the force unit of the scene for `fx` and `fy` where these are not given, at least 0.";
     }
 }
 
 impl ContactEntry {
-    /// Creates a contact of two bodies at the point `at`, [x, y] in metres. `normal` is the direction of the contact
-    /// normal, which points into the first body, in degrees anticlockwise from the x axis. The name `ground` stands for
-    /// the ground.
+    /// Creates a contact of two bodies at the point `at`, [x, y] in the length unit of the scene. `normal` is the
+    /// direction of the contact normal, which points into the first body, in degrees anticlockwise from the x axis. The
+    /// name `ground` stands for the ground.
     pub fn between(
         first: impl Into<String>,
         second: impl Into<String>,
@@ -272,8 +274,8 @@ impl LoadEntry {
     }
 
     optional_setters! {
-        force: Pair, "Force [x, y] in newtons.";
-        at: Pair, "Point [x, y] in metres at which the force acts. Without it, the force acts at the centroid of the block.";
+        force: Pair, "Force [x, y] in the force unit of the scene.";
+        at: Pair, "Point [x, y] in the length unit of the scene at which the force acts. Without it, the force acts at the centroid of the block.";
         torque: f64, "Torque in N·m, anticlockwise positive.";
     }
 }
@@ -314,7 +316,7 @@ impl StepEntry {
         self
     }
 
-    /// Lets a robot take hold of a block in this step, at the point `at`, [x, y] in metres.
+    /// Lets a robot take hold of a block in this step, at the point `at`, [x, y] in the length unit of the scene.
     pub fn hold_at(mut self, robot: impl Into<String>, block: impl Into<String>, at: Pair) -> Self {
         let (block, at) = (block.into(), Some(at));
         let hold = HoldEntry::Grip(GripEntry { block, at });

@@ -74,7 +74,8 @@ impl Default for HoldEntry {
 pub struct GripEntry {
     /// The block held.
     pub block: String,
-    /// The grip point [x, y] in metres. Default: the robot's own `at` for the block it `holds`, else the centroid.
+    /// The grip point [x, y] in the length unit of the scene. Default: the robot's own `at` for the block it `holds`,
+    /// else the centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
 }

@@ -79,7 +79,7 @@ pub(in crate::mechanics::scene) fn planned_placed(robot: &str, block: &str) -> W
     new_wording(
         Code::PlacedTwice,
         format!(
-            "the robot `{}` plans the block `{}`, which is already placed",
+            "`plan` says that the robot `{}` will place the block `{}`, which is already placed",
             shortened(robot),
             shortened(block)
         ),

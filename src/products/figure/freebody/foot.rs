@@ -147,8 +147,8 @@ impl Sheet<'_> {
         notes
     }
 
-    /// Returns the description of the diagram for screen readers: its arrows, the list of forces, and the points where
-    /// forces act.
+    /// Returns the description of the diagram for screen readers: its arrows, the list of forces and, if the diagram
+    /// has coordinates, the points where forces act.
     pub(super) fn described(&self) -> String {
         let arrows: Vec<&str> = self.arrows.iter().map(|a| a.title.as_str()).collect();
         let mut stated = self.table().stated();

@@ -1,9 +1,9 @@
-//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, so that they do not cover other shapes.
+//! [`labels`]: draws names of blocks and robots, and magnitudes of forces, at positions that avoid other shapes.
 //!
 //! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
-//! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels do not
-//! cover arrows, outlines, discs or other labels. A label without a free position is left out, and a note counts
-//! these labels. Names of blocks that occur in the text below the verdict are placed first and are never left out.
+//! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels that
+//! occur in the text below the verdict are placed first; if they have no free position, they are drawn over other
+//! shapes. Any other label without a free position is left out, and a note counts these labels.
 
 mod amount;
 mod lettering;
@@ -162,7 +162,8 @@ fn is_ambiguous(pen: &Pen<'_>, label: &Label, rect: PageRect) -> bool {
     others.any(|id| far(id) < AMBIGUITY_RATIO * far(own))
 }
 
-/// Returns a note such as `80 blocks: names left out` if a frame has too many blocks for labels; otherwise `None`.
+/// Returns a note such as `80 blocks: names left out` if a frame has too many blocks for labels. Returns
+/// `None` if no frame has too many, or if the figure has neither names nor amounts.
 pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
     let options = context.options;
     let frames = &context.analysis.scene.frames;

@@ -28,8 +28,9 @@ pub(super) struct RowPlaces {
 }
 
 impl RowPlaces {
-    /// Returns the positions for the amount of `arrow`. Returns `None` if the arrow is not a load, or if there are too
-    /// few loads beside it. The width and height of the amount are in pixels.
+    /// Returns the positions for the amount of `arrow`. Returns `None` if the arrow is not a load or has no length, if
+    /// there are too few loads beside it, or if there is space for the amounts beside their arrows. The width and
+    /// height of the amount are in pixels.
     pub fn new(pen: &Pen<'_>, arrow: &ForceArrow, (wide, high): (f64, f64)) -> Option<RowPlaces> {
         let tail = pen.camera.place(arrow.at);
         let (x, y) = pen.camera.turn(arrow.reach());
@@ -57,8 +58,8 @@ impl RowPlaces {
     }
 }
 
-/// Returns the distances of the other load arrows in the row of `arrow`, pixels: arrows with nearly the direction (`ux`,
-/// `uy`) whose tails lie beside `tail`. Along the arrow, the tails differ by at most `along` pixels.
+/// Returns the distances of the other load arrows in the row of `arrow`, pixels: arrows with nearly the direction
+/// (`ux`, `uy`) whose tails lie beside `tail`. Along the arrow, the tails differ by at most `along` pixels.
 fn row(
     pen: &Pen<'_>,
     arrow: &ForceArrow,

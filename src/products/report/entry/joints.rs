@@ -209,7 +209,7 @@ impl<'a> Ranking<'a> {
         let joints = self.used.iter().map(|used| {
             let contact = &self.frame_analysis.contacts[used.contact];
             let mut words = format!(
-                "{}: normal force {}, friction force {}, sliding {}",
+                "{}: normal force {}, friction force {}, {} of the available friction used",
                 name(self.scene, contact),
                 newtons.with_unit(normal(contact)),
                 newtons.with_unit(contact.friction_force.abs()),
