@@ -357,7 +357,7 @@ fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
         "weight 11 N → 22 N",
         "centroid moved by (-1, 0) m",
         "the blocks and their places are the same",
-        "no force changed by over 5 %",
+        "shared forces changed by over 5 %",
     ] {
         assert!(page.contains(words), "{words}");
     }

@@ -62,7 +62,7 @@ pub use broken::broken;
 pub use cad::dxf;
 pub use caption::caption;
 #[cfg(feature = "report")]
-pub(crate) use change::{ForceChange, noise};
+pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use choice::{FREEBODY, FREEBODY_HELP, free_block, named_block};
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
