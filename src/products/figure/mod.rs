@@ -65,6 +65,8 @@ pub use caption::caption;
 pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use choice::{FREEBODY, FREEBODY_HELP, free_block, named_block};
+#[cfg(feature = "report")]
+pub(crate) use displacement::moving;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};
