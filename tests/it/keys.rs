@@ -2,9 +2,9 @@
 
 use drystone::analysis::Analysis;
 use drystone::drawing::{Group, Text};
-use drystone::figure::{self, Options};
+use drystone::figure::{self, Kind, Options};
 
-use crate::labels::{COLUMN, classes, texts};
+use crate::labels::{COLUMN, classes, pieces, texts};
 use crate::pictures::scene;
 
 #[test]
@@ -63,6 +63,39 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
     let high = figure.height / figure.width * 84.0;
     // A4 without margins of 35 mm at the top and at the bottom.
     assert!(high < 227.0, "{high} mm");
+}
+
+/// The scenes of the test below: none of them is flatter than a third of its width.
+const NOT_FLAT: [&str; 9] = [
+    "arch13",
+    "arch13thin",
+    "archload",
+    "buttress",
+    "doorway",
+    "leaning",
+    "loaded",
+    "slide",
+    "wall200",
+];
+
+#[test]
+fn in_a_column_of_print_key_and_caption_need_at_most_half_of_a_figure() {
+    let kinds = [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism];
+    let mut wordy = Vec::new();
+    for name in NOT_FLAT {
+        let analysis = Analysis::new(&scene(&format!("tests/scenes/{name}.json")));
+        for kind in kinds {
+            let drawing = figure::draw(&analysis, kind, &Options::default().width(COLUMN));
+            let pictures = classes(&drawing.items, &["ground", "block"]);
+            let shapes = pictures.into_iter().flat_map(pieces).flatten();
+            let bottom = shapes.map(|p| p.y).fold(0.0, f64::max);
+            let share = 1.0 - bottom / drawing.height;
+            if share > 0.5 {
+                wordy.push(format!("{name} {}: {share:.2}", kind.name()));
+            }
+        }
+    }
+    assert!(wordy.is_empty(), "{wordy:#?}");
 }
 
 #[test]

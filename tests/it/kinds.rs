@@ -289,6 +289,36 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
 }
 
 #[test]
+fn a_line_of_thrust_over_several_supports_names_its_state() {
+    // A beam of three stones on three posts.
+    let post = |id: &str, x: f64| structure::block(id, structure::rectangle(x, 0.0, 1.0, 3.0), 9.0);
+    let posts = [("a", 0.0), ("b", 4.0), ("c", 8.0)].map(|(id, x)| post(id, x));
+    let lintel = structure::block("lintel", structure::rectangle(0.0, 3.0, 9.0, 1.0), 20.0);
+    let blocks: Vec<serde_json::Value> = posts.into_iter().chain([lintel]).collect();
+    let scene = structure::scene(&structure::on_floor(0.7, blocks));
+    let analysis = Analysis::new(&scene);
+    assert_eq!(analysis.thrust_states(0).supports, 3);
+    let svg = svg::write(&draw(&analysis, Kind::Thrust));
+    assert!(
+        svg.contains("line of thrust of the forces of least sum"),
+        "{svg}"
+    );
+    assert!(svg.contains("more than two supports"), "{svg}");
+}
+
+#[test]
+fn a_large_structure_without_arrows_still_names_its_largest_contact_force() {
+    let scene = structure::scene(&structure::wall(20, 16));
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().width(397.0));
+    let svg = svg::write(&drawing);
+    assert!(
+        svg.contains("too small to read, left out"),
+        "arrows are drawn"
+    );
+    assert_eq!(svg.matches(">largest: ").count(), 1, "{svg}");
+}
+
+#[test]
 fn structures_without_thrust_have_no_family_of_lines() {
     let scene = scene("study/stack-harmonic-stands.json");
     let analysis = Analysis::new(&scene);

@@ -69,6 +69,21 @@ fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
 }
 
 #[test]
+fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
+    let analysis = Analysis::with(&block(1.0, 0.5), &AnalysisOptions::default().margins(true));
+    let ends = analysis.edges(0, Toward::Tilt);
+    assert_eq!(ends.len(), 2);
+    assert!(ends[0].0.abs() <= ends[1].0.abs() && ends[0].0 * ends[1].0 < 0.0);
+    assert_eq!(analysis.edge(0, Toward::Tilt), ends.first().cloned());
+    let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
+    let ghosts = classes(&drawing.items, &["ghosts"]);
+    assert_eq!(ghosts.len(), 2);
+    assert_ne!(ghosts[0].items, ghosts[1].items);
+    let (words, _) = words_and_dashes(&drawing);
+    assert!(words.contains("the same at the other end"), "{words}");
+}
+
+#[test]
 fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
     let analysis_options = AnalysisOptions::default().margins(true);
     let options = Options::default().toward(Toward::LoadFactor);

@@ -357,7 +357,7 @@ fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
         "weight 11 N → 22 N",
         "centroid moved by (-1, 0) m",
         "the blocks and their places are the same",
-        "no force changed by over 5 %",
+        "shared forces changed by over 5 %",
     ] {
         assert!(page.contains(words), "{words}");
     }
@@ -474,4 +474,20 @@ fn a_pdf_has_all_pages_and_a_study_has_its_chart() {
             .text("s.html")
             .contains("What accuracy costs on this scene")
     );
+}
+
+#[test]
+fn a_report_counts_the_moving_blocks_that_its_picture_draws_and_names_joints_that_slide_and_tip() {
+    let scene = include_str!("../../assets/thesis/figure-8-right.json");
+    let folder = Folder::new(&[("a.json", scene)]);
+    folder.done("report a.json -o r.md");
+    let report = folder.text("r.md");
+    folder.done("render a.json --kind mechanism -o a.svg");
+    let drawn = folder.text("a.svg").matches("class=\"displaced\"").count();
+    assert!(drawn > 0);
+    assert!(
+        report.contains(&format!("{drawn} blocks move, with")),
+        "{report}"
+    );
+    assert!(report.contains("sliding and tipping joint"), "{report}");
 }

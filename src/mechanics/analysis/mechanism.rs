@@ -54,6 +54,16 @@ impl Toward {
     }
 }
 
+/// A limit of the parameter of a margin.
+struct Limit {
+    /// The value of the parameter at the limit.
+    at: f64,
+    /// 1 if the frame falls at larger values, −1 if it falls at smaller values.
+    outward: f64,
+    /// The mechanism at the limit.
+    motions: Vec<Motion>,
+}
+
 impl Analysis {
     /// Returns a copy of the analysis for drawing, in which each falling part moves by one elementary mechanism.
     /// Sliding blocks move along their joints if possible. Proofs and all other results stay unchanged.
@@ -75,42 +85,79 @@ impl Analysis {
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {
-        let analysis = self.frames.get(frame)?;
-        let margins = analysis.margins.as_ref()?;
+        let limit = self.limits(frame, toward).into_iter().next()?;
+        Some(self.beyond(frame, toward, limit))
+    }
+
+    /// Like [`Analysis::edge`], with both values at which a frame begins to fall, if it has two: first the value of
+    /// `edge`, then the value at the other end.
+    ///
+    /// Units and signs: see [`Toward`].
+    pub fn edges(&self, frame: usize, toward: Toward) -> Vec<(f64, Vec<Motion>)> {
+        let limits = self.limits(frame, toward).into_iter();
+        limits
+            .map(|limit| self.beyond(frame, toward, limit))
+            .collect()
+    }
+
+    /// Returns the limits of a parameter that have a mechanism, first the limit of [`Analysis::edge`].
+    fn limits(&self, frame: usize, toward: Toward) -> Vec<Limit> {
+        let margins = self.frames.get(frame).and_then(|f| f.margins.as_ref());
+        let Some(margins) = margins else {
+            return Vec::new();
+        };
         let side = |margin: &Margin, sign: f64| match margin {
-            Margin::Value { at, mechanism } if !mechanism.is_empty() => {
-                Some((sign * at, mechanism.clone()))
-            }
+            Margin::Value { at, mechanism } if !mechanism.is_empty() => Some(Limit {
+                at: sign * at,
+                outward: sign,
+                motions: mechanism.clone(),
+            }),
             _ => None,
         };
         let sides = |sides: &Sides| [side(&sides.right, 1.0), side(&sides.left, -1.0)];
-        let edges = match toward {
+        let limits = match toward {
             Toward::Tilt => sides(&margins.tilt),
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
-            Toward::LoadFactor => [side(&margins.load_factor, 1.0), margins.least_factor()],
+            Toward::LoadFactor => {
+                let largest = side(&margins.load_factor, 1.0);
+                let least = margins.least_factor().map(|(at, motions)| Limit {
+                    at,
+                    outward: -1.0,
+                    motions,
+                });
+                let least = least.filter(|least| largest.is_none() || least.at > 0.0);
+                [largest, least]
+            }
         };
-        // Choose the limit that is nearer to 0.
-        let (at, motions) = edges
-            .into_iter()
-            .flatten()
-            .min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-        // The loads have no power along the mechanism exactly at the limit, but they have power slightly beyond it.
-        // Therefore change the scene to a value slightly beyond the limit.
+        let mut limits: Vec<Limit> = limits.into_iter().flatten().collect();
+        if toward != Toward::LoadFactor {
+            limits.sort_by(|a, b| a.at.abs().total_cmp(&b.at.abs()));
+        }
+        limits
+    }
+
+    /// Returns the value at a limit, and the elementary mechanism slightly beyond it. The loads have no power along
+    /// the mechanism exactly at the limit, but they have power slightly beyond it.
+    fn beyond(&self, frame: usize, toward: Toward, limit: Limit) -> (f64, Vec<Motion>) {
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
+        let Limit {
+            at,
+            outward,
+            motions,
+        } = limit;
         match toward {
             Toward::Tilt => {
-                let (sin, cos) = sin_cos_degrees(at + DEGREES_BEYOND_LIMIT * at.signum());
+                let (sin, cos) = sin_cos_degrees(at + DEGREES_BEYOND_LIMIT * outward);
                 scene.gravity = Vector::new(
                     cos * gravity.x - sin * gravity.y,
                     sin * gravity.x + cos * gravity.y,
                 );
             }
             Toward::HorizontalLoad => {
-                let fraction = at + DEGREES_BEYOND_LIMIT.to_radians() * at.signum();
+                let fraction = at + DEGREES_BEYOND_LIMIT.to_radians() * outward;
                 scene.gravity = gravity + quarter_turn(gravity) * fraction;
             }
             Toward::LoadFactor => {
-                let outward = margins.least_factor().map_or(1.0, |_| -1.0);
                 let factor = at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians());
                 for load in &mut scene.loads {
                     load.force *= factor;
@@ -118,7 +165,8 @@ impl Analysis {
                 }
             }
         }
-        Some((at, self.elementary_mechanisms(&scene, analysis, &motions)))
+        let motions = self.elementary_mechanisms(&scene, &self.frames[frame], &motions);
+        (at, motions)
     }
 
     /// Returns the elementary mechanisms of an unstable frame, numbered from 0.

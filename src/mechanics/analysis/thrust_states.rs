@@ -55,6 +55,8 @@ pub struct ThrustStates {
     pub central: Option<ThrustState>,
     /// The horizontal thrust of the forces of the analysis, N.
     pub present: f64,
+    /// The number of blocks on which the frame rests on the ground. A single horizontal thrust exists only for two.
+    pub supports: usize,
 }
 
 impl Analysis {
@@ -68,21 +70,26 @@ impl Analysis {
         };
         let few = self.scene.frames[frame].placed.len() <= MAX_BLOCKS;
         let feet: BTreeSet<BlockId> = supports(&found.contacts).iter().map(|s| s.0).collect();
+        let none = ThrustStates {
+            supports: feet.len(),
+            ..ThrustStates::default()
+        };
         if found.verdict != Verdict::Stable || !few || feet.len() != 2 {
-            return ThrustStates::default();
+            return none;
         }
         let least = self.extreme(frame, 1.0);
         let needed = least
             .as_ref()
             .is_some_and(|s| s.thrust > NO_THRUST * found.weight);
         if !needed {
-            return ThrustStates::default();
+            return none;
         }
         ThrustStates {
             least,
             greatest: self.extreme(frame, -1.0),
             central: self.central(frame),
             present: thrust(&self.scene, &found.contacts),
+            ..none
         }
     }
 

@@ -1,12 +1,18 @@
 //! [`ForceChange`]: compares the force of one interface in two frames, and decides whether it changed. Figures and
 //! reports use this comparison.
 
+use std::collections::BTreeMap;
+
+use super::words::counted;
 use crate::analysis::Contact;
 use crate::geometry::Vector;
+use crate::scene::{BodyId, Scene};
 
 /// A force has changed if the difference exceeds this fraction of the larger of both forces. If forces are not
 /// unique, smaller differences can come from the solver.
 const CHANGE_TOL: f64 = 0.05;
+/// Two interfaces are at the same place if the distance of their middles is at most this fraction of their length.
+const SAME_PLACE_TOL: f64 = 1e-6;
 /// Forces below this fraction of the largest force are rounding errors of the solver.
 const NOISE_SHARE: f64 = 1e-6;
 
@@ -41,6 +47,61 @@ impl ForceChange<'_> {
     pub(crate) fn is_change(&self, noise: f64) -> bool {
         let larger = self.larger();
         larger > noise && self.difference() > CHANGE_TOL * larger
+    }
+}
+
+/// Pairs the interfaces of two frames by the names of their bodies. Of several interfaces between two bodies, those at
+/// the same place belong together; the others are paired by their order. Each frame has its scene and its contacts.
+pub(crate) fn shared_forces<'a>([then, now]: [(&Scene, &'a [Contact]); 2]) -> Vec<ForceChange<'a>> {
+    let mut before: BTreeMap<[String; 2], Vec<&'a Contact>> = BTreeMap::new();
+    for contact in then.1 {
+        let names = bodies(then.0, contact).map(|body| then.0.name(body).to_owned());
+        before.entry(names).or_default().push(contact);
+    }
+    let pair = |contact: &'a Contact| {
+        let names = bodies(now.0, contact).map(|body| now.0.name(body).to_owned());
+        let rest = before.get_mut(&names).filter(|rest| !rest.is_empty())?;
+        let same = rest.iter().position(|other| is_same_place(other, contact));
+        let contacts = [rest.remove(same.unwrap_or(0)), contact];
+        Some(ForceChange {
+            contacts,
+            forces: [force(then.0, contacts[0]), force(now.0, contact)],
+        })
+    };
+    now.1.iter().filter_map(pair).collect()
+}
+
+/// Returns the two bodies of a contact, sorted by their names, so that the order is the same in all frames.
+pub(crate) fn bodies(scene: &Scene, contact: &Contact) -> [BodyId; 2] {
+    let [a, b] = contact.interface.bodies;
+    match scene.name(a) <= scene.name(b) {
+        true => [a, b],
+        false => [b, a],
+    }
+}
+
+/// Returns the force of a contact on the first body of [`bodies`], N.
+fn force(scene: &Scene, contact: &Contact) -> Vector {
+    let resultant = &contact.resultant;
+    match resultant.on == bodies(scene, contact)[0] {
+        true => resultant.force,
+        false => -resultant.force,
+    }
+}
+
+fn is_same_place(a: &Contact, b: &Contact) -> bool {
+    let (a, b) = (&a.interface, &b.interface);
+    (a.middle() - b.middle()).norm() <= SAME_PLACE_TOL * a.length()
+}
+
+/// States how many of the forces that two frames share have changed.
+pub(crate) fn count_in_words(changed: usize, shared: usize) -> String {
+    let all = counted(shared, "shared force");
+    match (changed, shared) {
+        (_, 0) => "the two steps have no interface in common".to_owned(),
+        (0, 1) => "the only shared force changed by at most 5 %".to_owned(),
+        (0, _) => format!("none of {all} changed by over 5 %"),
+        (n, _) => format!("{n} of {all} changed by over 5 %"),
     }
 }
 

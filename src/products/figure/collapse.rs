@@ -133,7 +133,15 @@ impl Sentences<'_> {
                 } else {
                     "corner"
                 };
-                format!("{subject} {turns} about a {about} on {}", self.named(other))
+                let mut slips = self.joints_of(body).filter(|j| j.0.slip != 0.0);
+                let also = match slips.find(|(_, support)| !self.moves(*support)) {
+                    Some((_, support)) => format!(" and {slides} on {}", self.named(support)),
+                    None => String::new(),
+                };
+                format!(
+                    "{subject} {turns} about a {about} on {}{also}",
+                    self.named(other)
+                )
             }
             (None, Some(_)) => format!("{subject} {turns} and {slides}{}", on(slip)),
             (None, None) => format!("{subject} {turns}"),

@@ -5,10 +5,8 @@
 //! its force changed by more than 5 % of the larger of both forces. The previous force is drawn in a faint colour below
 //! the present force.
 
-use std::collections::BTreeMap;
-
 use super::arrow::{ArrowKind, ForceArrow, Marks};
-use super::change::{ForceChange, noise};
+use super::change::{ForceChange, bodies, count_in_words, noise, shared_forces};
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::description;
@@ -17,8 +15,8 @@ use super::legend::{self, Entry};
 use super::mark;
 use super::panel::composed;
 use super::pen::Pen;
-use super::words::{counted, listed, quantity};
-use crate::analysis::{Analysis, Contact, Verdict};
+use super::words::{listed, quantity};
+use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Vector};
@@ -26,6 +24,8 @@ use crate::scene::{BlockId, BodyId, Scene};
 
 /// The radius of the ring around a change in unit lengths, with its least and largest allowed radius in pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
+/// Width of the outlines of blocks that are gone, pixels.
+const GONE_WIDTH: f64 = 1.6;
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 4;
 
@@ -49,44 +49,15 @@ fn left_behind(scene: &Scene, new: &[BlockId], gone: &[BlockId]) -> Vec<BlockId>
     gone.iter().copied().filter(is_left).collect()
 }
 
-/// Returns the two bodies of a contact, in the same order in all frames.
-fn between(contact: &Contact) -> [BodyId; 2] {
-    let [a, b] = contact.interface.bodies;
-    [a.min(b), a.max(b)]
-}
-
-/// Returns the force of a contact on the first body of [`between`], in newtons.
-fn force(contact: &Contact) -> Vector {
-    if contact.resultant.on == between(contact)[0] {
-        contact.resultant.force
-    } else {
-        -contact.resultant.force
-    }
-}
-
 /// Compares the forces of a frame with those of the previous frame. Returns the interfaces that both frames have and
 /// whose forces changed, and the number of interfaces that both frames have.
 fn changes(analysis: &Analysis, frame: usize) -> (Vec<ForceChange<'_>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else {
         return (Vec::new(), 0);
     };
-    let mut before: BTreeMap<[BodyId; 2], Vec<&Contact>> = BTreeMap::new();
-    for contact in &analysis.frames[earlier].contacts {
-        before.entry(between(contact)).or_default().push(contact);
-    }
-    let same = |now: &Contact, then: &Contact| {
-        let (a, b) = (&now.interface, &then.interface);
-        (a.middle() - b.middle()).norm() <= 1e-6 * a.length()
-    };
-    let shared = analysis.frames[frame].contacts.iter().filter_map(|now| {
-        let then = before.get(&between(now))?.iter().copied();
-        let contacts = [then.into_iter().find(|then| same(now, then))?, now];
-        Some(ForceChange {
-            contacts,
-            forces: contacts.map(force),
-        })
-    });
-    let shared: Vec<ForceChange<'_>> = shared.collect();
+    let scene = &*analysis.scene;
+    let contacts = [earlier, frame].map(|f| (scene, &analysis.frames[f].contacts[..]));
+    let shared = shared_forces(contacts);
     let count = shared.len();
     let noise = noise(shared.iter().map(ForceChange::larger));
     let changed = shared.into_iter().filter(|change| change.is_change(noise));
@@ -140,6 +111,11 @@ impl PanelContent for Comparison {
         let [came, went] = blocks(context.analysis, frame);
         let went = left_behind(scene, &came, &went);
         let mut parts = Vec::new();
+        for id in &went {
+            for edge in scene.blocks[id.0].body.polygon.edges() {
+                ink.line(camera.place(edge.from), camera.place(edge.to), GONE_WIDTH);
+            }
+        }
         if !went.is_empty() {
             let gone = Group::with_class("gone").titled("Blocks that are gone");
             parts.push(gone.with(gone_path(outlines(&went), theme)));
@@ -169,7 +145,7 @@ impl PanelContent for Comparison {
             let ring = Path::stroked(Outline::circle(at, radius), stroke);
             let drawn = Group::with_class("change").titled(title);
             changed.items.push(drawn.with(ring).into());
-            let bodies = between(now);
+            let bodies = bodies(scene, now);
             for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
                 let BodyId::Block(_) = body else { continue };
                 let force = force_now * sign;
@@ -265,13 +241,7 @@ impl PanelContent for Comparison {
             }
         }
         let (changed, shared) = changes(analysis, frame);
-        stated.push(match changed.len() {
-            0 => "no force changed by over 5 %".to_owned(),
-            n => format!(
-                "{n} of {} changed by over 5 %",
-                counted(shared, "shared force")
-            ),
-        });
+        stated.push(count_in_words(changed.len(), shared));
         stated.join("; ")
     }
 }
@@ -298,7 +268,10 @@ fn new_path(outline: Outline, theme: &Theme) -> Path {
 }
 
 fn gone_path(outline: Outline, theme: &Theme) -> Path {
-    Path::stroked(outline, Stroke::new(theme.motion, 1.6).dashed([5.0, 4.0]))
+    Path::stroked(
+        outline,
+        Stroke::new(theme.motion, GONE_WIDTH).dashed([5.0, 4.0]),
+    )
 }
 
 fn swatch(at: PagePoint) -> Outline {

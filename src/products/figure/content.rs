@@ -12,6 +12,7 @@ use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
+use super::load_place::uncover_loads;
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
@@ -218,6 +219,9 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
         if let Some(near) = zoomed {
             marks.arrows.retain(|arrow| view::contains(near, arrow.at));
             marks.turns.retain(|turn| view::contains(near, turn.at));
+        }
+        if about.stretches_arrows && !options.printed() {
+            uncover_loads(marks);
         }
         if about.draws_forces && !options.printed() {
             separate_parallel_arrows(marks);

@@ -83,12 +83,12 @@ impl<'a> FigureContext<'a> {
     }
 
     /// Returns this context with more space around the content of each frame: `across` metres on the left and on the
-    /// right, `up` metres above and below.
-    pub fn with_room(mut self, across: f64, up: f64) -> FigureContext<'a> {
+    /// right, `up` metres above, and `down` metres below.
+    pub fn with_room(mut self, across: f64, up: f64, down: f64) -> FigureContext<'a> {
         // If ground is visible at the lower edge, add no space below it.
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
-            _ => up,
+            _ => down,
         };
         let grown = |b: Bounds| Bounds {
             min: b.min - Vector::new(across, down),

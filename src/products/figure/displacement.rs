@@ -22,7 +22,7 @@ use crate::geometry::{Bounds, Point};
 use crate::scene::{BodyId, Scene};
 use clearance::Clearance;
 use group::connected_groups;
-pub(crate) use group::rigid_bodies;
+pub(crate) use group::{moving, rigid_bodies};
 use linkage::Linkage;
 pub(crate) use rigid::Displacement;
 

@@ -17,7 +17,7 @@ use super::bearing::bearings;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::label::{self, Callout};
-use super::largest::largest_contact;
+use super::largest::{self, largest_contact};
 use super::legend::Entry;
 use super::limit;
 use super::mark;
@@ -25,8 +25,7 @@ use super::option::Options;
 use super::panel::composed_with;
 use super::pen::Pen;
 use super::unit::{LOAD_SHAFT, longest_load, unit};
-use super::words::quantity;
-use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
+use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -302,20 +301,12 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// Returns a label `largest: …` with the magnitude of the largest force of a joint, at the dot of this joint. The
-    /// list is empty if no joint has a force.
+    /// Returns the label of the largest force of a joint, at the dot of this joint.
     fn callout(&self) -> Vec<Callout> {
-        let largest = largest_contact(self.frame_analysis).into_iter();
-        let callout = |contact: &Contact| {
-            let force = contact.resultant.force.norm();
-            Callout {
-                at: self.pen.camera.place(contact.resultant.at),
-                clear: 0.5 * self.scale * force + 3.0,
-                words: format!("largest: {}", quantity(force, self.scene.units.force())),
-                colour: carried(self.theme, self.frame_analysis.verdict),
-            }
-        };
-        largest.map(callout).collect()
+        let force = largest_contact(self.frame_analysis).map(|c| c.resultant.force.norm());
+        let clear = 0.5 * self.scale * force.unwrap_or(0.0) + 3.0;
+        let colour = carried(self.theme, self.frame_analysis.verdict);
+        largest::callout(self.pen, self.frame_analysis, clear, colour)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::arrow::{ForceArrow, Marks};
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
-use super::legend::{self, Entry};
+use super::legend::{self, Entry, MissingWords};
 use super::limit;
 use super::mark;
 use super::panel;
@@ -25,6 +25,11 @@ pub(crate) const BUILD: Forces = Forces {
     help: "The steps of a construction, with one scale of arrows for all steps; --animate shows the steps one after the other",
     shares_arrow_scale: true,
 };
+
+/// The note on missing forces in the legend.
+const INCLUDED: &str = "arrows and fills include the missing forces";
+/// The same if the arrows of missing forces have a larger scale.
+const INCLUDED_LARGER: &str = "arrows and fills include the missing forces, which are drawn larger";
 
 /// True if the arrows of missing forces are drawn at a larger scale than other arrows.
 fn own_scale(marks: &Marks) -> bool {
@@ -76,14 +81,14 @@ impl PanelContent for Forces {
         let frames = &context.analysis.frames;
         if frames.iter().any(|f| !f.failures.is_empty()) && !context.options.printed() {
             let own = context.marks.iter().any(own_scale);
-            let note = match (own, context.options.is_column()) {
-                (true, true) => "fills and arrows include missing forces, drawn larger",
-                (true, false) => {
-                    "arrows and fills include the missing forces, which are drawn larger"
+            let missing = entries.iter_mut().find(|e| matches!(e, Entry::Missing(_)));
+            match (missing, own) {
+                (Some(missing), _) if context.options.is_column() => {
+                    *missing = Entry::Missing(MissingWords::Included(own));
                 }
-                (false, _) => "arrows and fills include the missing forces",
-            };
-            entries.push(Entry::Note(note.to_owned()));
+                (_, true) => entries.push(Entry::Note(INCLUDED_LARGER.to_owned())),
+                (_, false) => entries.push(Entry::Note(INCLUDED.to_owned())),
+            }
         }
         entries
     }

@@ -1,9 +1,11 @@
 //! Finds the largest force of a joint, and describes it.
 
 use super::joint_name::joint_name;
-use super::label::EQUAL_FORCE_TOL;
+use super::label::{Callout, EQUAL_FORCE_TOL};
+use super::pen::Pen;
 use super::words::quantity;
 use crate::analysis::{Contact, FrameAnalysis};
+use crate::drawing::Colour;
 use crate::scene::Scene;
 
 /// Forces that differ from the largest by at most this fraction count as equally large.
@@ -21,6 +23,27 @@ pub(crate) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact
             most
         }
     })
+}
+
+/// Returns a text `largest: …` at the joint with the largest force. `clear` is its least distance from the joint,
+/// pixels. The list is empty if no joint has a force.
+pub(crate) fn callout(
+    pen: &Pen<'_>,
+    found: &FrameAnalysis,
+    clear: f64,
+    colour: Colour,
+) -> Vec<Callout> {
+    let newtons = pen.context.analysis.scene.units.force();
+    let callout = |contact: &Contact| Callout {
+        at: pen.camera.place(contact.resultant.at),
+        clear,
+        words: format!(
+            "largest: {}",
+            quantity(contact.resultant.force.norm(), newtons)
+        ),
+        colour,
+    };
+    largest_contact(found).map(callout).into_iter().collect()
 }
 
 /// Describes the largest force of a joint; empty if no joint has a force.

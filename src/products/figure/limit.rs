@@ -194,3 +194,5 @@ pub(crate) fn key_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 
 /// The meaning of the symbol in the legend.
 pub(crate) const LEGEND_TEXT: &str = "joint at its limit: friction used up, or force at the edge";
+/// The same in a column of print.
+pub(crate) const SHORT_LEGEND_TEXT: &str = "joint at its limit";

@@ -36,6 +36,7 @@ mod largest;
 mod layout;
 mod legend;
 mod limit;
+mod load_place;
 mod margin;
 mod mark;
 mod mechanism;
@@ -62,9 +63,11 @@ pub use broken::broken;
 pub use cad::dxf;
 pub use caption::caption;
 #[cfg(feature = "report")]
-pub(crate) use change::{ForceChange, noise};
+pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use choice::{FREEBODY, FREEBODY_HELP, free_block, named_block};
+#[cfg(feature = "report")]
+pub(crate) use displacement::moving;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 pub use freebody::freebody;
 pub use gallery::{Plate, gallery};

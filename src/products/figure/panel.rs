@@ -3,6 +3,7 @@
 
 use super::joint_name::joint_name;
 use super::label::{self, Callout};
+use super::largest;
 use super::limit;
 use super::pen::{MIN_READABLE_UNIT_LENGTH, Pen};
 use super::unit::unit;
@@ -44,7 +45,17 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     if !too_small && !many && !context.options.printed() {
         group.items.push(limits(pen, &mut ink).into());
     }
-    group.items.push(label::labels(pen, view, || ink).into());
+    // Where no arrow is drawn, a label at its joint names the largest contact force, if there is room for it.
+    let callouts = match too_small && context.analysis.frames.len() == 1 {
+        true => {
+            let found = &context.analysis.frames[pen.number];
+            largest::callout(pen, found, 4.0, context.options.theme.ink)
+        }
+        false => Vec::new(),
+    };
+    group
+        .items
+        .push(label::labels(pen, view, callouts, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );
@@ -122,7 +133,7 @@ pub(crate) fn composed_with(
     group.items.extend(parts.map(Item::from));
     group
         .items
-        .push(label::labels_with(pen, view, callouts, || ink).into());
+        .push(label::labels(pen, view, callouts, || ink).into());
     group.items.retain(
         |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
     );

@@ -14,7 +14,9 @@ use fan::Fans;
 use line::{
     carried_colour, colour, dot_symbol, dots, lines, schematic_colour, seams, widest, width,
 };
-use state::{central_thrust_text, limit_entries, limits, other_figures_note, uniqueness_note};
+use state::{
+    central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note,
+};
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::content::{About, FrameSource, PanelContent};
@@ -136,13 +138,17 @@ impl PanelContent for ThrustLine {
         if stands {
             let line = match central_thrust_text(context) {
                 Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
+                None if (0..context.analysis.frames.len()).any(|f| has_many_lines(context, f)) => {
+                    format!("line of thrust of the forces of least sum, this thick for {largest}")
+                }
                 None => format!("line of thrust, this thick for {largest}"),
             };
             entries.push(Entry::Line(colour(theme), widest(unit), line));
         }
         if falls {
             let mut frames = context.analysis.frames.iter();
-            let place = match frames.any(|frame| frame.verdict == Verdict::Unstable) {
+            let any_falls = frames.any(|frame| frame.verdict == Verdict::Unstable);
+            let place = match any_falls && !context.options.is_column() {
                 true => " in a frame that falls",
                 false => "",
             };
@@ -158,8 +164,12 @@ impl PanelContent for ThrustLine {
             entries.extend(limit_entries(context));
         }
         if schematic {
-            let what = "schematic: no single line of action runs through the block".to_owned();
-            entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
+            let what = match context.options.is_column() {
+                true => "schematic: no single line of action in the block",
+                false => "schematic: no single line of action runs through the block",
+            };
+            let line = Entry::Line(schematic_colour(theme), widest(unit), what.to_owned());
+            entries.push(line);
         }
         if context.options.with_polygon {
             entries.push(Entry::Note(polygon_note(context).to_owned()));
@@ -174,8 +184,8 @@ impl PanelContent for ThrustLine {
         let why = verdict::reason(scene, frame_analysis);
         match frame_analysis.verdict {
             Verdict::Stable => {
-                let state =
-                    other_figures_note(context, frame).or_else(|| uniqueness_note(context, frame));
+                let state = other_figures_note(context, frame)
+                    .or_else(|| uniqueness_note(context, frame).map(str::to_owned));
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }

@@ -97,6 +97,14 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     ground().filter_map(shown).reduce(Bounds::union)
 }
 
+/// True if the ground that the figures of a scene show reaches below all blocks. `unit` is the unit length in metres.
+pub(crate) fn has_ground_below(scene: &Scene, unit: f64) -> bool {
+    let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
+    let lowest = seen.map(|id| scene.blocks[id.0].body.polygon.bounds().min.y);
+    let lowest = lowest.fold(f64::INFINITY, f64::min);
+    ground_shown(scene, unit).is_some_and(|ground| ground.min.y < lowest)
+}
+
 /// Returns a box around a block, in metres: the bounding box of the block, enlarged on all sides by half of its longer
 /// side.
 pub(crate) fn zoomed_view(scene: &Scene, block: BlockId) -> Bounds {

@@ -43,7 +43,11 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                     if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
                         complaints.push(format!("{what}: {} is cut", text.words));
                     }
-                    let least = if labels.contains(text) { 9.0 } else { 12.5 };
+                    let least = match labels.contains(text) {
+                        true => 9.0,
+                        false if width == COLUMN => 10.5,
+                        false => 12.5,
+                    };
                     if text.size < least {
                         complaints.push(format!("{what}: {} of {}", text.words, text.size));
                     }
@@ -97,8 +101,8 @@ fn in_a_figure_of_column_width_texts_are_large_enough_and_not_cut() {
             let inside =
                 left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
             assert!(inside, "{name}: {} is cut", text.words);
-            // At 0.6 points per pixel, texts have at least 7.5 points and names 5.4.
-            let least = if names.contains(&text) { 9.0 } else { 12.5 };
+            // At 0.6 points per pixel, texts have at least 6.3 points and names 5.4.
+            let least = if names.contains(&text) { 9.0 } else { 10.5 };
             let small_sign = name.ends_with("freebody") && text.size > 10.0;
             assert!(
                 text.size >= least || small_sign,

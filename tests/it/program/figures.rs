@@ -233,10 +233,14 @@ fn two_scenes_are_compared_and_invalid_comparisons_are_reported() {
     // The outline of the lintel does not change, so no previous outline is drawn.
     assert!(!svg.contains("class=\"gone\"") && svg.contains("class=\"new\""));
     assert!(svg.contains("new or changed"), "{svg}");
+    // The lintel and the joints below it are in both scenes, although its weight differs: all joints are compared.
+    assert!(svg.contains("4 of 4 shared forces changed"), "{svg}");
+    assert_eq!(svg.matches("class=\"change\"").count(), 4);
     let ran = bench.run("render stands.json stands.json --kind compare -o same.svg");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("same.svg")).expect("drawn");
-    assert!(svg.contains("no force changed by over 5 %"), "{svg}");
+    assert!(svg.contains("none of "), "{svg}");
+    assert!(svg.contains(" shared forces changed by over 5 %"), "{svg}");
     let other = text.replace("-1, -1", "-2, -1");
     assert_ne!(other, text);
     fs::write(bench.path("other.json"), &other).expect("writable");

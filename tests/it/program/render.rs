@@ -261,7 +261,7 @@ fn every_kind_of_figure_states_what_it_shows() {
         (
             "thrust",
             "so it is not in equilibrium",
-            "line of thrust, this thick for",
+            "line of thrust of the forces of least sum, this thick for",
         ),
         (
             "kernel",

@@ -102,11 +102,11 @@ impl Margins {
     pub const MAX_FRICTION: f64 = 1e3;
 
     /// Returns the smallest load factor with which the frame stands, and the mechanism by which it falls below this
-    /// factor. `None` if the frame also has a largest load factor, or if there is no such mechanism.
+    /// factor. `None` if there is no such mechanism.
     pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
         let low = self.intervals.load_factor.as_ref()?.low()?;
-        match (&self.load_factor, low) {
-            (Margin::Unbounded, End::At { value, mechanism }) if !mechanism.is_empty() => {
+        match low {
+            End::At { value, mechanism } if !mechanism.is_empty() => {
                 Some((*value, mechanism.clone()))
             }
             _ => None,

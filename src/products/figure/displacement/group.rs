@@ -64,7 +64,7 @@ pub(crate) fn connected_groups(
 
 /// Returns the motions of the blocks that move visibly: the speed of their fastest point exceeds [`REST_TOL`] times
 /// the largest speed in the frame.
-fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
+pub(crate) fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = &Motion> {
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);

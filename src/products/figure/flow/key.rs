@@ -1,7 +1,7 @@
 //! [`entries`]: makes the legend of the figure of force flow.
 
 use super::super::context::FigureContext;
-use super::super::legend::{self, Entry};
+use super::super::legend::{self, Entry, MissingWords};
 use super::super::option::ArrowScale;
 use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
@@ -38,8 +38,11 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(legend::loads(context));
     entries.extend(legend::robots(context));
     if all.iter().any(|s| !s.1.exact) {
-        let words = "inside a block, paths are schematic and widths are exact".to_owned();
-        entries.push(Entry::Note(words));
+        let words = match context.options.is_column() {
+            true => "paths inside blocks are schematic, widths exact",
+            false => "inside a block, paths are schematic and widths are exact",
+        };
+        entries.push(Entry::Note(words.to_owned()));
     }
     entries
 }
@@ -62,6 +65,9 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         let thin = MIN_BAND_WIDTH / widest(unit) * largest;
         let thinner = |s: &Strand| s.widths.iter().any(|w| *w < thin);
         let least = match all.iter().any(|s| thinner(&s.1)) {
+            true if context.options.is_column() => {
+                format!("; one width under {}", quantity(thin, newtons))
+            }
             true => format!(
                 "; all forces under {} have the same width",
                 quantity(thin, newtons)
@@ -78,7 +84,7 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
     if any(StrandKind::Missing).is_some() {
         let words = "force that cannot be carried".to_owned();
         entries.push(Entry::Symbol(missing_symbol, MISSING_SIGN, words));
-        entries.push(Entry::Missing);
+        entries.push(Entry::Missing(MissingWords::Usual));
     }
     entries
 }

@@ -26,7 +26,7 @@ use super::context::FigureContext;
 use super::pen::Pen;
 use super::view;
 use super::words::{counted, listed};
-use crate::drawing::placement::{Ink, LabelRequest, nearest, place_avoiding};
+use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_avoiding};
 use crate::drawing::{Group, PagePoint, PageRect};
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
@@ -53,14 +53,10 @@ const SAME_PLACE: f64 = 1e-6;
 /// The class of the group of a frame's labels. The description of the group counts the labels that are left out.
 pub(crate) const CLASS: &str = "labels";
 
-/// Draws the labels of a frame. `ink` returns the shapes that the labels must not cover; it is called only if there are
-/// labels. `view` is the shown part of the scene, metres.
-pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, ink: impl FnOnce() -> Ink) -> Group {
-    labels_with(pen, view, Vec::new(), ink)
-}
-
-/// Like [`labels`], with additional texts (`callouts`), which are placed before all other labels.
-pub(crate) fn labels_with(
+/// Draws the labels of a frame, with additional texts (`callouts`), which are placed before all other labels. `ink`
+/// returns the shapes that the labels must not cover; it is called only if there are labels. `view` is the shown part of
+/// the scene, metres.
+pub(crate) fn labels(
     pen: &Pen<'_>,
     view: Bounds,
     callouts: Vec<Callout>,
@@ -91,20 +87,19 @@ pub(crate) fn labels_with(
         places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
     }
     let mut missing: Vec<(&str, usize)> = Vec::new();
+    let rects: Vec<PageRect> = places.iter().flatten().map(|placed| placed.rect).collect();
     for (label, placed) in labels.iter().zip(places) {
+        let placed = placed.map(|placed| with_needed_leader(pen, label, placed));
+        // A leader across another label would make both hard to read. Amounts are more important than that.
+        let needed = label.named || label.class == "amount";
+        let placed = placed.filter(|placed| needed || !crosses_label(placed, &rects));
         let badness = match placed {
             None if label.named || label.class == "amount" => LOST_AMOUNT,
             Some(p) if !p.avoided && !leaves_row(label, p.rect) => 0,
             _ => 1,
         };
         pen.context.cramped.set(pen.context.cramped.get() + badness);
-        if let Some(mut placed) = placed {
-            if placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
-                placed.leader = Some([
-                    nearest(placed.rect, label.request.anchor),
-                    label.request.anchor,
-                ]);
-            }
+        if let Some(placed) = placed {
             group.items.push(drawn(pen, label, placed).into());
             continue;
         }
@@ -138,6 +133,30 @@ fn leaves_row(label: &Label, rect: PageRect) -> bool {
     let mut own = request.preferred.iter().chain(&request.with_leader);
     let is_at = |p: &PagePoint| libm::hypot(p.x - at.x, p.y - at.y) < SAME_PLACE;
     !request.with_leader.is_empty() && !own.any(is_at)
+}
+
+/// Adds a leader line to the position of a name that a reader could otherwise mistake for the name of another block.
+fn with_needed_leader(pen: &Pen<'_>, label: &Label, placed: Placed) -> Placed {
+    let anchor = label.request.anchor;
+    match placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
+        true => Placed {
+            leader: Some([nearest(placed.rect, anchor), anchor]),
+            ..placed
+        },
+        false => placed,
+    }
+}
+
+/// True if the leader line of a position crosses the rectangle of another label.
+fn crosses_label(placed: &Placed, rects: &[PageRect]) -> bool {
+    let Some([from, to]) = placed.leader else {
+        return false;
+    };
+    let mut line = Ink::default();
+    line.line(from, to, 0.5);
+    line.index();
+    let mut others = rects.iter().filter(|rect| **rect != placed.rect);
+    others.any(|rect| !line.clear(*rect))
 }
 
 /// True if a name lies outside its block and a reader could mistake it for the name of another block, because the

@@ -8,12 +8,16 @@ use super::super::limit;
 use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_LENGTH};
 use super::super::words::{counted, quantity, round_below_in};
-use super::entry::Entry;
+use super::entry::{Entry, MissingWords};
 use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_symbol, missing_dot, weight_symbol};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
 use crate::scene::format::UnitsEntry;
 
+/// The end of the names of quantities that colours show. It is left out in a column of print.
+const OF_A_BLOCK: &str = " of a block";
+/// Length of a bar of colours in a column of print, pixels.
+const NARROW_BAR: f64 = 72.0;
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
 /// The text for torques of loads. Their arrows have a least length, so that their directions are visible.
@@ -62,12 +66,11 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let mut blocks = context.analysis.scene.blocks.iter();
     if blocks.any(|b| b.body.fill.is_none()) && context.fills.vary() {
         let (ends, what) = context.fills.key();
-        entries.push(Entry::Amplitudes(
-            ends,
-            what,
-            context.fills.ramp(),
-            BAR_LENGTH,
-        ));
+        let (what, bar) = match options.is_column() {
+            true => (what.trim_end_matches(OF_A_BLOCK).to_owned(), NARROW_BAR),
+            false => (what, BAR_LENGTH),
+        };
+        entries.push(Entry::Amplitudes(ends, what, context.fills.ramp(), bar));
     }
     entries
 }
@@ -144,7 +147,7 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
     let mut turns = context.marks.iter().flat_map(|m| &m.turns);
     let any = forces.any(|a| a.kind.is_failure() && drawn.is_seen(a))
         || turns.any(|t| matches!(t.kind, TurnKind::Missing(_)));
-    any.then_some(Entry::Missing)
+    any.then_some(Entry::Missing(MissingWords::Usual))
 }
 
 /// Returns the legend entry for the scale of arrows: a sample arrow for a round force. The arrow of `newtons` N is one
@@ -192,12 +195,17 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
     let any = frames.any(|frame_analysis| !limit::reached(scene, frame_analysis).is_empty());
-    any.then(|| Entry::Symbol(limit::key_symbol, 11.0, limit::LEGEND_TEXT.to_owned()))
+    let words = match context.options.is_column() {
+        true => limit::SHORT_LEGEND_TEXT,
+        false => limit::LEGEND_TEXT,
+    };
+    any.then(|| Entry::Symbol(limit::key_symbol, 11.0, words.to_owned()))
 }
 
 /// True if the entry explains the mark of joints at their limit.
 pub(crate) fn is_limit(entry: &Entry) -> bool {
-    matches!(entry, Entry::Symbol(_, _, words) if words == limit::LEGEND_TEXT)
+    let texts = [limit::LEGEND_TEXT, limit::SHORT_LEGEND_TEXT];
+    matches!(entry, Entry::Symbol(_, _, words) if texts.contains(&words.as_str()))
 }
 
 /// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.

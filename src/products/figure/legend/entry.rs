@@ -8,8 +8,28 @@ const COLOURS_TEXT: &str = "the forces on a block share a colour";
 const SHORT_COLOURS_TEXT: &str = "one colour for each block";
 const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
+/// The same in a column of print.
+const SHORT_MISSING_TEXT: &str = "missing force";
+/// The same in a column of print, if arrows and fills include missing forces; with and without a larger scale of the
+/// arrows of missing forces.
+const INCLUDED_MISSING_TEXT: [&str; 2] = [
+    "missing force; fills and arrows include it",
+    "missing force, drawn larger; fills and arrows include it",
+];
 /// Least length of a bar of colours, pixels.
 const SHORTEST_BAR: f64 = 56.0;
+
+/// The text of the legend entry for missing forces.
+#[derive(Clone, Copy)]
+pub(crate) enum MissingWords {
+    /// What a missing force is.
+    Usual,
+    /// Only its name, for a column of print.
+    Short,
+    /// Its name, and that fills and other arrows include missing forces, for a column of print. `true` if its arrows
+    /// have a larger scale than others.
+    Included(bool),
+}
 
 /// An entry of the legend.
 pub(crate) enum Entry {
@@ -22,7 +42,7 @@ pub(crate) enum Entry {
     /// The outline of a planned block.
     Planned(Colour),
     /// Missing forces.
-    Missing,
+    Missing(MissingWords),
     /// A bar of amplitude colours: the labels of its ends, the name of the quantity, the function that converts a
     /// position on the colour scale (0 to 1) to a colour, and the length of the bar in pixels.
     Amplitudes([String; 2], String, fn(&Theme, f64) -> Colour, f64),
@@ -53,6 +73,7 @@ impl Entry {
         match self {
             Entry::Blocks(_) if over > 0.0 => Entry::Colours(theme.arrows.clone(), column),
             Entry::Colours(colours, _) => Entry::Colours(colours, column),
+            Entry::Missing(MissingWords::Usual) if column => Entry::Missing(MissingWords::Short),
             Entry::Amplitudes(ends, what, ramp, bar) if over > 0.0 && bar - over > SHORTEST_BAR => {
                 Entry::Amplitudes(ends, what, ramp, bar - over - 1.0)
             }
@@ -66,7 +87,7 @@ impl Entry {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,
             (Entry::Colours(..), Entry::Colours(..))
             | (Entry::Planned(_), Entry::Planned(_))
-            | (Entry::Missing, Entry::Missing) => true,
+            | (Entry::Missing(_), Entry::Missing(_)) => true,
             (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
             (Entry::Amplitudes(a, what, ..), Entry::Amplitudes(b, other, ..)) => {
                 (a, what) == (b, other)
@@ -94,7 +115,7 @@ impl Entry {
                 .fold(wide(ON_BLOCK), |sum, block| sum + block),
             Entry::Colours(colours, short) => symbol::colour_pitch(*short) * colours.len() as f64,
             Entry::Robot(..) | Entry::Planned(_) => 2.0 * SYMBOL_GAP + 7.0,
-            Entry::Missing => 34.0 + 7.0,
+            Entry::Missing(_) => 34.0 + 7.0,
             Entry::Amplitudes([low, high], _, _, bar) => {
                 wide(low) + 7.0 + bar + 7.0 + wide(high) + 8.0
             }
@@ -123,7 +144,11 @@ impl Entry {
             Entry::Colours(_, true) => SHORT_COLOURS_TEXT.to_owned(),
             Entry::Robot(_, id) => robot(id),
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
-            Entry::Missing => MISSING_TEXT.to_owned(),
+            Entry::Missing(MissingWords::Usual) => MISSING_TEXT.to_owned(),
+            Entry::Missing(MissingWords::Short) => SHORT_MISSING_TEXT.to_owned(),
+            Entry::Missing(MissingWords::Included(larger)) => {
+                INCLUDED_MISSING_TEXT[usize::from(*larger)].to_owned()
+            }
             Entry::Amplitudes(_, words, ..)
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)
@@ -161,7 +186,7 @@ impl Entry {
             Entry::Colours(colours, short) => symbol::colours(colours, *short, at),
             Entry::Robot(colour, _) => vec![symbol::robot(*colour, at, theme)],
             Entry::Planned(colour) => vec![symbol::planned(*colour, at)],
-            Entry::Missing => vec![symbol::arrow(at, (34.0, 4.0), theme.failure)],
+            Entry::Missing(_) => vec![symbol::arrow(at, (34.0, 4.0), theme.failure)],
             Entry::Amplitudes(ends, _, ramp, bar) => {
                 symbol::amplitudes(ends, (*ramp, *bar), at, theme)
             }

@@ -6,7 +6,7 @@ mod lines;
 mod symbol;
 
 pub(crate) use content::{entries, is_limit, limits, loads, metres, robots, scale, shared_scale};
-pub(crate) use entry::Entry;
+pub(crate) use entry::{Entry, MissingWords};
 pub(crate) use lines::draw;
 pub(crate) use symbol::BAR_LENGTH;
 
@@ -15,7 +15,7 @@ use crate::drawing::{Item, PagePoint, Theme};
 /// Height of a line of the legend, as a multiple of its font size.
 pub(crate) const LINE_HEIGHT: f64 = 2.08;
 /// Height of a line of the legend on a page as wide as a column of print, as a multiple of its font size.
-pub(crate) const NARROW_LINE_HEIGHT: f64 = 1.6;
+pub(crate) const NARROW_LINE_HEIGHT: f64 = 1.5;
 /// Gap between the entries of a line of the legend, pixels.
 pub(crate) const ENTRY_GAP: f64 = 28.0;
 /// Gap between the entries of a line on a page as wide as a column of print, pixels.

@@ -13,6 +13,7 @@ use super::content::PanelContent;
 use super::context::FigureContext;
 use super::layout::Layout;
 use super::option::Options;
+use super::view;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
@@ -23,12 +24,33 @@ const SPACES_FOR_NAMES: [(f64, f64); 3] = [(24.0, 30.0), (8.0, 30.0), (8.0, 64.0
 /// A structure is flat if its height is at most this fraction of its width.
 const FLAT: f64 = 0.3;
 
-/// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels.
+/// In a column of print, texts become smaller if the pictures need less than this fraction of the height of the page.
+/// It is a little more than half, because a picture has some empty space at its edges.
+const MIN_PICTURE_SHARE: f64 = 0.55;
+
+/// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels. In a
+/// column of print, texts are smaller if they would need more space than the pictures.
 pub(crate) fn strip(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
     options: &Options,
 ) -> Drawing {
+    let (drawing, pictures) = with_room_for_labels(analysis, content, options);
+    if !options.is_column() || pictures >= MIN_PICTURE_SHARE * drawing.height {
+        return drawing;
+    }
+    let mut compact = options.clone();
+    compact.theme.sizes = compact.theme.sizes.compact();
+    with_room_for_labels(analysis, content, &compact).0
+}
+
+/// Draws the figure of [`strip`] with the font sizes of the options. Adds space around the structure if labels need it.
+/// Also returns the height of all rows of pictures, pixels.
+fn with_room_for_labels(
+    analysis: &Analysis,
+    content: &'static dyn PanelContent,
+    options: &Options,
+) -> (Drawing, f64) {
     let context = FigureContext::new(analysis, options, content);
     let flat = context.view.height() <= FLAT * context.view.width();
     let count = analysis.frames.len();
@@ -41,19 +63,25 @@ pub(crate) fn strip(
             captions: None,
             alike: false,
         };
-        (strip.drawing(), context.cramped.get(), layout.scale)
+        let (_, pictures) = layout.least(context);
+        let figure = (strip.drawing(), pictures);
+        (figure, context.cramped.get(), layout.scale)
     };
-    let (drawing, cramped, scale) = drawn(&context);
+    let (figure, cramped, scale) = drawn(&context);
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
-        return drawing;
+        return figure;
     }
     // Some labels have no good position. Draw the figure again with more space around the structure. Use this figure
     // if at least half of these labels have a good position there.
-    let mut best = (drawing, cramped);
+    let mut best = (figure, cramped);
     let count = if flat { SPACES_FOR_NAMES.len() } else { 1 };
+    // Labels of a flat structure rarely need space below the ground.
+    let on_ground = flat && view::has_ground_below(&analysis.scene, context.unit);
     for (across, up) in &SPACES_FOR_NAMES[..count] {
         let context = FigureContext::new(analysis, options, content);
-        let (roomier, still, _) = drawn(&context.with_room(across / scale, up / scale));
+        let (across, up) = (across / scale, up / scale);
+        let down = if on_ground { 0.0 } else { up };
+        let (roomier, still, _) = drawn(&context.with_room(across, up, down));
         if 2 * still <= cramped && still < best.1 {
             best = (roomier, still);
         }

@@ -23,6 +23,8 @@ struct Gaps {
     below_title: f64,
     above_rule: f64,
     below_rule: f64,
+    /// The part of the legend's last line that reaches into the margin of the page.
+    below_key: f64,
     /// Height of a line of the legend, as a multiple of its font size.
     key_line: f64,
     /// Gap between the entries of a line of the legend.
@@ -36,8 +38,9 @@ impl Gaps {
         match options.is_column() {
             true => Gaps {
                 below_title: 10.0,
-                above_rule: 11.0,
-                below_rule: 4.0,
+                above_rule: 9.0,
+                below_rule: 3.0,
+                below_key: 6.0,
                 key_line: legend::NARROW_LINE_HEIGHT,
                 key_entries: legend::NARROW_ENTRY_GAP,
             },
@@ -45,6 +48,7 @@ impl Gaps {
                 below_title: 18.0,
                 above_rule: 20.0,
                 below_rule: 8.0,
+                below_key: 10.0,
                 key_line: legend::LINE_HEIGHT,
                 key_entries: legend::ENTRY_GAP,
             },
@@ -202,6 +206,6 @@ impl PageWriter<'_> {
         let gaps = (self.gaps.key_line, self.gaps.key_entries);
         let (key, height) = legend::draw(entries, top, self.inner, gaps, theme);
         self.items.push(key.into());
-        self.y += height - 10.0;
+        self.y += height - self.gaps.below_key;
     }
 }

@@ -201,14 +201,24 @@ impl Strip<'_> {
         let joined = notes.join("; ");
         // Two notes share a line if it has room for both.
         let notes = match text::width(&joined, Face::Sans, size) <= layout.panel {
-            true => vec![joined],
+            true => vec![joined.clone()],
             false => notes,
         };
         let notes = notes.iter().filter(|note| !note.is_empty());
         let notes = notes.flat_map(|note| broken(note, 2));
+        let mut lines = broken(&reason, MAX_REASON_LINES);
+        lines.extend(notes);
+        if context.options.is_column() && !reason.is_empty() && !joined.is_empty() {
+            let together = broken(&format!("{reason}; {joined}"), MAX_REASON_LINES);
+            lines = if together.len() < lines.len() {
+                together
+            } else {
+                lines
+            };
+        }
         let mut items = Vec::new();
         let mut y = top.y;
-        for line in broken(&reason, MAX_REASON_LINES).into_iter().chain(notes) {
+        for line in lines {
             y += REASON_LINE * size;
             let at = PagePoint::new(top.x, y - 0.32 * size);
             let words = Text::new(at, line, Face::Sans, size, theme.faint);

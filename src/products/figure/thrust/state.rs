@@ -7,7 +7,7 @@ use super::super::legend::Entry;
 use super::super::pen::Pen;
 use super::super::words::quantity;
 use super::line::colour;
-use crate::analysis::{Contact, ThrustState, ThrustStates};
+use crate::analysis::{Contact, ThrustState, ThrustStates, Verdict};
 use crate::drawing::placement::Ink;
 use crate::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
@@ -73,9 +73,22 @@ pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> O
     ))
 }
 
-/// Returns a note for the reader that the line shown is one of many possible lines. Returns `None` if there are no more
-/// unknown forces than equations of equilibrium.
-pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Option<String> {
+/// Returns a note for the reader about a frame whose line of thrust is one of many possible lines, and for which no
+/// lines of least and greatest thrust are known. Returns `None` for other frames, or if the legend says enough.
+pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Option<&'static str> {
+    let several_supports = context.thrust_states(frame).supports > 2;
+    match (central_thrust_text(context), several_supports) {
+        _ if !has_many_lines(context, frame) => None,
+        // The legend explains the most central line of another frame.
+        (Some(_), _) => Some("the line shown belongs to the forces of least sum"),
+        (None, true) => Some("more than two supports, so there is no single horizontal thrust"),
+        (None, false) => None,
+    }
+}
+
+/// True if the line of thrust of a frame that stands is one of many possible lines, because there are more unknown
+/// forces than equations of equilibrium.
+pub(super) fn has_many_lines(context: &FigureContext<'_>, frame: usize) -> bool {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let unknowns = |contact: &Contact| match contact.interface.kind {
         ContactKind::Corner => 2,
@@ -83,8 +96,7 @@ pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Opti
     };
     let contacts: usize = frame_analysis.contacts.iter().map(unknowns).sum();
     let unknowns = contacts + 3 * frame_analysis.robots.len();
-    (unknowns > 3 * scene.frames[frame].placed.len())
-        .then(|| "the line shown belongs to the forces of least sum".to_owned())
+    frame_analysis.verdict == Verdict::Stable && unknowns > 3 * scene.frames[frame].placed.len()
 }
 
 /// Draws the thin lines of least and of greatest thrust, and adds them to `ink`. A line whose state is not known is

@@ -19,7 +19,7 @@ use super::sheet;
 use super::{Entry, Figure, File, ReportOptions, Row, Section, SheetPart};
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::drawing::Drawing;
-use crate::figure::{self, Kind};
+use crate::figure::{self, Kind, count_in_words};
 use crate::geometry::Point;
 use crate::scene::format::UnitsEntry;
 use crate::text::line;
@@ -257,14 +257,7 @@ fn changes_sentence(
     }
     stated.extend(differs);
     stated.extend(settings.stated());
-    stated.push(match forces.changed().count() {
-        _ if forces.all.is_empty() => "the two steps have no interface in common".to_owned(),
-        0 => "no force changed by over 5 %".to_owned(),
-        n => format!(
-            "{n} of {} changed by over 5 %",
-            counted(forces.all.len(), "shared force")
-        ),
-    });
+    stated.push(count_in_words(forces.changed().count(), forces.all.len()));
     stated.join("; ")
 }
 

@@ -3,7 +3,7 @@
 
 use super::joints::name;
 use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
-use crate::figure::{Joint, joints};
+use crate::figure::{Joint, joints, moving};
 use crate::scene::Scene;
 use crate::text::line;
 use crate::wording::failure::{shortened, unsupported_phrase};
@@ -12,8 +12,6 @@ use crate::wording::number::{counted, listed, place, three, three_down, three_up
 
 /// Largest number of joints or blocks that a sentence names.
 const MAX_NAMED: usize = 4;
-/// Speeds up to this fraction of the largest speed are rounding errors of the solver.
-const MOTION_TOL: f64 = 2e-3;
 
 /// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,
 /// horizontal load. Returns `None` if no end of these margins has a mechanism.
@@ -100,23 +98,23 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
         .filter(|j| j.hinge.is_some())
         .map(|j| at(&j))
         .collect();
-    let slides = moving_joints
-        .iter()
-        .filter(|j| j.hinge.is_none() && j.slip != 0.0);
-    let slides: Vec<String> = slides.map(|j| at(&j)).collect();
-    let mut said = Vec::new();
-    if !hinges.is_empty() {
-        let names = listed(&shortened(hinges.clone(), MAX_NAMED));
-        said.push(format!("{}: {names}", counted(hinges.len(), "hinge")));
-    }
-    if !slides.is_empty() {
-        let names = listed(&shortened(slides.clone(), MAX_NAMED));
-        said.push(format!(
-            "{}: {names}",
-            counted(slides.len(), "sliding joint")
-        ));
-    }
-    let moving = moving(scene, mechanism);
+    let sliding = |tips: bool| -> Vec<String> {
+        let slides = moving_joints.iter();
+        let slides = slides.filter(|j| j.slip != 0.0 && j.touch.is_some() == tips);
+        slides.map(|j| at(&j)).collect()
+    };
+    let kinds = [
+        (hinges, "hinge"),
+        (sliding(false), "sliding joint"),
+        (sliding(true), "sliding and tipping joint"),
+    ];
+    let said = kinds.into_iter().filter(|(joints, _)| !joints.is_empty());
+    let said = said.map(|(joints, kind)| {
+        let count = counted(joints.len(), kind);
+        format!("{count}: {}", listed(&shortened(joints, MAX_NAMED)))
+    });
+    let said: Vec<String> = said.collect();
+    let moving = moving(&moved, 0).count();
     let verb = if moving == 1 { "moves" } else { "move" };
     let blocks = format!("{} {verb}", counted(moving, "block"));
     Some(match said.is_empty() {
@@ -132,12 +130,6 @@ fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
         frames: vec![analysis.frames[number].clone()],
         notes: Vec::new(),
     }
-}
-
-/// Counts the blocks that move.
-fn moving(scene: &Scene, mechanism: &[Motion]) -> usize {
-    let moving = mechanism.iter().filter(|m| m.fastest(scene) > MOTION_TOL);
-    moving.count()
 }
 
 /// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns at

@@ -1,11 +1,8 @@
 //! [`SharedForces`]: the forces at the interfaces that two frames have in common.
 
-use std::collections::BTreeMap;
-
 use super::Side;
 use super::number::change;
-use crate::analysis::Contact;
-use crate::figure::{ForceChange, noise};
+use crate::figure::{ForceChange, noise, shared_forces};
 use crate::report::entry::Grid;
 use crate::scene::Scene;
 use crate::scene::format::UnitsEntry;
@@ -22,35 +19,13 @@ pub(super) struct SharedForces<'a> {
 }
 
 impl<'a> SharedForces<'a> {
-    /// Pairs the interfaces of both frames by the names of their bodies. Several interfaces between two bodies are
-    /// paired by their order.
+    /// Pairs the interfaces of both frames; see [`shared_forces`].
     pub fn new(sides: [Side<'a>; 2], number: usize) -> SharedForces<'a> {
-        let key = |scene: &Scene, contact: &Contact| {
-            contact.interface.bodies.map(|b| scene.name(b).to_owned())
-        };
         let [was, is] = sides.map(|side| {
             let analysis = side.analysis;
-            (&analysis.scene, &analysis.frames[number].contacts)
+            (&*analysis.scene, &analysis.frames[number].contacts[..])
         });
-        let mut before: BTreeMap<[String; 2], Vec<&'a Contact>> = BTreeMap::new();
-        for contact in was.1 {
-            before.entry(key(was.0, contact)).or_default().push(contact);
-        }
-        let mut taken: BTreeMap<[String; 2], usize> = BTreeMap::new();
-        let mut all = Vec::new();
-        for contact in is.1 {
-            let key = key(is.0, contact);
-            let turn = taken.entry(key.clone()).or_default();
-            let Some(then) = before.get(&key).and_then(|list| list.get(*turn)) else {
-                continue;
-            };
-            *turn += 1;
-            let contacts = [*then, contact];
-            all.push(ForceChange {
-                contacts,
-                forces: contacts.map(|c| c.resultant.force),
-            });
-        }
+        let all = shared_forces([was, is]);
         let forces = was.1.iter().chain(is.1);
         SharedForces {
             all,

@@ -1,0 +1,91 @@
+//! [`uncover_loads`]: moves the arrows of loads along their lines of action, so that arrows of missing forces do not
+//! cover them.
+
+use super::arrow::{ArrowKind, ForceArrow, Marks};
+use crate::drawing::arrow::HEAD_WIDTH;
+
+/// The number of points of a load's arrow for which the distance from other arrows is measured.
+const TESTED_POINTS: u32 = 24;
+
+/// If missing forces cover the arrow of a load, all loads of the frame are drawn with their tips at the points where
+/// they act, provided that fewer arrows are covered then. Otherwise their tails are at these points. In both cases the
+/// arrows lie on the lines of action of the loads.
+pub(crate) fn uncover_loads(marks: &mut Marks) {
+    let of = |missing: bool| {
+        let arrows = marks.arrows.iter();
+        let arrows = arrows.filter(move |arrow| match missing {
+            true => arrow.kind.is_failure(),
+            false => arrow.kind == ArrowKind::Load,
+        });
+        arrows.copied().collect::<Vec<ForceArrow>>()
+    };
+    let (missing, loads) = (of(true), of(false));
+    let ended = loads.iter().map(|load| ForceArrow {
+        at: load.at - load.vector,
+        ..*load
+    });
+    let ended: Vec<ForceArrow> = ended.collect();
+    let covered = |loads: &[ForceArrow]| {
+        let is_covered = |load: &&ForceArrow| missing.iter().any(|other| covers(other, load));
+        loads.iter().filter(is_covered).count()
+    };
+    if covered(&ended) < covered(&loads) {
+        let arrows = marks.arrows.iter_mut();
+        for arrow in arrows.filter(|arrow| arrow.kind == ArrowKind::Load) {
+            arrow.at -= arrow.vector;
+        }
+    }
+}
+
+/// True if the arrow of a missing force touches the shaft of the arrow of a load.
+fn covers(missing: &ForceArrow, load: &ForceArrow) -> bool {
+    let reach = missing.reach();
+    let least = 0.5 * (HEAD_WIDTH * missing.width + load.width);
+    (0..=TESTED_POINTS).any(|number| {
+        let at = load.at + load.vector * (f64::from(number) / f64::from(TESTED_POINTS));
+        let share = (at - missing.at).dot(&reach) / reach.norm_squared().max(f64::MIN_POSITIVE);
+        let nearest = missing.at + reach * share.clamp(0.0, 1.0);
+        (at - nearest).norm() < least
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Colour;
+    use crate::figure::Head;
+    use crate::geometry::{Point, Vector};
+    use crate::scene::{BlockId, BodyId};
+
+    fn arrow(kind: ArrowKind, at: [f64; 2], vector: [f64; 2]) -> ForceArrow {
+        ForceArrow {
+            on: BodyId::Block(BlockId(0)),
+            at: Point::new(at[0], at[1]),
+            vector: Vector::new(vector[0], vector[1]),
+            force: Vector::new(vector[0], vector[1]),
+            colour: Colour::default(),
+            width: 0.05,
+            head: Head::Within,
+            kind,
+        }
+    }
+
+    #[test]
+    fn a_load_that_a_missing_force_would_cover_ends_at_its_point() {
+        let missing = ArrowKind::MissingPull(BodyId::Block(BlockId(1)));
+        let load = arrow(ArrowKind::Load, [0.0, 0.0], [0.0, -1.0]);
+        for (y, expected) in [(-0.5, 1.0), (0.5, 0.0), (-3.0, 0.0)] {
+            let red = arrow(missing, [-0.5, y], [1.0, 0.0]);
+            let mut marks = Marks {
+                arrows: vec![load, red],
+                ..Marks::default()
+            };
+            uncover_loads(&mut marks);
+            let [drawn, same] = marks.arrows[..] else {
+                panic!("two arrows")
+            };
+            assert_eq!((drawn.at.x, drawn.at.y), (0.0, expected), "{y}");
+            assert_eq!((drawn.vector, same), (load.vector, red), "{y}");
+        }
+    }
+}
