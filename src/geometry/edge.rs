@@ -22,6 +22,13 @@ impl Edge {
         self.vector().norm()
     }
 
+    /// Returns the distance of a point from the edge, metres.
+    pub(crate) fn distance(&self, point: Point) -> f64 {
+        let along = self.vector();
+        let share = (point - self.from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
+        (point - (self.from + along * share.clamp(0.0, 1.0))).norm()
+    }
+
     /// Returns the unit normal of the edge that points out of the material.
     pub fn outward(&self) -> Vector {
         let d = self.vector().normalize();

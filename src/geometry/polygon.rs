@@ -151,6 +151,15 @@ impl Polygon {
             == 1
     }
 
+    /// Returns the distance of a point from the polygon in metres; 0 for a point inside.
+    pub(crate) fn distance(&self, point: Point) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        let distances = self.edges().map(|edge| edge.distance(point));
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
     /// True if the polygon has no holes and its outline never turns right.
     pub fn is_convex(&self) -> bool {
         let ring = &self.rings[0];

@@ -71,14 +71,27 @@ fn the_width_of_a_band_is_proportional_to_its_force() {
         square("high", 4.0),
     ];
     let drawing = drawn(&analysed(&structure::on_floor(0.7, blocks)));
-    // 12 N enter the lowest block, and 18 N leave it.
-    let low = band(strand(&drawing, "In block low: 12 N from block middle"));
+    // 12 N enter the lowest block. Its weight of 6 N acts on the same line and is drawn on both sides of them, so that
+    // the band of 18 N is half as wide again.
+    let low = band(strand(
+        &drawing,
+        "In block low: 12 N from block middle, 12 N to",
+    ));
+    let weight = band(strand(
+        &drawing,
+        "In block low: 6 N from its weight, 6 N to",
+    ));
     let middle = band(strand(&drawing, "In block middle: 6 N from block high"));
-    let (first, last) = (low[0].1, low[low.len() - 1].1);
+    let (first, last) = (low[0].1, weight[weight.len() - 1].1);
     assert!((last / first - 1.5).abs() < 1e-6, "{first} {last}");
     assert!((first / middle[0].1 - 2.0).abs() < 1e-6);
-    // On both sides of a joint, a band has the same width and position.
-    let end = middle[middle.len() - 1];
+    // The weight begins at the centroid, and both bands end at the same point.
+    let (end, own) = (low[low.len() - 1].0, weight[weight.len() - 1].0);
+    assert!((end.y - own.y).abs() < 1e-6 && (end.x - own.x).abs() < 1e-6);
+    assert!((weight[0].0.y - 0.5 * (low[0].0.y + end.y)).abs() < 1e-6);
+    // On both sides of a joint, the bands have the same width and position.
+    let weight = band(strand(&drawing, "In block middle: 6 N from its weight"));
+    let end = weight[weight.len() - 1];
     assert!((end.1 - first).abs() < 1e-6 && (end.0.x - low[0].0.x).abs() < 1e-6);
 }
 

@@ -61,6 +61,7 @@ mod snapshot;
 mod statics;
 mod strangers;
 mod structure;
+mod visible;
 mod wedging;
 mod validation;
 mod words;

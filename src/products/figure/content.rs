@@ -6,13 +6,13 @@
 
 use core::cell::{Cell, OnceCell};
 
-use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::arrow::Marks;
 use super::context::FigureContext;
 use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
-use super::load_place::uncover_loads;
+use super::load_arrows::{lengthen_loads, uncover_from_missing_forces, uncover_from_weights};
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
@@ -221,9 +221,10 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
             marks.turns.retain(|turn| view::contains(near, turn.at));
         }
         if about.stretches_arrows && !options.printed() {
-            uncover_loads(marks);
+            uncover_from_missing_forces(marks);
         }
         if about.draws_forces && !options.printed() {
+            uncover_from_weights(marks);
             separate_parallel_arrows(marks);
         }
     }
@@ -268,20 +269,6 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     match stretch.is_finite() && load.is_finite() {
         true => (stretch.max(1.0), load),
         false => (1.0, 0.0),
-    }
-}
-
-/// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
-/// visible. The factor is the same for all frames in `marks`.
-fn lengthen_loads(marks: &mut [Marks], least: f64) {
-    let arrows = marks.iter_mut().flat_map(|marks| &mut marks.arrows);
-    let loads = arrows.filter(|arrow| arrow.kind == ArrowKind::Load);
-    let loads: Vec<&mut ForceArrow> = loads.collect();
-    let longest = loads.iter().map(|a| a.vector.norm()).fold(0.0, f64::max);
-    if longest > 0.0 && longest < least {
-        for arrow in loads {
-            arrow.vector *= least / longest;
-        }
     }
 }
 

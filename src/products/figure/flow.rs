@@ -4,6 +4,7 @@
 //! In each block, strands lead from the points where forces enter to the points where they leave; [`strands`] computes
 //! them. The bands of a force have the same width and direction on both sides of a joint.
 
+mod curve;
 mod key;
 mod line;
 mod ribbon;
@@ -22,7 +23,7 @@ use super::legend::Entry;
 use super::limit;
 use super::mark;
 use super::option::Options;
-use super::panel::composed_with;
+use super::panel::{composed_with, robot_limits};
 use super::pen::Pen;
 use super::unit::{LOAD_SHAFT, longest_load, unit};
 use crate::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -38,6 +39,9 @@ const MIN_BAND_WIDTH: f64 = 0.4;
 /// In frames with more blocks, all bands of one colour are drawn as one shape, and joints have no dots.
 const MAX_SINGLE_STRANDS: usize = 150;
 
+/// Least length of the arrow of a missing force, as a fraction of the length of the longest arrow of a load. A shorter
+/// arrow would have no visible direction.
+const LEAST_MISSING_ARROW: f64 = 0.35;
 /// Width of the dashed edge of a band of missing forces, pixels.
 const MISSING_EDGE: f64 = 0.9;
 /// Width of the legend symbol for a band of missing forces, pixels.
@@ -102,14 +106,18 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
 /// point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
+    let longest = longest_load(&analysis.scene, options.zoom);
+    let width = LOAD_SHAFT * longest;
     let shown = |arrow: ForceArrow| match arrow.kind {
         ArrowKind::Load => Some(ForceArrow {
             at: arrow.at - arrow.vector,
             width,
             ..arrow
         }),
-        kind if kind.is_failure() => Some(ForceArrow { width, ..arrow }),
+        kind if kind.is_failure() => {
+            let arrow = ForceArrow { width, ..arrow };
+            Some(lengthened(arrow, LEAST_MISSING_ARROW * longest))
+        }
         _ => None,
     };
     let turns = marks.turns.into_iter();
@@ -125,6 +133,24 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
         Marks::default()
     } else {
         shown
+    }
+}
+
+/// Returns the arrow of a missing force with a length of at least `least` metres. The tip of a pull stays at its joint.
+fn lengthened(arrow: ForceArrow, least: f64) -> ForceArrow {
+    let length = arrow.vector.norm();
+    if length >= least || length <= 0.0 {
+        return arrow;
+    }
+    let vector = arrow.vector * (least / length);
+    let at = match arrow.kind {
+        ArrowKind::MissingPull(_) => arrow.at + arrow.vector - vector,
+        _ => arrow.at,
+    };
+    ForceArrow {
+        at,
+        vector,
+        ..arrow
     }
 }
 
@@ -298,6 +324,7 @@ impl<'a> Picture<'a> {
             };
             group.items.push(dot.with(path).into());
         }
+        group.items.extend(robot_limits(self.pen, ink));
         group
     }
 

@@ -30,6 +30,8 @@ const NEARLY_INSIDE: f64 = 0.06;
 /// Up to this number of loads on a block, every order of the loads and the weight is tried: at most 4! orders. If the
 /// block has more loads, only their sum is used.
 const MAX_ORDERED_LOADS: usize = 3;
+/// A schematic line has one width if the larger of its two forces is at most this multiple of the smaller one.
+const SIMILAR_RATIO: f64 = 4.0;
 
 /// The origin of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,8 +90,10 @@ pub(crate) fn segments(
 #[derive(Clone, Copy, Debug)]
 struct LineOfAction {
     origin: ForceOrigin,
-    /// A point on the line, metres, such as the point where the force enters the block.
+    /// A point on the line, metres.
     at: Point,
+    /// The point where the force acts on the block, metres. A torque shifts the line away from this point.
+    entry: Point,
     force: Vector,
 }
 
@@ -114,6 +118,7 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfActi
                 lines[block.0].push(LineOfAction {
                     origin: ForceOrigin::Contact(number),
                     at: contact.resultant.at,
+                    entry: contact.resultant.at,
                     force,
                 });
             }
@@ -125,6 +130,7 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfActi
             lines[robot.block.0].push(LineOfAction {
                 origin: ForceOrigin::Robot(robot.robot),
                 at: shifted_by_torque(robot.at, robot.force, robot.torque),
+                entry: robot.at,
                 force: robot.force,
             });
         }
@@ -147,6 +153,7 @@ fn loads(scene: &Scene) -> Vec<Vec<LineOfAction>> {
             LineOfAction {
                 origin,
                 at: shifted_by_torque(applied.at, applied.force, torque),
+                entry: applied.at,
                 force: applied.force,
             }
         };
@@ -226,6 +233,7 @@ impl BlockForces<'_> {
         let line = LineOfAction {
             origin: ForceOrigin::Resultant,
             at: shifted_by_torque(centroid, force, moments.sum()),
+            entry: centroid,
             force,
         };
         (self.loads.len() > 1 && force.norm() > 0.0).then_some(line)
@@ -308,35 +316,32 @@ impl BlockForces<'_> {
         let near = NEARLY_INSIDE * self.polygon().area() / self.size();
         (0..=8).all(|i| {
             let p = from + (to - from) * (f64::from(i) / 8.0);
-            self.polygon().contains(p)
-                || self
-                    .polygon()
-                    .edges()
-                    .any(|e| distance_to_edge(e.from, e.to, p) <= near)
+            self.polygon().distance(p) <= near
         })
     }
 
-    /// Returns a schematic path for a block without a funicular polygon. If two forces act on the block, the path is
-    /// the straight line between them. Otherwise a straight line leads from each force to a common point. The weight is
+    /// Returns a schematic path for a block without a funicular polygon. If two forces of similar size act on the block,
+    /// the path is the straight line between them, as wide as the larger force. Otherwise a straight line leads from each force to a common point. The weight is
     /// not shown.
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
         let given: Vec<&LineOfAction> = given.collect();
         let piece = |line: &LineOfAction, to: Point| {
-            let segment = self.segment(line.origin, (line.at, to), line.force)?;
+            let segment = self.segment(line.origin, (line.entry, to), line.force)?;
             Some(ThrustSegment {
                 through: false,
                 ..segment
             })
         };
         if let [one, other] = given[..] {
-            let stronger = if one.force.norm() < other.force.norm() {
-                [other, one]
-            } else {
-                [one, other]
+            let [strong, weak] = match one.force.norm() < other.force.norm() {
+                true => [other, one],
+                false => [one, other],
             };
-            return piece(stronger[0], stronger[1].at).into_iter().collect();
+            if strong.force.norm() <= SIMILAR_RATIO * weak.force.norm() {
+                return piece(strong, weak.entry).into_iter().collect();
+            }
         }
         let meeting = self.meeting(&given);
         given
@@ -353,7 +358,7 @@ impl BlockForces<'_> {
         let centroid = self.block.centroid;
         let arms = given
             .iter()
-            .map(|line| (line.at - centroid) * line.force.norm());
+            .map(|line| (line.entry - centroid) * line.force.norm());
         let mean = centroid + arms.sum::<Vector>() / sum.max(f64::MIN_POSITIVE);
         if given.len() > 2 && self.polygon().contains(mean) {
             mean
@@ -411,13 +416,6 @@ fn permutations(loads: &[LineOfAction]) -> Vec<Vec<LineOfAction>> {
         }
     }
     all
-}
-
-/// Returns the distance of a point from the segment between two points, metres.
-fn distance_to_edge(a: Point, b: Point, p: Point) -> f64 {
-    let along = b - a;
-    let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
-    (p - (a + along * share.clamp(0.0, 1.0))).norm()
 }
 
 #[cfg(test)]

@@ -5,10 +5,10 @@ use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
 use super::joint_name::joint_name;
 use super::words::{FULL_UTILISATION, listed, percent};
-use crate::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
 use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::interface::ContactKind;
-use crate::scene::Scene;
+use crate::scene::{RobotId, Scene};
 
 /// A resultant acts at the edge if its distance from an end of the joint is at most this fraction of the joint's
 /// length.
@@ -64,6 +64,24 @@ fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearnes
 pub(crate) fn reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a Contact> {
     let all = nearness(scene, frame_analysis).into_iter();
     all.filter(Nearness::reached).map(|n| n.contact).collect()
+}
+
+/// True if at least one limit of a robot, for a force or a torque, is finite and larger than 0.
+pub(crate) fn has_limits(scene: &Scene, robot: RobotId) -> bool {
+    let limits = scene.robots[robot.0].limits;
+    let finite = |limit: f64| limit.is_finite() && limit > 0.0;
+    finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
+}
+
+/// Returns the robots that use all of a limit in a frame. The list is empty if the frame does not stand.
+pub(crate) fn robots_reached<'a>(
+    scene: &Scene,
+    frame_analysis: &'a FrameAnalysis,
+) -> Vec<&'a RobotForce> {
+    let stands = frame_analysis.verdict == Verdict::Stable;
+    let robots = frame_analysis.robots.iter().filter(|_| stands);
+    let reached = robots.filter(|r| r.limit_used >= FULL_UTILISATION);
+    reached.filter(|r| has_limits(scene, r.robot)).collect()
 }
 
 /// Two values of [`Nearness::share`] count as equal if their relative difference is below this.
@@ -166,8 +184,8 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
 /// Least half of a diagonal of a diamond, pixels.
 const LEAST_DIAMOND: f64 = 2.9;
 
-/// Returns the symbol of a joint at its limit: a filled diamond. `radius` is in pixels.
-fn symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
+/// Returns the symbol of a joint or a robot at its limit: a filled diamond. `radius` is in pixels.
+pub(crate) fn symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(diamond(at, reach(radius)), theme.ink).cased(theme.page, 0.35 * radius)
 }
 
@@ -196,3 +214,10 @@ pub(crate) fn key_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 pub(crate) const LEGEND_TEXT: &str = "joint at its limit: friction used up, or force at the edge";
 /// The same in a column of print.
 pub(crate) const SHORT_LEGEND_TEXT: &str = "joint at its limit";
+/// The meaning of the symbol on the disc of a robot.
+pub(crate) const ROBOT_LEGEND_TEXT: &str = "robot at its limit";
+/// The meaning of the symbol if it occurs on joints and on robots.
+pub(crate) const JOINT_AND_ROBOT_LEGEND_TEXT: &str =
+    "robot at its limit, or joint: friction used up, or force at the edge";
+/// The same in a column of print.
+pub(crate) const SHORT_JOINT_AND_ROBOT_LEGEND_TEXT: &str = "joint or robot at its limit";

@@ -36,7 +36,7 @@ mod largest;
 mod layout;
 mod legend;
 mod limit;
-mod load_place;
+mod load_arrows;
 mod margin;
 mod mark;
 mod mechanism;

@@ -8,6 +8,7 @@ use super::limit;
 use super::pen::{MIN_READABLE_UNIT_LENGTH, Pen};
 use super::unit::unit;
 use super::view;
+use crate::analysis::RobotForce;
 use crate::drawing::placement::Ink;
 use crate::drawing::{Group, Item};
 use crate::geometry::{Bounds, Point};
@@ -62,8 +63,9 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     group
 }
 
-/// Draws filled diamonds at the joints that are at their limit. If there are none, draws an open diamond at the joint
-/// nearest to its limit if the text of the figure names this joint. Draws nothing for a frame that does not stand.
+/// Draws filled diamonds at the joints and the robots that are at their limit. If no joint is, draws an open diamond
+/// at the joint nearest to its limit if the text of the figure names this joint. Draws nothing for a frame that does
+/// not stand.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let frame_analysis = &pen.context.analysis.frames[pen.number];
@@ -71,7 +73,7 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     for marked in limit::marked(pen.context, pen.number) {
         let contact = marked.contact;
         let at = pen.camera.place(contact.resultant.at);
-        let radius = (0.06 * pen.unit()).clamp(1.6, 3.2);
+        let radius = limit_radius(pen);
         ink.disc(at, limit::reach(radius));
         let pair = joint_name(scene, frame_analysis, contact);
         let is = if marked.reached { "at" } else { "nearest to" };
@@ -80,7 +82,30 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let mark = Group::with_class("limit").titled(title).with(symbol);
         group.items.push(mark.into());
     }
+    group.items.extend(robot_limits(pen, ink));
     group
+}
+
+/// Draws a filled diamond on the disc of each robot that uses all of a limit. Draws nothing for a frame that does not
+/// stand.
+pub(crate) fn robot_limits(pen: &Pen<'_>, ink: &mut Ink) -> Vec<Item> {
+    let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
+    let frame_analysis = &pen.context.analysis.frames[pen.number];
+    let mark = |robot: &RobotForce| {
+        let at = pen.camera.place(robot.at);
+        let radius = limit_radius(pen);
+        ink.disc(at, limit::reach(radius));
+        let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
+        let mark = Group::with_class("limit").titled(title);
+        mark.with(limit::symbol(at, radius, theme)).into()
+    };
+    let reached = limit::robots_reached(scene, frame_analysis).into_iter();
+    reached.map(mark).collect()
+}
+
+/// Returns the radius of the marks of limits, in pixels.
+fn limit_radius(pen: &Pen<'_>) -> f64 {
+    (0.06 * pen.unit()).clamp(1.6, 3.2)
 }
 
 /// Cuts the ground at the right and the lower edge of the part that figures show, so that marks beyond these edges do

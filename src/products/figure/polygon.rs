@@ -2,10 +2,13 @@
 //! at the tip of the previous arrow.
 //!
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
-//! finally missing forces, which are hollow and dashed. The polygon is closed if the structure is in equilibrium. If
-//! the structure falls, the polygon closes only with the missing forces, which act from outside or inside the
-//! structure. The text below the verdict states this. Each arrow has the same colour and force as on the structure.
+//! finally missing forces from the ground and from robots, which are hollow and dashed. The polygon is closed if the
+//! structure is in equilibrium. Forces that are missing between two blocks are no sides, because they act in opposite
+//! pairs. If no other forces are missing, the polygon of a structure that falls is closed too. Each arrow has the same colour and force as on the structure.
 //! The polygon has its own scale, which the legend shows.
+
+mod closure;
+mod symbol;
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::content::{About, FrameSource, PanelContent};
@@ -23,9 +26,10 @@ use super::words::{letter, listed, quantity, round_below, round_below_in};
 use crate::analysis::{Analysis, Verdict};
 use crate::drawing::arrow::straight;
 use crate::drawing::placement::Ink;
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::drawing::{Group, Item, Outline, Path, Stroke};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::{BodyId, Unit};
+use symbol::{JOIN_SYMBOL, join_stroke, join_symbol, missing, missing_symbol};
 
 /// Largest width and height of the polygon, as a fraction of the larger side of the structure.
 const POLYGON_SIZE: f64 = 0.75;
@@ -122,35 +126,40 @@ impl PanelContent for ForcePolygon {
             entries.push(Entry::Symbol(missing_symbol, 26.0, what));
         }
         let frames = context.marks.iter().enumerate();
+        let mut joined = false;
         let scales = frames.filter_map(|(frame, marks)| {
             let chain = chain(context.analysis, marks)?;
+            joined |= !chain.joins.is_empty();
             Some((frame, chain.scale * unit / context.unit))
         });
         let scales: Vec<(usize, f64)> = scales.collect();
+        if joined {
+            let what = "the same corner of the polygon, drawn at two places".to_owned();
+            entries.push(Entry::Symbol(join_symbol, JOIN_SYMBOL, what));
+        }
         entries.extend(scale_entries(&scales, context.analysis.scene.units.force()));
         entries
     }
 
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let why = verdict::reason(&context.analysis.scene, &context.analysis.frames[frame]);
+        let scene = &context.analysis.scene;
+        let frame_analysis = &context.analysis.frames[frame];
+        let why = verdict::reason(scene, frame_analysis);
         let marks = &context.marks[frame];
-        let lacks = outer(marks).any(|a| a.kind.is_failure());
         if outer(marks).next().is_none() {
             return why;
         }
-        let how = match (context.analysis.frames[frame].verdict, closed(marks)) {
-            (_, false) => "the force polygon stays open",
-            (Verdict::Stable, true) => "the force polygon is closed",
-            (Verdict::Unstable, true) if lacks => {
-                "the force polygon closes only with the missing forces"
+        let (how, why) = match (frame_analysis.verdict, closed(outer(marks))) {
+            (_, false) => ("the force polygon stays open".to_owned(), why),
+            (Verdict::Stable, true) => ("the force polygon is closed".to_owned(), why),
+            (Verdict::Unstable, true) => closure::reason(scene, frame_analysis, marks),
+            (Verdict::Undecided, true) => {
+                let how = "the force polygon of the forces found is closed".to_owned();
+                (how, why)
             }
-            (Verdict::Unstable, true) => {
-                "the force polygon closes only with the forces that are missing inside the structure"
-            }
-            (Verdict::Undecided, true) => "the force polygon of the forces found is closed",
         };
         if why.is_empty() {
-            how.to_owned()
+            how
         } else {
             format!("{how}; {why}")
         }
@@ -188,10 +197,10 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     };
     // If actions and reactions are drawn apart, two dashed lines each connect two positions of the same corner. In an
     // open polygon, the second line would look like the line of the gap, so it is left out.
-    let closed = closed(marks);
+    let closed = closed(outer(marks));
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
-        let stroke = Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0]);
         let title = "The same point, drawn at two positions";
+        let stroke = join_stroke(theme);
         polygon.items.push(dashed("join", title, *join, stroke));
     }
     let ends = (chain.sides.last(), chain.sides.first());
@@ -328,22 +337,12 @@ fn scale(structure: Bounds, own: Bounds, is_one_of_several: bool) -> f64 {
     }
 }
 
-/// True if the sum of the external forces is zero, except for rounding.
-fn closed(marks: &Marks) -> bool {
-    let sum: Vector = outer(marks).map(|a| a.force).sum();
-    let all: f64 = outer(marks).map(|a| a.force.norm()).sum();
-    sum.norm() <= CLOSURE_TOL * all
-}
-
-/// Returns the path of a missing force in the polygon: a hollow arrow with a dashed outline.
-fn missing(outline: Outline, colour: Colour, theme: &Theme) -> Path {
-    let edge = Stroke::new(colour, 1.2).dashed([3.0, 2.0]);
-    Path::filled(outline, theme.page).with_stroke(edge)
-}
-
-fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let outline = straight(at, (26.0, 0.0), 4.0);
-    vec![missing(outline, theme.failure, theme).into()]
+/// True if the sum of the forces is zero, except for rounding.
+fn closed<'a>(arrows: impl Iterator<Item = &'a ForceArrow>) -> bool {
+    let sides = arrows.fold((Vector::zeros(), 0.0), |(sum, all), arrow| {
+        (sum + arrow.force, all + arrow.force.norm())
+    });
+    sides.0.norm() <= CLOSURE_TOL * sides.1
 }
 
 /// Returns an arrow of a round force for each scale of the polygons. `scales` lists frames with their scales, pixels

@@ -86,12 +86,7 @@ impl PanelContent for ThrustLine {
         let scene = &context.analysis.scene;
         let frame_analysis = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
-        // Draw the line of thrust of the most central forces, those farthest from the ends of the joints, if they are
-        // known. Otherwise draw the line of thrust of the forces that the analysis found.
-        let frame_analysis = family
-            .central
-            .as_ref()
-            .map_or(frame_analysis, |state| &state.frame);
+        let frame_analysis = shown(family, frame_analysis);
         let segments = segments(scene, &scene.frames[frame], frame_analysis);
         let mut ink = label::ink(pen);
         for segment in &segments {
@@ -119,12 +114,13 @@ impl PanelContent for ThrustLine {
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let frames = scene.frames.iter().zip(&context.analysis.frames);
-        let (mut stands, mut schematic, mut falls) = (false, false, false);
-        for (frame, frame_analysis) in frames {
-            let segments = segments(scene, frame, frame_analysis);
+        let (mut through, mut schematic, mut falls) = (false, false, false);
+        for (number, (frame, frame_analysis)) in frames.enumerate() {
+            let state = shown(context.thrust_states(number), frame_analysis);
+            let segments = segments(scene, frame, state);
             match frame_analysis.verdict {
                 Verdict::Stable => {
-                    stands |= !segments.is_empty();
+                    through |= segments.iter().any(|s| s.through);
                     schematic |= segments.iter().any(|s| !s.through);
                 }
                 _ => falls |= !segments.is_empty(),
@@ -135,7 +131,7 @@ impl PanelContent for ThrustLine {
             entries.extend(legend::shared_scale(context, unit));
         }
         let largest = quantity(largest(context), context.analysis.scene.units.force());
-        if stands {
+        if through {
             let line = match central_thrust_text(context) {
                 Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
                 None if (0..context.analysis.frames.len()).any(|f| has_many_lines(context, f)) => {
@@ -155,7 +151,7 @@ impl PanelContent for ThrustLine {
             let line = format!("forces carried{place}, this thick for {largest}");
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
-        if stands || falls {
+        if through || schematic || falls {
             let dot = match context.options.is_column() {
                 true => "resultant",
                 false => "where a joint's resultant acts",
@@ -164,12 +160,18 @@ impl PanelContent for ThrustLine {
             entries.extend(limit_entries(context));
         }
         if schematic {
-            let what = match context.options.is_column() {
-                true => "schematic: no single line of action in the block",
-                false => "schematic: no single line of action runs through the block",
+            // The symbol of the thickness is explained once.
+            let thick = match through || falls {
+                true => String::new(),
+                false => format!(", this thick for {largest}"),
             };
-            let line = Entry::Line(schematic_colour(theme), widest(unit), what.to_owned());
-            entries.push(line);
+            let what = match context.options.is_column() {
+                true => format!("schematic{thick}: no single line of action in the block"),
+                false => {
+                    format!("schematic{thick}: no single line of action runs through the block")
+                }
+            };
+            entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
         }
         if context.options.with_polygon {
             entries.push(Entry::Note(polygon_note(context).to_owned()));
@@ -240,13 +242,18 @@ pub(crate) fn load_scale(scene: &Scene, frame: &Frame, options: &Options) -> f64
     largest * unit(scene, options.zoom) / longest_load(scene, options.zoom)
 }
 
+/// Returns the forces whose line of thrust the figure shows: the most central forces, those farthest from the ends of
+/// the joints, if they are known. Otherwise returns the forces that the analysis found.
+fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> &'a FrameAnalysis {
+    let central = states.central.as_ref();
+    central.map_or(found, |state| &state.frame)
+}
+
 /// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
-    let frames = given.map(|(number, frame_analysis)| {
-        let central = context.thrust_states(number).central.as_ref();
-        central.map_or(frame_analysis, |state| &state.frame)
-    });
+    let frames =
+        given.map(|(number, frame_analysis)| shown(context.thrust_states(number), frame_analysis));
     let frames: Vec<&FrameAnalysis> = frames.collect();
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);
@@ -261,10 +268,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
 fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
     let scene = &analysis.scene;
     let frame_analysis = &analysis.frames[frame];
-    let shown = states
-        .central
-        .as_ref()
-        .map_or(frame_analysis, |state| &state.frame);
+    let shown = shown(states, frame_analysis);
     (frame_analysis.verdict == Verdict::Stable)
         .then(|| Fans::new(scene, &scene.frames[frame], shown, unit))
         .flatten()

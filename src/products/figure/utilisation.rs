@@ -15,6 +15,7 @@ use super::description;
 use super::joint_name::joint_name;
 use super::label;
 use super::legend::{self, Entry};
+use super::limit;
 use super::panel::composed;
 use super::pen::Pen;
 use super::thrust;
@@ -80,7 +81,7 @@ impl PanelContent for Utilisation {
         let robots = frames
             .iter()
             .flat_map(|f| &f.robots)
-            .any(|r| has_limits(scene, r.robot.0));
+            .any(|r| limit::has_limits(scene, r.robot));
         let mut entries = Vec::new();
         let shared = all.iter().flatten().any(|b| b.friction.is_some());
         if shared || robots {
@@ -97,16 +98,11 @@ impl PanelContent for Utilisation {
                 legend::BAR_LENGTH,
             ));
         }
-        let spent = frames
-            .iter()
-            .flat_map(|f| &f.robots)
-            .any(|r| r.limit_used >= FULL_UTILISATION);
+        let mut robots = frames.iter().flat_map(|f| &f.robots);
+        let spent = robots.any(|r| r.limit_used >= FULL_UTILISATION);
         if spent || all.iter().flatten().any(uses_all_friction) {
-            let all = if spent {
-                "all of it".to_owned()
-            } else {
-                "all of it: about to slide".to_owned()
-            };
+            // Other equilibrium states may use less.
+            let all = "all of it in the forces shown".to_owned();
             entries.push(Entry::Symbol(full_symbol, SYMBOL_WIDTH, all));
         }
         if all.iter().flatten().any(|b| b.friction.is_none()) {
@@ -140,13 +136,6 @@ fn uses_all_friction(bearing: &Bearing) -> bool {
     bearing
         .friction
         .is_some_and(|share| share >= FULL_UTILISATION)
-}
-
-/// True if at least one limit of a robot, for a force or a torque, is finite and larger than 0.
-fn has_limits(scene: &Scene, robot: usize) -> bool {
-    let limits = scene.robots[robot].limits;
-    let finite = |limit: f64| limit.is_finite() && limit > 0.0;
-    finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
 /// Describes the interface that uses the largest fraction of its friction, and the robot that uses the largest
@@ -184,7 +173,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         frame_analysis
             .robots
             .iter()
-            .filter(|r| has_limits(scene, r.robot.0))
+            .filter(|r| limit::has_limits(scene, r.robot))
     };
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
     // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
@@ -375,7 +364,7 @@ fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     for robot in frame_analysis
         .robots
         .iter()
-        .filter(|r| has_limits(scene, r.robot.0))
+        .filter(|r| limit::has_limits(scene, r.robot))
     {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();

@@ -1,5 +1,6 @@
 //! [`entries`]: makes the legend of the figure of force flow.
 
+use super::super::arrow::Marks;
 use super::super::context::FigureContext;
 use super::super::legend::{self, Entry, MissingWords};
 use super::super::option::ArrowScale;
@@ -33,8 +34,8 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
             false => "resultant of a joint",
         };
         entries.push(Entry::Symbol(dot_symbol, 8.0, words.to_owned()));
+        entries.extend(legend::limits(context));
     }
-    entries.extend(legend::limits(context));
     entries.extend(legend::loads(context));
     entries.extend(legend::robots(context));
     if all.iter().any(|s| !s.1.exact) {
@@ -45,6 +46,17 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         entries.push(Entry::Note(words.to_owned()));
     }
     entries
+}
+
+/// True if the arrows of the missing forces of a frame do not all have one scale, because those of small forces have a
+/// least length.
+fn has_lengthened(marks: &Marks) -> bool {
+    let missing = marks.arrows.iter().filter(|a| a.kind.is_failure());
+    let scales = missing.map(|a| a.vector.norm() / a.force.norm());
+    let (least, most) = scales.fold((f64::INFINITY, 0.0), |(least, most), scale| {
+        (f64::min(least, scale), f64::max(most, scale))
+    });
+    most > 1.01 * least
 }
 
 /// Returns the legend entries for the bands. `all` contains each strand of the figure with the verdict of its frame.
@@ -85,6 +97,10 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
         let words = "force that cannot be carried".to_owned();
         entries.push(Entry::Symbol(missing_symbol, MISSING_SIGN, words));
         entries.push(Entry::Missing(MissingWords::Usual));
+    }
+    if context.marks.iter().any(has_lengthened) {
+        let words = "small missing forces are drawn larger".to_owned();
+        entries.push(Entry::Note(words));
     }
     entries
 }

@@ -7,8 +7,6 @@ use crate::geometry::{Point, Polygon, Vector, cross};
 
 /// A line meets a point if their distance is at most this fraction of the block's size.
 const LENGTH_TOL: f64 = 1e-6;
-/// Largest distance of a corner of the path from the block, as a fraction of the square root of the block's area.
-const MAX_OUTSIDE_SHARE: f64 = 0.15;
 /// Two lines of action count as parallel if the sine of the angle between them is at most this value.
 const PARALLEL_TOL: f64 = 1e-6;
 /// Largest number of loads, including the weight, for which the function searches a path.
@@ -35,7 +33,7 @@ pub(super) struct TruePath {
 
 /// Returns the path of the force from the first joint to the second. The function tries all orders in which the path
 /// can meet the loads. Returns `None` if there are more than [`MAX_ORDERED`] loads, or if no path exists that stays in
-/// or near the block and never turns back.
+/// the block and never turns back.
 pub(super) fn path(
     polygon: &Polygon,
     first: LineOfAction,
@@ -48,7 +46,6 @@ pub(super) fn path(
     let size = polygon.area().sqrt();
     let search = Search {
         polygon,
-        near: MAX_OUTSIDE_SHARE * size,
         miss: LENGTH_TOL * size,
         second,
         loads,
@@ -63,9 +60,7 @@ pub(super) fn path(
 
 struct Search<'a> {
     polygon: &'a Polygon,
-    /// Largest distance of a corner of the path from the block, metres.
-    near: f64,
-    /// Largest distance at which a line still meets a point, metres.
+    /// Largest distance at which a line still meets a point, or a corner of the path still lies in the block, metres.
     miss: f64,
     second: LineOfAction,
     loads: &'a [LineOfAction],
@@ -88,7 +83,7 @@ impl Search<'_> {
             let load = self.loads[i];
             let corner = meeting(at, force, load.at, load.force)?;
             let forward = (corner - at).dot(&force) >= -self.miss * amount;
-            if !forward || !self.is_near(corner) {
+            if !forward || self.polygon.distance(corner) > self.miss {
                 return None;
             }
             let next = force + load.force;
@@ -113,13 +108,6 @@ impl Search<'_> {
         path.amounts.push(force.norm());
         Some(path)
     }
-
-    /// True if a point lies in the block or near it.
-    fn is_near(&self, p: Point) -> bool {
-        let mut edges = self.polygon.edges();
-        self.polygon.contains(p)
-            || edges.any(|edge| distance_to_segment(edge.from, edge.to, p) <= self.near)
-    }
 }
 
 /// Returns the intersection of the line through `a` and the line through `b`. Returns `b` if they are the same line,
@@ -132,11 +120,4 @@ fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point
         return (aside.abs() <= LENGTH_TOL * way.norm()).then_some(b);
     }
     Some(a + along_a * (cross(b - a, along_b) / sine))
-}
-
-/// Returns the distance of a point from the segment between two points, metres.
-fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
-    let along = b - a;
-    let share = (p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
-    (p - (a + along * share.clamp(0.0, 1.0))).norm()
 }

@@ -2,23 +2,28 @@
 //! exact force at its beginning and at its end.
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
-//! action meet in or near the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
+//! action meet in the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
 //! divided among the forces that leave, in proportion to their magnitudes. The widths of all strands of a force add
-//! up to its magnitude.
+//! up to its magnitude. No strand leaves its block.
 
-use super::line::{self, LineOfAction};
+use super::curve::{curve, moved_inside};
+use super::line::{self, LineOfAction, TruePath};
 use crate::analysis::{Failure, FrameAnalysis};
 use crate::figure::bearing::{self, bearings};
-use crate::geometry::{Point, Vector, quarter_turn};
+use crate::geometry::{Point, Polygon, Vector, quarter_turn};
 use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
 /// If the component of a force along gravity is below this fraction of the force, the component across gravity
 /// decides whether the force enters or leaves the block.
 const ALONG_GRAVITY_TOL: f64 = 1e-6;
-/// Number of segments of a schematic curve.
-const CURVE_SEGMENTS: usize = 12;
-/// Distance of the control points of a curve from its ends, as a fraction of the chord's component along the force.
-const HANDLE_SHARE: f64 = 0.2;
+/// Missing forces below this fraction of the largest missing force have no strands, because the strands of a small
+/// missing force would be as visible as those of a large one. Their arrows are enough.
+const LEAST_MISSING: f64 = 0.1;
+/// Points whose distance is at most this fraction of the block's size coincide.
+const SAME_PLACE: f64 = 1e-6;
+/// Distance of the point that decides on which side of a missing force its block lies, as a fraction of the width of
+/// its strands.
+const SIDE_SHARE: f64 = 0.5;
 
 /// The origin of a force on a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +74,9 @@ pub(crate) struct Strand {
     /// The width of the strand at each point of the axis, N. A point that occurs twice has two widths, before and after
     /// a step.
     pub widths: Vec<f64>,
+    /// The width in the middle of the strand that another strand covers, N. A weight that acts on the line of action of
+    /// another force is drawn on both sides of this force.
+    pub core: f64,
     /// True if the strand runs along true lines of action; false if it is schematic.
     pub exact: bool,
 }
@@ -87,6 +95,7 @@ pub(crate) fn strands(
         let forces = &acting[id.0];
         let distribution = ForceDistribution {
             on: *id,
+            polygon: &scene.blocks[id.0].body.polygon,
             down: scene.down(),
             metres_per_newton,
         };
@@ -128,7 +137,12 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
             act(on, Origin::Robot(robot.robot), robot.at, robot.force);
         }
     }
+    let failures = frame_analysis.failures.iter();
+    let largest = failures.map(|f| f.force().norm()).fold(0.0, f64::max);
     for (number, failure) in frame_analysis.failures.iter().enumerate() {
+        if failure.force().norm() < LEAST_MISSING * largest {
+            continue;
+        }
         for (body, force) in missing(failure) {
             act(body, Origin::Missing(number), failure.at(), force);
         }
@@ -189,35 +203,63 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
         line_of_action(second),
         &loads,
     )?;
-    let strand = |kind, from, to, axis: Vec<Point>, widths: Vec<f64>| Strand {
+    let given: Vec<&ForceOnBlock> = forces.iter().filter(given).collect();
+    let ends = [first.origin, second.origin];
+    let same_place = SAME_PLACE * polygon.area().sqrt();
+    Some(exact_strands(on, ends, path, &given, same_place))
+}
+
+/// Returns the strands along a true path from one joint to another: one strand for the path, and one for each load that
+/// joins it. `loads` are the forces to which the indices in the path refer. Points whose distance is at most
+/// `same_place` metres coincide.
+///
+/// A weight that acts on the path itself has no strand of its own to the path. From there on, it is drawn on both
+/// sides of the path, so that a reader can distinguish it from the force that the block transmits.
+fn exact_strands(
+    on: BlockId,
+    [from, to]: [Origin; 2],
+    path: TruePath,
+    loads: &[&ForceOnBlock],
+    same_place: f64,
+) -> Vec<Strand> {
+    let kind = |origin| match origin {
+        Origin::Weight => StrandKind::Weight,
+        _ => StrandKind::Carried,
+    };
+    let mut through = Strand {
         on,
-        kind,
+        kind: StrandKind::Carried,
         from,
         to,
-        axis,
-        widths,
+        axis: path.corners.windows(2).flatten().copied().collect(),
+        widths: path.amounts.iter().flat_map(|w| [*w; 2]).collect(),
+        core: 0.0,
         exact: true,
     };
-    let pieces = path.corners.windows(2).zip(&path.amounts);
-    let (mut axis, mut widths) = (Vec::new(), Vec::new());
-    for (ends, amount) in pieces {
-        axis.extend_from_slice(ends);
-        widths.extend([*amount; 2]);
-    }
-    let (from, to) = (first.origin, second.origin);
-    let through = strand(StrandKind::Carried, from, to, axis, widths);
-    let joins = path.joins.into_iter().map(|(load, corner)| {
-        let given = forces.iter().filter(given).nth(load);
-        let origin = given.map_or(Origin::Weight, |f| f.origin);
-        let kind = match origin {
-            Origin::Weight => StrandKind::Weight,
-            _ => StrandKind::Carried,
+    let mut strands = Vec::new();
+    let last = path.joins.len().wrapping_sub(1);
+    for (number, (load, corner)) in path.joins.iter().enumerate() {
+        let load = loads[*load];
+        let mut joining = Strand {
+            kind: kind(load.origin),
+            from: load.origin,
+            axis: vec![load.at, *corner],
+            widths: vec![load.force.norm(); 2],
+            ..through.clone()
         };
-        let amount = loads[load].force.norm();
-        let ends = vec![loads[load].at, corner];
-        strand(kind, origin, second.origin, ends, vec![amount; 2])
-    });
-    Some(joins.chain([through]).collect())
+        let on_path = (load.at - corner).norm() <= same_place;
+        if on_path && number == last && load.origin == Origin::Weight {
+            let [before, behind] = [path.amounts[number], path.amounts[number + 1]];
+            joining.axis = vec![*corner, path.corners[number + 2]];
+            joining.widths = vec![behind; 2];
+            joining.core = before;
+            let count = through.widths.len();
+            through.widths[count - 2..].fill(before);
+        }
+        strands.push(joining);
+    }
+    strands.push(through);
+    strands
 }
 
 fn line_of_action(acting: &ForceOnBlock) -> LineOfAction {
@@ -228,14 +270,15 @@ fn line_of_action(acting: &ForceOnBlock) -> LineOfAction {
 }
 
 /// Divides the forces that enter a block among the forces that leave it.
-struct ForceDistribution {
+struct ForceDistribution<'a> {
     on: BlockId,
+    polygon: &'a Polygon,
     /// The direction of gravity.
     down: Vector,
     metres_per_newton: f64,
 }
 
-impl ForceDistribution {
+impl ForceDistribution<'_> {
     /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
     /// is positive, and leaves the block otherwise.
     fn enters(&self, acting: &ForceOnBlock) -> bool {
@@ -262,25 +305,26 @@ impl ForceDistribution {
                 let widths = [start * end / leaving, end * start / entering];
                 // A strand begins in the direction of the force that enters. It ends in the direction opposite to the
                 // force that leaves.
-                let first = self.end(from.at, from.force, &outs, to, leaving);
-                let last = self.end(to.at, -to.force, &ins, from, entering);
+                let first = self.end(from, from.force, &outs, to, leaving);
+                let last = self.end(to, -to.force, &ins, from, entering);
                 strands.push(self.strand(from, to, [first, last], widths));
             }
         }
         strands
     }
 
-    /// Returns the position of a strand at the point `at`, where `force` acts, and its direction there. The strand
-    /// connects this force with `partner`. The strands to all `partners` lie next to each other in the order of their
-    /// positions across the force. `sum` is the sum of the magnitudes of all `partners`, N.
+    /// Returns the position of a strand at the point where the force `acting` acts, and its direction there, which is that
+    /// of `force`. The strand connects this force with `partner`. The strands to all `partners` lie next to each
+    /// other in the order of their positions across the force. `sum` is the sum of the magnitudes of all `partners`, N.
     fn end(
         &self,
-        at: Point,
+        acting: &ForceOnBlock,
         force: Vector,
         partners: &[&ForceOnBlock],
         partner: &ForceOnBlock,
         sum: f64,
     ) -> (Point, Vector) {
+        let at = acting.at;
         let (along, width) = (force / force.norm(), force.norm());
         let aside = quarter_turn(along);
         let place = |p: &ForceOnBlock| (p.at - at).dot(&aside);
@@ -295,8 +339,24 @@ impl ForceDistribution {
                 before += share(other);
             }
         }
-        let middle = width * (before + 0.5 * share(partner) - 0.5);
+        let side = match acting.origin {
+            Origin::Missing(_) => self.side(at, aside * (width * self.metres_per_newton)),
+            _ => 0.0,
+        };
+        let middle = width * (before + 0.5 * share(partner) - 0.5 + 0.5 * side);
         (at + aside * (middle * self.metres_per_newton), along)
+    }
+
+    /// Returns on which side of a missing force at the point `at` its strands lie: 1 if only the point at `across` from
+    /// it is in the block, -1 if only the opposite point is in the block, otherwise 0. The strands of a missing force
+    /// would otherwise cover the other body, on which the force does not act.
+    fn side(&self, at: Point, across: Vector) -> f64 {
+        let inside = |sign: f64| self.polygon.contains(at + across * (sign * SIDE_SHARE));
+        match (inside(1.0), inside(-1.0)) {
+            (true, false) => 1.0,
+            (false, true) => -1.0,
+            _ => 0.0,
+        }
     }
 
     fn strand(
@@ -312,35 +372,23 @@ impl ForceDistribution {
             Origin::Weight => StrandKind::Weight,
             _ => StrandKind::Carried,
         };
-        let axis = curve(ends);
+        let mut axis = curve(self.polygon, ends);
         let last = (axis.len() - 1) as f64;
         let width = |i: usize| widths[0] + (widths[1] - widths[0]) * i as f64 / last;
+        let widths: Vec<f64> = (0..axis.len()).map(width).collect();
+        if kind == StrandKind::Missing {
+            let metres: Vec<f64> = widths.iter().map(|w| w * self.metres_per_newton).collect();
+            moved_inside(self.polygon, &mut axis, &metres);
+        }
         Strand {
             on: self.on,
             kind,
             from: from.origin,
             to: to.origin,
-            widths: (0..axis.len()).map(width).collect(),
+            widths,
             axis,
+            core: 0.0,
             exact: false,
         }
     }
-}
-
-/// Returns a Bézier curve from `a` to `b`, as a list of points. `along_a` and `along_b` are its directions there; a
-/// direction that points away from the chord is ignored.
-fn curve([(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
-    let chord = b - a;
-    let handle = |along: Vector| HANDLE_SHARE * chord.dot(&along).max(0.0);
-    let (p, q) = (a + along_a * handle(along_a), b - along_b * handle(along_b));
-    let at = |i: usize| {
-        let t = i as f64 / CURVE_SEGMENTS as f64;
-        let s = 1.0 - t;
-        let sum = a.coords * (s * s * s)
-            + p.coords * (3.0 * s * s * t)
-            + q.coords * (3.0 * s * t * t)
-            + b.coords * (t * t * t);
-        Point::from(sum)
-    };
-    (0..=CURVE_SEGMENTS).map(at).collect()
 }

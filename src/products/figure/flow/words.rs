@@ -13,7 +13,10 @@ use crate::scene::{BodyId, Scene};
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, frame_analysis: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
-    let amount = |width: Option<&f64>| quantity(width.copied().unwrap_or(0.0), scene.units.force());
+    let amount = |width: Option<&f64>| {
+        let newtons = width.map_or(0.0, |width| width - strand.core);
+        quantity(newtons, scene.units.force())
+    };
     let name = |origin| name(scene, frame_analysis, BodyId::Block(strand.on), origin);
     format!(
         "In block {on}: {} from {}, {} to {}",

@@ -28,6 +28,8 @@ pub(super) struct Arrow {
     pub colour: Colour,
     /// Whether the arrow is hollow, like the arrows of loads.
     pub hollow: bool,
+    /// Whether the arrow shows a missing force, which is drawn above all others.
+    pub missing: bool,
 }
 
 impl Arrow {

@@ -23,6 +23,15 @@ const UNIT_NORMAL_WIDTH: f64 = 1.2;
 /// Largest length of a friction arrow that only names a force, as a fraction of the length of the interface. The
 /// arrows of the two ends point towards each other.
 const FRICTION_REACH: f64 = 0.30;
+/// Least length of an arrow that shows a force, pixels. A shorter arrow would be a speck on the outline of the block.
+const LEAST_LENGTH: f64 = 14.0;
+/// The same for a missing force, whose arrow is wider.
+const LEAST_MISSING_LENGTH: f64 = 20.0;
+/// Forces of interfaces and robots below this fraction of the largest force may be errors of the solver, and have no
+/// arrow.
+pub(super) const NOISE: f64 = 1e-6;
+/// Width of the shaft of a missing force, as a multiple of the width of other shafts.
+const MISSING_WIDTH: f64 = 1.4;
 /// Radius of a torque arrow, pixels.
 const TURN_RADIUS: f64 = 24.0;
 /// Angle of an arrow that only names a torque, radians.
@@ -40,6 +49,14 @@ pub(super) fn longest(analysis: &Analysis, block: BlockId, camera: &Camera) -> f
 fn length_factor(analysis: &Analysis, block: BlockId, camera: &Camera) -> f64 {
     let bounds = analysis.scene.blocks[block.0].body.polygon.bounds();
     (camera.length(bounds.diagonal()) / FULL_LENGTH_DIAGONAL).clamp(0.5, 1.0)
+}
+
+/// Returns the least length of the arrow of a force, pixels.
+pub(super) fn least_length(force: &Force) -> f64 {
+    match force.is_missing() {
+        true => LEAST_MISSING_LENGTH,
+        false => LEAST_LENGTH,
+    }
 }
 
 /// Returns the arrows of the diagram, with lengths proportional to the forces. With [`Corners::All`] there is an arrow
@@ -113,22 +130,27 @@ impl Diagram<'_> {
             if self.naming && of_interface {
                 continue;
             }
+            let missing = force.is_missing();
             let straight = Arrow {
                 symbol: Some(force.symbol.clone()),
                 title: force.title(self.block_name(), self.analysis.scene.units),
                 at: force.at,
                 along: (0.0, 0.0),
                 turn: None,
-                width: SHAFT_WIDTH,
+                width: if missing {
+                    MISSING_WIDTH * SHAFT_WIDTH
+                } else {
+                    SHAFT_WIDTH
+                },
                 colour: force.colour,
-                hollow: matches!(force.what, "Load" | "Torque of a load"),
+                hollow: force.is_load(),
+                missing,
             };
             if force.torque != 0.0 {
-                let share = force.torque.abs() / (edge * largest.max(f64::MIN_POSITIVE));
                 let sweep = if self.naming {
                     NAMING_SWEEP
                 } else {
-                    self.shorter * MAX_LENGTH * share / TURN_RADIUS
+                    self.length(force, force.torque.abs() / edge, largest) / TURN_RADIUS
                 };
                 arrows.push(Arrow {
                     along: (TURN_RADIUS, 0.0),
@@ -139,7 +161,7 @@ impl Diagram<'_> {
                 let length = if self.naming {
                     self.shorter * NAMING_LENGTH
                 } else {
-                    self.shorter * MAX_LENGTH * force.force.norm() / largest
+                    self.length(force, force.force.norm(), largest)
                 };
                 arrows.push(Arrow {
                     along: self.on_page(force.force, length),
@@ -148,6 +170,18 @@ impl Diagram<'_> {
             }
         }
         arrows
+    }
+
+    /// Returns the length of the arrow of a force of `amount` newtons, pixels, at least [`least_length`]. The arrow of
+    /// the force `largest` has the full length. A very small force has no arrow if it may be an error of the solver,
+    /// unlike a weight, a load or a missing force.
+    fn length(&self, force: &Force, amount: f64, largest: f64) -> f64 {
+        let given = force.is_missing() || force.is_load() || force.what == "Weight";
+        if !given && amount <= NOISE * largest {
+            return 0.0;
+        }
+        let true_length = self.shorter * MAX_LENGTH * amount / largest.max(f64::MIN_POSITIVE);
+        true_length.max(least_length(force))
     }
 
     /// Returns the arrows that name the forces at each corner of an interface: a normal force, and one friction force
@@ -183,6 +217,7 @@ impl Diagram<'_> {
                     width: SHAFT_WIDTH,
                     colour: self.options.theme.ink,
                     hollow: false,
+                    missing: false,
                 });
             }
         }
@@ -214,6 +249,7 @@ impl Diagram<'_> {
             width: UNIT_NORMAL_WIDTH,
             colour: self.options.theme.faint,
             hollow: false,
+            missing: false,
         }
     }
 }

@@ -1,18 +1,18 @@
 //! Draws the lower part of a free-body diagram: the verdict, the scale of the arrows, notes, and the list of forces.
 
 use super::arrow::SHAFT_WIDTH;
-use super::diagram::longest;
+use super::diagram::{NOISE, least_length, longest};
 use super::force::largest;
 use super::table::Table;
 use super::value::{self, Piece, rows};
 use super::{LIST_SIZE, MARGIN, Sheet};
 use crate::drawing::{Anchor, Face, Group, Item, PagePoint, Text, text};
-use crate::figure::arrow::{MIN_VISIBLE_ARROW, round_above};
+use crate::figure::arrow::round_above;
 use crate::figure::legend;
 use crate::figure::option::Corners;
 use crate::figure::unit::unit;
 use crate::figure::verdict;
-use crate::figure::words::{quantity, round_below_in};
+use crate::figure::words::{listed, quantity, round_below_in};
 
 impl Sheet<'_> {
     /// Returns the table of the forces on the block, with their moments about the centroid of the block.
@@ -118,14 +118,13 @@ impl Sheet<'_> {
         if self.options.corners == Corners::All {
             notes.push("arrows name forces; their lengths show no amounts".to_owned());
         }
+        let edge = unit(&self.analysis.scene, None);
+        let largest = largest(&self.forces, edge, self.options);
+        let newtons = self.analysis.scene.units.force();
+        notes.extend(self.enlarged(largest, edge));
         let unseen = self.arrows.iter().filter(|a| !Sheet::seen(a)).count();
         if unseen > 0 {
-            let largest = largest(&self.forces, unit(&self.analysis.scene, None), self.options);
-            let longest = longest(self.analysis, self.block, &self.camera);
-            let amount = quantity(
-                round_above(largest * MIN_VISIBLE_ARROW / longest),
-                self.analysis.scene.units.force(),
-            );
+            let amount = quantity(round_above(largest * NOISE), newtons);
             let forces = if unseen == 1 { "force" } else { "forces" };
             notes.push(format!("{unseen} {forces} under {amount} not drawn"));
         }
@@ -145,6 +144,30 @@ impl Sheet<'_> {
             );
         }
         notes
+    }
+
+    /// Returns a note with the forces below which arrows are longer than their forces would make them. Returns `None` if
+    /// there is no such arrow. `largest` is the force of the longest arrow, N, and `edge` the unit length in metres.
+    fn enlarged(&self, largest: f64, edge: f64) -> Option<String> {
+        let units = self.analysis.scene.units;
+        let longest = longest(self.analysis, self.block, &self.camera);
+        let mut small: Vec<String> = Vec::new();
+        for force in &self.forces {
+            let limit = largest * least_length(force) / longest;
+            let is_small = |amount: f64| amount > NOISE * largest && amount < limit;
+            let what = if force.is_missing() { "missing " } else { "" };
+            if is_small(force.force.norm()) {
+                let limit = quantity(limit, units.force());
+                small.push(format!("{what}forces under {limit}"));
+            }
+            if is_small(force.torque.abs() / edge) {
+                let limit = quantity(limit * edge, units.torque());
+                small.push(format!("{what}torques under {limit}"));
+            }
+        }
+        small.sort();
+        small.dedup();
+        (!small.is_empty()).then(|| format!("{} are drawn larger", listed(&small)))
     }
 
     /// Returns the description of the diagram for screen readers: its arrows, the list of forces and, if the diagram

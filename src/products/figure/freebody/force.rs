@@ -41,6 +41,16 @@ impl Force {
         cross(self.at - about, self.force) + self.torque
     }
 
+    /// True for a force or a torque of a load.
+    pub(super) fn is_load(&self) -> bool {
+        matches!(self.what, "Load" | "Torque of a load")
+    }
+
+    /// True for a missing force or torque.
+    pub(super) fn is_missing(&self) -> bool {
+        self.what.starts_with("Missing")
+    }
+
     /// Describes the force and its magnitude, such as `Weight mg on block a: 6 N at 270°`. `on` is the name of the
     /// block.
     pub(super) fn title(&self, on: &str, units: UnitsEntry) -> String {

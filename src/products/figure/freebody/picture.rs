@@ -15,6 +15,8 @@ use crate::scene::BodyId;
 
 /// Distance of hatching lines, pixels.
 const HATCH_SPACING: f64 = 7.0;
+/// Width of the border that separates an arrow from an outline below it, pixels.
+const CASING: f64 = 0.8;
 
 impl Sheet<'_> {
     /// Draws the outlines of the bodies that touch the block. Ground is hatched.
@@ -131,12 +133,14 @@ impl Sheet<'_> {
         arrow.turn.map_or(length, |sweep| length * sweep.abs()) >= MIN_VISIBLE_ARROW
     }
 
-    /// Draws the arrows of the forces and torques that are long enough to be visible. Adds the names of the forces to
-    /// `requests`.
+    /// Draws the arrows of the forces and torques that are long enough to be visible, those of missing forces above the
+    /// others. Adds the names of the forces to `requests`.
     pub(super) fn drawn(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("forces");
-        for arrow in self.arrows.iter().filter(|a| Sheet::seen(a)) {
+        let seen = self.arrows.iter().filter(|a| Sheet::seen(a));
+        let (missing, others): (Vec<&Arrow>, Vec<&Arrow>) = seen.partition(|a| a.missing);
+        for arrow in others.into_iter().chain(missing) {
             let from = self.camera.place(arrow.at);
             let path = match arrow.turn {
                 Some(sweep) => {
@@ -153,7 +157,7 @@ impl Sheet<'_> {
                 let edge = Stroke::new(arrow.colour, 1.1).mitred();
                 Path::filled(path, theme.page).with_stroke(edge)
             } else {
-                Path::filled(path, arrow.colour)
+                Path::filled(path, arrow.colour).cased(theme.page, CASING)
             };
             let drawn = Group::with_class("force")
                 .titled(arrow.title.as_str())

@@ -1,5 +1,7 @@
 //! Creates the labels that show the magnitudes of loads, forces and torques.
 
+use core::cmp::Ordering;
+
 use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::super::pen::{DOT_RADIUS, Pen, TURN_RADIUS};
 use super::super::words::quantity;
@@ -69,16 +71,23 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         let written = is_written(pen, arrow, few, least) && is_first_of_pair(arrow);
         seen && (is_first(arrow) || written)
     };
-    let straight: Vec<&ForceArrow> = marks.arrows.iter().filter(has_amount).collect();
+    let mut straight: Vec<&ForceArrow> = marks.arrows.iter().filter(has_amount).collect();
+    if options.amounts {
+        straight.sort_by(|a, b| by_importance(a, b));
+    }
     let straight = largest(straight, |arrow| match is_first(arrow) {
         true => f64::INFINITY,
         false => arrow.force.norm(),
     });
+    let is_robot = |arrow: &&ForceArrow| matches!(arrow.kind, ArrowKind::Robot(_));
+    let robots = marks.arrows.iter().filter(is_robot).count();
     let straight = straight.into_iter().map(|arrow| {
         let amount = quantity(arrow.force.norm(), pen.context.analysis.scene.units.force());
-        let words = match is_first(arrow) && !options.amounts {
-            true => format!("largest: {amount}"),
-            false => amount,
+        let words = match arrow.kind {
+            _ if options.amounts || !is_first(arrow) => amount,
+            ArrowKind::Robot(_) if robots == 1 => format!("robot: {amount}"),
+            ArrowKind::Robot(_) => format!("largest of a robot: {amount}"),
+            _ => format!("largest: {amount}"),
         };
         Label {
             named: is_first(arrow),
@@ -107,6 +116,13 @@ fn largest<T>(items: Vec<&T>, size: impl Fn(&T) -> f64) -> Vec<&T> {
     order.truncate(MAX_AMOUNTS);
     order.sort_unstable();
     order.into_iter().map(|k| items[k]).collect()
+}
+
+/// Compares two arrows by the importance of their amounts, so that the least important amounts are left out if there is
+/// no space: first missing forces, and then the others, the largest first.
+fn by_importance(a: &ForceArrow, b: &ForceArrow) -> Ordering {
+    let missing = b.kind.is_failure().cmp(&a.kind.is_failure());
+    missing.then(b.force.norm().total_cmp(&a.force.norm()))
 }
 
 /// True unless the magnitude of the force is written at the opposite arrow. The two opposite forces between two blocks
@@ -264,6 +280,9 @@ fn centres_along(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::arrow::Head;
+    use crate::geometry::{Point, Vector};
+    use crate::scene::BlockId;
 
     #[test]
     fn if_there_are_too_many_amounts_only_the_largest_are_labelled() {
@@ -275,5 +294,30 @@ mod tests {
         assert_eq!(written, vec![&499.0; MAX_AMOUNTS]);
         assert!(core::ptr::eq(written[0], &raw const many[499]));
         assert!(core::ptr::eq(written[15], &raw const many[499 + 15 * 500]));
+    }
+
+    #[test]
+    fn missing_forces_have_the_most_important_amounts_and_then_the_largest_forces() {
+        let arrow = |newtons: f64, kind: ArrowKind| ForceArrow {
+            on: BodyId::Block(BlockId(0)),
+            at: Point::origin(),
+            vector: Vector::new(newtons, 0.0),
+            force: Vector::new(newtons, 0.0),
+            colour: Colour::WHITE,
+            width: 1.0,
+            head: Head::Within,
+            kind,
+        };
+        let partner = BodyId::Block(BlockId(1));
+        let mut arrows = [
+            arrow(1.0, ArrowKind::Weight),
+            arrow(9.0, ArrowKind::Contact(partner)),
+            arrow(0.5, ArrowKind::MissingPull(partner)),
+            arrow(4.0, ArrowKind::Load),
+            arrow(0.7, ArrowKind::MissingFriction(partner)),
+        ];
+        arrows.sort_by(by_importance);
+        let order = arrows.map(|arrow| arrow.force.x);
+        assert_eq!(order, [0.7, 0.5, 9.0, 4.0, 1.0]);
     }
 }

@@ -190,21 +190,32 @@ pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entr
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, units.length())))
 }
 
-/// Returns the legend entry for joints at their limit; `None` if no frame has such a joint.
+/// Returns the legend entry for joints and robots at their limit; `None` if no frame has any of them.
 pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let mut frames = context.analysis.frames.iter();
-    let any = frames.any(|frame_analysis| !limit::reached(scene, frame_analysis).is_empty());
-    let words = match context.options.is_column() {
-        true => limit::SHORT_LEGEND_TEXT,
-        false => limit::LEGEND_TEXT,
+    let joints = frames.clone().any(|f| !limit::reached(scene, f).is_empty());
+    let robots = frames.any(|f| !limit::robots_reached(scene, f).is_empty());
+    let words = match (joints, robots) {
+        (false, false) => return None,
+        (true, false) if context.options.is_column() => limit::SHORT_LEGEND_TEXT,
+        (true, false) => limit::LEGEND_TEXT,
+        (false, true) => limit::ROBOT_LEGEND_TEXT,
+        (true, true) if context.options.is_column() => limit::SHORT_JOINT_AND_ROBOT_LEGEND_TEXT,
+        (true, true) => limit::JOINT_AND_ROBOT_LEGEND_TEXT,
     };
-    any.then(|| Entry::Symbol(limit::key_symbol, 11.0, words.to_owned()))
+    Some(Entry::Symbol(limit::key_symbol, 11.0, words.to_owned()))
 }
 
-/// True if the entry explains the mark of joints at their limit.
+/// True if the entry explains the mark of joints and robots at their limit.
 pub(crate) fn is_limit(entry: &Entry) -> bool {
-    let texts = [limit::LEGEND_TEXT, limit::SHORT_LEGEND_TEXT];
+    let texts = [
+        limit::LEGEND_TEXT,
+        limit::SHORT_LEGEND_TEXT,
+        limit::ROBOT_LEGEND_TEXT,
+        limit::JOINT_AND_ROBOT_LEGEND_TEXT,
+        limit::SHORT_JOINT_AND_ROBOT_LEGEND_TEXT,
+    ];
     matches!(entry, Entry::Symbol(_, _, words) if texts.contains(&words.as_str()))
 }
 

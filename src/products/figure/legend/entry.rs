@@ -4,8 +4,6 @@ use super::symbol::{self, LINE_LENGTH, ON_BLOCK, SYMBOL_GAP, written};
 use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
-/// The same in a column of print.
-const SHORT_COLOURS_TEXT: &str = "one colour for each block";
 const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
 /// The same in a column of print.
@@ -140,8 +138,7 @@ impl Entry {
     pub(super) fn words(&self) -> String {
         match self {
             Entry::Blocks(_) => String::new(),
-            Entry::Colours(_, false) => COLOURS_TEXT.to_owned(),
-            Entry::Colours(_, true) => SHORT_COLOURS_TEXT.to_owned(),
+            Entry::Colours(..) => COLOURS_TEXT.to_owned(),
             Entry::Robot(_, id) => robot(id),
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
             Entry::Missing(MissingWords::Usual) => MISSING_TEXT.to_owned(),

@@ -3,7 +3,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
-use crate::drawing::arrow::{head, straight, turning};
+use crate::drawing::arrow::{HEAD_WIDTH, head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::figure::arrow::{
     ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
@@ -98,7 +98,8 @@ impl Pen<'_> {
     }
 
     /// Draws the heads of arrows again, on top of all shafts, because a shaft must not hide the head of another arrow
-    /// on the same line. Loads and missing forces are not drawn again.
+    /// on the same line. On top of them, draws whole arrows of loads again, because the small circle of a weight must
+    /// not hide a load at the same point. Missing forces are not drawn again.
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
@@ -118,6 +119,9 @@ impl Pen<'_> {
                 .push(head.cased(self.seam_around(arrow), self.casing).into());
             group.items.extend(self.centroid(arrow).map(Item::from));
         }
+        let loads = marks.arrows.iter().filter(|a| a.kind == ArrowKind::Load);
+        let loads = loads.filter(|a| self.seen(a));
+        group.items.extend(loads.map(|a| self.arrow(a).into()));
         group
     }
 
@@ -151,7 +155,7 @@ impl Pen<'_> {
         let radius = TURN_RADIUS * self.context.unit;
         let turns = self.context.marks[self.number].turns.iter();
         let here = turns.filter(|other| (other.at - turn.at).norm() < 1e-6 * radius);
-        let mut taken: Vec<Point> = Vec::new();
+        let mut taken: Vec<(Point, f64)> = Vec::new();
         let mut middle = FRAC_PI_2;
         for other in here {
             let sweep = self.sweep(other, radius);
@@ -159,19 +163,22 @@ impl Pen<'_> {
             if core::ptr::eq(other, turn) {
                 break;
             }
-            taken.extend(along_arc(other.at, radius, middle, sweep));
+            let arc = along_arc(other.at, radius, middle, sweep);
+            taken.extend(arc.map(|p| (p, HEAD_WIDTH * other.width)));
         }
         middle
     }
 
     /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
-    /// is farthest from straight arrows and from the points `taken`. If several directions are about equally good,
-    /// the result is the one nearest to upwards.
-    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[Point]) -> f64 {
+    /// is farthest from straight arrows and from the points `taken` on earlier torques, each with the width that it
+    /// needs, in metres. If several directions are about equally good, the result is the one nearest to upwards.
+    ///
+    /// A torque may cross a straight arrow, but not another torque, because two torques on one arc look like one.
+    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[(Point, f64)]) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let from_others = |p: Point| {
             let straight = arrows.iter().map(|a| distance_to_arrow(a, p));
-            let round = taken.iter().map(|other| (p - other).norm());
+            let round = taken.iter().map(|(at, wide)| (p - at).norm() - wide);
             straight.chain(round).fold(f64::INFINITY, f64::min)
         };
         let clear = |middle: f64| {
