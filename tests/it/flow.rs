@@ -96,6 +96,27 @@ fn the_width_of_a_band_is_proportional_to_its_force() {
 }
 
 #[test]
+fn a_weight_on_the_line_of_a_force_is_pale_although_a_load_acts_at_the_same_point() {
+    let square =
+        |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
+    let mut file = structure::on_floor(0.7, vec![square("low", 0.0), square("high", 2.0)]);
+    file["loads"] = json!([{ "block": "low", "at": [1.0, 1.0], "force": [0.0, -3.0] }]);
+    let drawing = drawn(&analysed(&file));
+    let low = band(strand(
+        &drawing,
+        "In block low: 6 N from block high, 9 N to",
+    ));
+    let weight = band(strand(
+        &drawing,
+        "In block low: 6 N from its weight, 6 N to",
+    ));
+    let (first, last) = (low[0].1, low[low.len() - 1].1);
+    let all = weight[weight.len() - 1].1;
+    assert!((last / first - 1.5).abs() < 1e-6, "{first} {last}");
+    assert!((all / first - 2.5).abs() < 1e-6, "{first} {all}");
+}
+
+#[test]
 fn the_widths_of_the_strands_of_a_block_sum_to_those_of_its_forces() {
     // A lintel on two posts carries a block. Two forces leave the lintel. They share the force of the block and the
     // lintel's weight.

@@ -74,9 +74,10 @@ pub(crate) struct Strand {
     /// The width of the strand at each point of the axis, N. A point that occurs twice has two widths, before and after
     /// a step.
     pub widths: Vec<f64>,
-    /// The width in the middle of the strand that another strand covers, N. A weight that acts on the line of action of
-    /// another force is drawn on both sides of this force.
-    pub core: f64,
+    /// The forces at the beginning and at the end of the strand, N. They are smaller than the widths if another strand
+    /// covers the middle of this one: a weight that acts on the line of action of another force is drawn on both sides
+    /// of this force.
+    pub amounts: [f64; 2],
     /// True if the strand runs along true lines of action; false if it is schematic.
     pub exact: bool,
 }
@@ -222,43 +223,44 @@ fn exact_strands(
     loads: &[&ForceOnBlock],
     same_place: f64,
 ) -> Vec<Strand> {
-    let kind = |origin| match origin {
-        Origin::Weight => StrandKind::Weight,
-        _ => StrandKind::Carried,
-    };
-    let mut through = Strand {
+    let strand = |origin: Origin, corners: &[Point], amounts: &[f64]| Strand {
         on,
-        kind: StrandKind::Carried,
-        from,
+        kind: match origin {
+            Origin::Weight => StrandKind::Weight,
+            _ => StrandKind::Carried,
+        },
+        from: origin,
         to,
-        axis: path.corners.windows(2).flatten().copied().collect(),
-        widths: path.amounts.iter().flat_map(|w| [*w; 2]).collect(),
-        core: 0.0,
+        axis: corners.windows(2).flatten().copied().collect(),
+        widths: amounts.iter().flat_map(|w| [*w; 2]).collect(),
+        amounts: [amounts[0], amounts[amounts.len() - 1]],
         exact: true,
     };
     let mut strands = Vec::new();
-    let last = path.joins.len().wrapping_sub(1);
+    let mut core = path.amounts.clone();
     for (number, (load, corner)) in path.joins.iter().enumerate() {
         let load = loads[*load];
-        let mut joining = Strand {
-            kind: kind(load.origin),
-            from: load.origin,
-            axis: vec![load.at, *corner],
-            widths: vec![load.force.norm(); 2],
-            ..through.clone()
-        };
+        let amount = load.force.norm();
         let on_path = (load.at - corner).norm() <= same_place;
-        if on_path && number == last && load.origin == Origin::Weight {
-            let [before, behind] = [path.amounts[number], path.amounts[number + 1]];
-            joining.axis = vec![*corner, path.corners[number + 2]];
-            joining.widths = vec![behind; 2];
-            joining.core = before;
-            let count = through.widths.len();
-            through.widths[count - 2..].fill(before);
-        }
+        let joining = if on_path && load.origin == Origin::Weight {
+            let behind = number + 1;
+            core[behind..]
+                .iter_mut()
+                .for_each(|w| *w = (*w - amount).max(0.0));
+            Strand {
+                amounts: [amount; 2],
+                ..strand(
+                    Origin::Weight,
+                    &path.corners[behind..],
+                    &path.amounts[behind..],
+                )
+            }
+        } else {
+            strand(load.origin, &[load.at, *corner], &[amount])
+        };
         strands.push(joining);
     }
-    strands.push(through);
+    strands.push(strand(from, &path.corners, &core));
     strands
 }
 
@@ -375,9 +377,9 @@ impl ForceDistribution<'_> {
         let mut axis = curve(self.polygon, ends);
         let last = (axis.len() - 1) as f64;
         let width = |i: usize| widths[0] + (widths[1] - widths[0]) * i as f64 / last;
-        let widths: Vec<f64> = (0..axis.len()).map(width).collect();
+        let steps: Vec<f64> = (0..axis.len()).map(width).collect();
         if kind == StrandKind::Missing {
-            let metres: Vec<f64> = widths.iter().map(|w| w * self.metres_per_newton).collect();
+            let metres: Vec<f64> = steps.iter().map(|w| w * self.metres_per_newton).collect();
             moved_inside(self.polygon, &mut axis, &metres);
         }
         Strand {
@@ -385,9 +387,9 @@ impl ForceDistribution<'_> {
             kind,
             from: from.origin,
             to: to.origin,
-            widths,
+            widths: steps,
             axis,
-            core: 0.0,
+            amounts: widths,
             exact: false,
         }
     }

@@ -13,16 +13,13 @@ use crate::scene::{BodyId, Scene};
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, frame_analysis: &FrameAnalysis, strand: &Strand) -> String {
     let on = &scene.blocks[strand.on.0].id;
-    let amount = |width: Option<&f64>| {
-        let newtons = width.map_or(0.0, |width| width - strand.core);
-        quantity(newtons, scene.units.force())
-    };
+    let amount = |newtons: f64| quantity(newtons, scene.units.force());
     let name = |origin| name(scene, frame_analysis, BodyId::Block(strand.on), origin);
     format!(
         "In block {on}: {} from {}, {} to {}",
-        amount(strand.widths.first()),
+        amount(strand.amounts[0]),
         name(strand.from),
-        amount(strand.widths.last()),
+        amount(strand.amounts[1]),
         name(strand.to)
     )
 }
