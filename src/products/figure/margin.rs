@@ -138,18 +138,20 @@ impl PanelContent for CollapseMargin {
 
 /// Returns the legend entry for the arrows of a parameter; `None` for the load factor.
 fn parameter_entry(toward: Toward) -> Option<Entry> {
-    let (symbol, words): (fn(PagePoint, &Theme) -> Vec<Item>, &str) = match toward {
-        Toward::Tilt => (
+    let entry = |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| {
+        Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
+    };
+    match toward {
+        Toward::Tilt => entry(
             gravity_symbol,
             "direction of gravity at the margin; pale: at its other end",
         ),
-        Toward::HorizontalLoad => (
+        Toward::HorizontalLoad => entry(
             push_symbol,
             "largest additional load perpendicular to gravity; pale: the other way",
         ),
-        Toward::LoadFactor => return None,
-    };
-    Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
+        Toward::LoadFactor => None,
+    }
 }
 
 /// Returns a copy of the analysis for each end of the margin, the nearer end first, with the value of the parameter
