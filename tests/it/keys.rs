@@ -83,7 +83,7 @@ fn in_a_column_of_print_key_and_caption_need_at_most_half_of_a_figure() {
     let kinds = [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism];
     let mut wordy = Vec::new();
     for name in NOT_FLAT {
-        let analysis = Analysis::new(&scene(&format!("tests/scenes/{name}.json")));
+        let analysis = Analysis::new(scene(&format!("tests/scenes/{name}.json")));
         for kind in kinds {
             let drawing = figure::draw(&analysis, kind, &Options::default().width(COLUMN));
             let pictures = classes(&drawing.items, &["ground", "block"]);

@@ -71,7 +71,7 @@ fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
 
 #[test]
 fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
-    let analysis = Analysis::with(&block(1.0, 0.5), &AnalysisOptions::default().margins(true));
+    let analysis = Analysis::with(block(1.0, 0.5), &AnalysisOptions::default().margins(true));
     let ends = analysis.edges(0, Toward::Tilt);
     assert_eq!(ends.len(), 2);
     assert!(ends[0].0.abs() <= ends[1].0.abs() && ends[0].0 * ends[1].0 < 0.0);

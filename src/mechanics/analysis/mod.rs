@@ -17,6 +17,7 @@ mod gather;
 mod warm_start;
 mod margin;
 mod mechanism;
+mod edge;
 mod gaps_closed;
 mod option;
 mod pair;

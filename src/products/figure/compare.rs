@@ -126,14 +126,12 @@ impl PanelContent for Comparison {
         }
         let mut before = Group::with_class("before");
         let mut changed = Group::with_class("changed");
-        let metres = context.unit / context.marks[frame].newtons_per_unit.max(f64::MIN_POSITIVE);
         let (share, least, most) = RING_RADIUS;
         let newtons = context.marks[frame].newtons_per_unit;
         let true_lines = mark::marks(context.analysis, frame, context.options, newtons);
         let radius = (share * pen.unit()).clamp(least, most);
         for change in changes(context.analysis, frame).0 {
-            let [then, now] = change.contacts;
-            let [force_then, force_now] = change.forces;
+            let now = change.contacts[1];
             let at = camera.place(now.resultant.at);
             let pair = description::pair(scene, now.interface.bodies);
             let [was, is] = change
@@ -145,17 +143,9 @@ impl PanelContent for Comparison {
             let ring = Path::stroked(Outline::circle(at, radius), stroke);
             let drawn = Group::with_class("change").titled(title);
             changed.items.push(drawn.with(ring).into());
-            let bodies = bodies(scene, now);
-            for (body, other, sign) in [(bodies[0], bodies[1], 1.0), (bodies[1], bodies[0], -1.0)] {
-                let BodyId::Block(_) = body else { continue };
-                let force = force_now * sign;
-                let aside = aside(&context.marks[frame], &true_lines, body, other, force);
-                let from = camera.place(then.resultant.at + aside);
-                let along = camera.turn(force_then * (sign * metres));
-                let width = theme.widths.force * pen.unit();
-                let arrow = Path::filled(straight(from, along, width), theme.faint);
-                before.items.push(arrow.with_opacity(0.35).into());
-            }
+            before
+                .items
+                .extend(previous_arrows(pen, &change, &true_lines));
         }
         parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
         composed(pen, view, pen.blocks(), parts, ink)
@@ -244,6 +234,28 @@ impl PanelContent for Comparison {
         stated.push(count_in_words(changed.len(), shared));
         stated.join("; ")
     }
+}
+
+/// Draws the previous force of a joint as a faint arrow on each of its blocks. `true_lines` are the arrows of the frame
+/// before they were moved off their lines of action.
+fn previous_arrows(pen: &Pen<'_>, change: &ForceChange<'_>, true_lines: &Marks) -> Vec<Item> {
+    let (context, theme) = (pen.context, &pen.context.options.theme);
+    let marks = &context.marks[pen.number];
+    let metres = context.unit / marks.newtons_per_unit.max(f64::MIN_POSITIVE);
+    let [then, now] = change.contacts;
+    let [force_then, force_now] = change.forces;
+    let [a, b] = bodies(&context.analysis.scene, now);
+    let on_blocks = [(a, b, 1.0), (b, a, -1.0)].into_iter();
+    let on_blocks = on_blocks.filter(|on| matches!(on.0, BodyId::Block(_)));
+    let arrow = |(body, other, sign): (BodyId, BodyId, f64)| -> Item {
+        let aside = aside(marks, true_lines, body, other, force_now * sign);
+        let from = pen.camera.place(then.resultant.at + aside);
+        let along = pen.camera.turn(force_then * (sign * metres));
+        let width = theme.widths.force * pen.unit();
+        let arrow = Path::filled(straight(from, along, width), theme.faint);
+        arrow.with_opacity(0.35).into()
+    };
+    on_blocks.map(arrow).collect()
 }
 
 /// Returns the vector, in metres, by which the arrow of the force from body `from` on body `on` was moved off its line

@@ -102,7 +102,7 @@ mod tests {
             at: Point::new(at[0], at[1]),
             vector: Vector::new(vector[0], vector[1]),
             force: Vector::new(vector[0], vector[1]),
-            colour: Colour::WHITE,
+            colour: Colour::hex(0),
             width: 0.05,
             head: Head::Within,
             kind,

@@ -52,18 +52,8 @@ impl PanelContent for CollapseMargin {
     }
 
     fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
-        let scene = &analysis.scene;
-        let frame = &scene.frames[frame];
-
-        match options.toward {
-            Toward::LoadFactor => thrust::load_scale(scene, frame, options),
-            _ => 0.0,
-        }
+        let scene = &of.analysis.scene;
+        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
@@ -124,9 +114,7 @@ impl PanelContent for CollapseMargin {
             entries.extend(mechanism::joint_entries(&joints.concat()));
             entries.extend(parameter_entry(toward));
         }
-        if toward == Toward::LoadFactor {
-            entries.extend(legend::loads(context));
-        }
+        entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }
@@ -138,18 +126,20 @@ impl PanelContent for CollapseMargin {
 
 /// Returns the legend entry for the arrows of a parameter; `None` for the load factor.
 fn parameter_entry(toward: Toward) -> Option<Entry> {
-    let (symbol, words): (fn(PagePoint, &Theme) -> Vec<Item>, &str) = match toward {
-        Toward::Tilt => (
+    let entry = |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| {
+        Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
+    };
+    match toward {
+        Toward::Tilt => entry(
             gravity_symbol,
             "direction of gravity at the margin; pale: at its other end",
         ),
-        Toward::HorizontalLoad => (
+        Toward::HorizontalLoad => entry(
             push_symbol,
             "largest additional load perpendicular to gravity; pale: the other way",
         ),
-        Toward::LoadFactor => return None,
-    };
-    Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
+        Toward::LoadFactor => None,
+    }
 }
 
 /// Returns a copy of the analysis for each end of the margin, the nearer end first, with the value of the parameter

@@ -156,7 +156,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
         outline.extend(pen.camera.polygon(&scene.blocks[id.0].body.polygon));
     }
     let width = pen.line.clamp(0.6, 1.1);
-    let stroke = Stroke::new(theme.outline, width).dashed([3.6 * width, 2.8 * width]);
+    let stroke = Stroke::new(theme.faint, width).dashed([3.6 * width, 2.8 * width]);
     // Small outlines are partly transparent, so that many of them do not hide the displaced blocks.
     let opacity = if pen.unit() < MIN_READABLE_UNIT_LENGTH {
         0.6
@@ -208,7 +208,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
 const SYMBOL_WIDTH: f64 = 20.0;
 
 fn ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let stroke = Stroke::new(theme.outline, 1.2).dashed([4.0, 3.0]);
+    let stroke = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
     vec![Path::stroked(Outline::rounded(swatch(at), 0.0), stroke).into()]
 }
 

@@ -117,7 +117,8 @@ pub struct Options {
     pub labels: bool,
     /// Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.
     pub amounts: bool,
-    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width.
+    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width, but on a
+    /// page as narrow as a column of print, key and text become smaller if they would need more space than the picture.
     pub width: Option<f64>,
     /// Largest height of the picture of a frame without its legend, pixels. `None` to choose it by the number of
     /// frames.
@@ -179,7 +180,7 @@ impl Options {
     optional_setters! {
         columns: usize, "The number of panels in a row.";
         zoom: BlockId, "The block in the centre of a zoomed picture, which shows only its surroundings.";
-        width: f64, "Width of the page, pixels. Font sizes do not depend on this width.";
+        width: f64, "Width of the page, pixels. Only key and text of narrow pages with flat pictures become smaller.";
         height: f64, "Largest height of the picture of a frame without its legend, pixels.";
     }
 

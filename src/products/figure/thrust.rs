@@ -132,13 +132,7 @@ impl PanelContent for ThrustLine {
         }
         let largest = quantity(largest(context), context.analysis.scene.units.force());
         if through {
-            let line = match central_thrust_text(context) {
-                Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
-                None if (0..context.analysis.frames.len()).any(|f| has_many_lines(context, f)) => {
-                    format!("line of thrust of the forces of least sum, this thick for {largest}")
-                }
-                None => format!("line of thrust, this thick for {largest}"),
-            };
+            let line = line_text(context, &largest);
             entries.push(Entry::Line(colour(theme), widest(unit), line));
         }
         if falls {
@@ -196,6 +190,19 @@ impl PanelContent for ThrustLine {
             }
             Verdict::Undecided => format!("no line of thrust is proved; {why}"),
         }
+    }
+}
+
+/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force that
+/// the thickest line shows (`largest`).
+fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
+    let mut frames = 0..context.analysis.frames.len();
+    match central_thrust_text(context) {
+        Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
+        None if frames.any(|frame| has_many_lines(context, frame)) => {
+            format!("line of thrust of the forces of least sum, this thick for {largest}")
+        }
+        None => format!("line of thrust, this thick for {largest}"),
     }
 }
 

@@ -69,23 +69,7 @@ pub(crate) fn labels(
     if labels.is_empty() {
         return group;
     }
-    let mut ink = ink();
-    let page = pen.camera.rect(view);
-    let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
-    let solids = DrawnBoxes::new(pen);
-    let covers_other_block = |number: usize, rect: PageRect| {
-        let own: Option<BlockId> = labels[number].of;
-        own.is_some_and(|own| solids.other(pen, own, rect))
-    };
-    let mut places = place_avoiding(&mut ink.clone(), page, &requests, &covers_other_block);
-    let lost = labels.iter().zip(&places);
-    let lost = lost.filter(|(label, placed)| label.named && placed.is_none());
-    let lost: Vec<PageRect> = lost.map(|(label, _)| label.rect_at_anchor()).collect();
-    if !lost.is_empty() {
-        // These labels are drawn over other shapes. Place the others again, so that none of them covers these labels.
-        lost.into_iter().for_each(|rect| ink.rect(rect));
-        places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
-    }
+    let places = positions(pen, view, &labels, ink());
     let mut missing: Vec<(&str, usize)> = Vec::new();
     let rects: Vec<PageRect> = places.iter().flatten().map(|placed| placed.rect).collect();
     for (label, placed) in labels.iter().zip(places) {
@@ -124,6 +108,27 @@ pub(crate) fn labels(
         group.description = format!("no room for {}", listed(&missing));
     }
     group
+}
+
+/// Returns the position of each label; `None` for a label without a free position.
+fn positions(pen: &Pen<'_>, view: Bounds, labels: &[Label], mut ink: Ink) -> Vec<Option<Placed>> {
+    let page = pen.camera.rect(view);
+    let requests: Vec<LabelRequest> = labels.iter().map(|l| l.request.clone()).collect();
+    let solids = DrawnBoxes::new(pen);
+    let covers_other_block = |number: usize, rect: PageRect| {
+        let own: Option<BlockId> = labels[number].of;
+        own.is_some_and(|own| solids.other(pen, own, rect))
+    };
+    let mut places = place_avoiding(&mut ink.clone(), page, &requests, &covers_other_block);
+    let lost = labels.iter().zip(&places);
+    let lost = lost.filter(|(label, placed)| label.named && placed.is_none());
+    let lost: Vec<PageRect> = lost.map(|(label, _)| label.rect_at_anchor()).collect();
+    if !lost.is_empty() {
+        // These labels are drawn over other shapes. Place the others again, so that none of them covers these labels.
+        lost.into_iter().for_each(|rect| ink.rect(rect));
+        places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
+    }
+    places
 }
 
 /// True if the amount of a load in a row has a position outside the lines of its row.

@@ -81,7 +81,7 @@ pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Opti
         _ if !has_many_lines(context, frame) => None,
         // The legend explains the most central line of another frame.
         (Some(_), _) => Some("the line shown belongs to the forces of least sum"),
-        (None, true) => Some("more than two supports, so there is no single horizontal thrust"),
+        (None, true) => Some("more than two supports: no single horizontal thrust"),
         (None, false) => None,
     }
 }
