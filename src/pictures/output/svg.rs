@@ -11,6 +11,15 @@ mod glyph;
 mod option;
 mod outline;
 mod words;
+/// Rounds a number to ten significant digits.
+///
+/// The positions of displaced blocks come from a solver, and their last digits differ between kinds of processors. The
+/// same scene must give the same picture on all of them. With seven digits, coordinates that are read back from the
+/// picture would be visibly rounded.
+fn ten_digits(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
 #[cfg(test)]
 mod tests;
 
@@ -313,14 +322,12 @@ impl Writer<'_> {
             self.attribute("clip-path", &format!("url(#{id})"));
         }
         if let Some(camera) = &group.camera {
-            // Write pixels per metre and the position of the origin with all digits, so that the scene can be read
-            // back.
+            // Write pixels per metre and the position of the origin, so that the scene can be read back.
             let origin = camera.origin();
-            self.attribute("data-drystone-scale", &camera.length(1.0).to_string());
-            self.attribute(
-                "data-drystone-origin",
-                &format!("{} {}", origin.x, origin.y),
-            );
+            let scale = ten_digits(camera.length(1.0));
+            self.attribute("data-drystone-scale", &scale.to_string());
+            let (x, y) = (ten_digits(origin.x), ten_digits(origin.y));
+            self.attribute("data-drystone-origin", &format!("{x} {y}"));
         }
     }
 
