@@ -194,7 +194,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(9.81)),
         ),
         Claim(
-            "Thickness of all blocks across the plane in metres, at least 0. Default 1.",
+            "Thickness of all blocks across the plane, in the length unit of the scene, at least 0. Default 1.",
             file(json!({ "thickness": 2 })),
             Result(WEIGHT, json!(19.62)),
         ),
@@ -273,17 +273,17 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/robots/0/limit_used", json!(0.5)),
         ),
         Claim(
-            "Force [x, y] in newtons. Default [0, 0].",
+            "Force [x, y] in the force unit of the scene. Default [0, 0].",
             pushed(json!({ "block": "a" })),
             Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 10.0] })),
         ),
         Claim(
-            "Where the force acts, [x, y] in metres. Default: the block's centroid.",
+            "Where the force acts, [x, y] in the length unit of the scene. Default: the block's centroid.",
             pushed(json!({ "block": "a", "force": [0, -10] })),
             Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 20.0] })),
         ),
         Claim(
-            "Where the force acts, [x, y] in metres.",
+            "Where the force acts, [x, y] in the length unit of the scene.",
             pushed(json!({ "block": "a", "force": [0, -10], "at": [0.75, 9] })),
             Result("/frames/0/interfaces/0/resultant/at", json!([0.625, 0])),
         ),
@@ -318,7 +318,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0.0])),
         ),
         Claim(
-            "Edge length of a cell in metres, more than 0. Default 1.",
+            "Edge length of a cell in the length unit of the scene, more than 0. Default 1.",
             json!({ "drystone": 1, "grid": { "kind": "square" },
             "blocks": [{ "cells": [[0, 0]] }] }),
             Result(WEIGHT, json!(9.81)),

@@ -148,17 +148,17 @@ fn scenes_that_the_page_says_are_refused_are_refused() {
             Refused("overlap", "by 0.15 m,"),
         ),
         Claim(
-            "bodies may overlap by up to this depth",
+            "Bodies may overlap by up to this depth",
             sunk(0.05, given.clone()),
             stands(),
         ),
         Claim(
-            "Edges within this distance of each other, in metres, touch",
+            "Edges within this distance of each other, in the length unit of the scene, touch",
             sunk(-0.05, given.clone()),
             stands(),
         ),
         Claim(
-            "Edges within this distance of each other, in metres, touch",
+            "Edges within this distance of each other, in the length unit of the scene, touch",
             sunk(-0.15, given),
             Result(STANDS, json!("unstable")),
         ),
