@@ -145,7 +145,8 @@ pub(super) fn solve_static_form(
     let conic = force_primal(loads, columns, cost, None);
     let answer = solve_once(&conic, settings.into(), effort);
     // Convert the status of the static form to that of its dual, the kinematic form. The dual of an infeasible program
-    // is unbounded, because velocities of 0 are always feasible. The dual of an unbounded program is infeasible.
+    // is unbounded, because velocities of 0 are feasible if no cost is negative. The dual of an unbounded program is
+    // infeasible.
     let status = match answer.status {
         Status::Infeasible => Status::Unbounded,
         Status::Unbounded => Status::Infeasible,

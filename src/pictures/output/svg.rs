@@ -13,9 +13,8 @@ mod outline;
 mod words;
 /// Rounds a number to ten significant digits.
 ///
-/// The positions of displaced blocks come from a solver, and their last digits differ between kinds of processors. The
-/// same scene must give the same picture on all of them. With seven digits, coordinates that are read back from the
-/// picture would be visibly rounded.
+/// The positions of displaced blocks come from a solver, and their last digits differ between a browser and the
+/// program. The same scene must give the same picture in both.
 fn ten_digits(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

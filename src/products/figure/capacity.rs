@@ -142,8 +142,8 @@ impl PanelContent for CarriedForces {
     }
 }
 
-/// Returns a note that loads act besides the force of the figure. Their arrows are not drawn, because their lengths
-/// could be compared with the polygon, which has its own scale.
+/// Returns a note about the loads of the scene, which act in addition to the force that the figure varies. Their arrows
+/// are not drawn: a reader could compare their lengths with the polygon, which has its own scale.
 fn loads_note(scene: &Scene) -> Option<Entry> {
     let words = match scene.loads.len() {
         0 => return None,

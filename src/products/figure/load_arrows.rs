@@ -6,8 +6,8 @@ use super::pen::CENTROID_RADIUS;
 use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::Point;
 
-/// Distance of the tip of a load from the point where it acts, as a multiple of the radius of the circle of a weight. It
-/// is above 1 because shafts and circles are drawn wider at small scales.
+/// Distance from the centre of the circle of a weight to the tip of a load that acts there, as a multiple of the radius
+/// of the circle. It is above 1 because circles are drawn larger in small figures.
 const TIP_DISTANCE: f64 = 1.35;
 
 /// The number of points of a load's arrow for which the distance from other arrows is measured.

@@ -142,9 +142,9 @@ fn parameter_entry(toward: Toward) -> Option<Entry> {
     }
 }
 
-/// Returns a copy of the analysis for each end of the margin, the nearer end first, with the value of the parameter
-/// there. In a copy, the frame falls by the mechanism just beyond this end. The list is empty if the frame does not
-/// stand, or if there is no margin.
+/// Returns a pair for each end of the margin, the nearer end first: a copy of the analysis in which the frame falls by
+/// the mechanism just beyond this end, and the value of the parameter at this end. The list is empty if the frame does
+/// not stand, or if there is no margin.
 fn falling_copies(analysis: &Analysis, frame: usize, toward: Toward) -> Vec<(Analysis, f64)> {
     let stands = |found: &FrameAnalysis| found.verdict == Verdict::Stable;
     if !analysis.frames.get(frame).is_some_and(stands) {

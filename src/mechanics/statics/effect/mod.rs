@@ -193,8 +193,8 @@ trait Effect {
     /// Decides whether the frame needs the effect, and why.
     fn applicability(&self, context: &FrameContext) -> Applicability;
 
-    /// Adds the loads, contacts or grips of the effect to the assembly, or changes the contacts or grips that it has.
-    /// It is called only if the effect applies.
+    /// Adds the loads, contacts or grips of the effect to the assembly, or changes contacts or grips of
+    /// the assembly. It is called only if the effect applies.
     fn contribute(&self, context: &FrameContext, assembly: &mut Assembly);
 }
 

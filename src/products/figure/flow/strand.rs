@@ -349,9 +349,9 @@ impl ForceDistribution<'_> {
         (at + aside * (middle * self.metres_per_newton), along)
     }
 
-    /// Returns on which side of a missing force at the point `at` its strands lie: 1 if only the point at `across` from
-    /// it is in the block, -1 if only the opposite point is in the block, otherwise 0. The strands of a missing force
-    /// would otherwise cover the other body, on which the force does not act.
+    /// Returns the side of the point `at` on which the strands of a missing force lie. It is 1 if only the point on the
+    /// side of `across` is in the block, -1 if only the point on the other side is, and 0 otherwise. So the strands do
+    /// not cover the other body, on which this force does not act.
     fn side(&self, at: Point, across: Vector) -> f64 {
         let inside = |sign: f64| self.polygon.contains(at + across * (sign * SIDE_SHARE));
         match (inside(1.0), inside(-1.0)) {
