@@ -49,6 +49,11 @@ impl PanelContent for CarriedForces {
         }
     }
 
+    /// Returns no arrows: the legend says how many loads also act ([`loads_note`]).
+    fn marks(&self, _: FrameSource<'_>, _: f64) -> Marks {
+        Marks::default()
+    }
+
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
         let plan = Plan::new(of.analysis, of.frame, unit)?;
         Some(plan.bounds()?.grown(0.3 * unit))

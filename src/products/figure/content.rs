@@ -12,7 +12,9 @@ use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
-use super::load_arrows::{lengthen_loads, uncover_from_missing_forces, uncover_from_weights};
+use super::load_arrows::{
+    lengthen_loads, load_scale, loads_alone, uncover_from_missing_forces, uncover_from_weights,
+};
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
@@ -74,15 +76,16 @@ pub(crate) trait PanelContent: Sync {
         &[]
     }
 
-    /// Returns the force, in newtons, whose arrow is one unit length long if each panel has its own scale of arrows. The
-    /// result is 0 for a kind of figure without arrows.
-    fn largest_force(&self, _of: FrameSource<'_>) -> f64 {
-        0.0
+    /// Returns the force, in newtons, whose arrow is one unit length long if each panel has its own scale of arrows. By
+    /// default, this is a scale for the loads of the frame. The result is 0 if the figure has no arrows.
+    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
+        load_scale(of.analysis, of.frame, of.options)
     }
 
-    /// Returns the arrows of a frame. The arrow of a force of `newtons_per_unit` newtons is one unit length long.
-    fn marks(&self, _of: FrameSource<'_>, _newtons_per_unit: f64) -> Marks {
-        Marks::default()
+    /// Returns the arrows of a frame: by default its loads, because no figure may hide them. The arrow of a force of
+    /// `newtons_per_unit` newtons is one unit length long.
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        loads_alone(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
     /// Returns the paths along which the blocks of a frame are displaced. Returns an empty course if no block is
@@ -278,6 +281,10 @@ struct NoArrows;
 impl PanelContent for NoArrows {
     fn about(&self) -> About {
         About::default()
+    }
+
+    fn marks(&self, _: FrameSource<'_>, _: f64) -> Marks {
+        Marks::default()
     }
 
     fn picture(&self, _: &Pen<'_>, _: Bounds) -> Group {

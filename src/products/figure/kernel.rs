@@ -1,9 +1,8 @@
 //! Draws the safe part (kernel) of each interface, and a mark at the position of the resultant in it.
 
-use super::arrow::Marks;
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::{About, FrameSource, PanelContent};
+use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::joint_name::joint_name;
@@ -11,7 +10,6 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::Pen;
-use super::thrust;
 use super::verdict;
 use super::words::{FULL_UTILISATION, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -35,16 +33,6 @@ impl PanelContent for Kernel {
             title: "Resultants in the safe parts of interfaces",
             ..About::default()
         }
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        // Loads are drawn in the same way as in a figure of the line of thrust.
-        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let scene = &of.analysis.scene;
-        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {

@@ -1,8 +1,12 @@
-//! Adapts the arrows of loads to the arrows of other forces: their length, and the end that touches the point where the
-//! load acts.
+//! Draws the loads of a frame as arrows, and adapts these arrows to the arrows of other forces: their length, and the end
+//! that touches the point where the load acts.
 
-use super::arrow::{ArrowKind, ForceArrow, Marks};
+use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
+use super::mark;
+use super::option::Options;
 use super::pen::CENTROID_RADIUS;
+use super::unit::{LOAD_SHAFT, longest_load, unit};
+use crate::analysis::Analysis;
 use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::Point;
 
@@ -12,6 +16,48 @@ const TIP_DISTANCE: f64 = 1.35;
 
 /// The number of points of a load's arrow for which the distance from other arrows is measured.
 const TESTED_POINTS: u32 = 24;
+
+/// Returns the arrows of the loads of a frame, and nothing else. The tip of an arrow is at the point where the load acts.
+/// The arrow of a load of `newtons_per_unit` newtons is one unit length long.
+pub(super) fn loads_alone(
+    analysis: &Analysis,
+    frame: usize,
+    options: &Options,
+    newtons_per_unit: f64,
+) -> Marks {
+    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
+    let loads = marks.arrows.into_iter();
+    let loads = loads.filter(|arrow| arrow.kind == ArrowKind::Load);
+    let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
+    let ended = loads.map(|arrow| ForceArrow {
+        at: arrow.at - arrow.vector,
+        width: arrow.width.max(width),
+        ..arrow
+    });
+    let turns = marks.turns.into_iter();
+    let turns = turns.filter(|turn| turn.kind == TurnKind::Load);
+    let loads = Marks {
+        arrows: ended.collect(),
+        turns: turns.collect(),
+        newtons_per_unit,
+    };
+    // If there are no arrows, return no scale either, so that the legend shows none.
+    if loads.arrows.is_empty() && loads.turns.is_empty() {
+        Marks::default()
+    } else {
+        loads
+    }
+}
+
+/// Returns the load, in newtons, whose arrow is one unit length long in a figure of loads alone. With this scale the
+/// arrow of the largest load of the frame is easy to read. Weights are not loads.
+pub(super) fn load_scale(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
+    let scene = &analysis.scene;
+    let placed = &scene.frames[frame].placed;
+    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block));
+    let largest = loads.map(|l| l.force.norm()).fold(0.0, f64::max);
+    largest * unit(scene, options.zoom) / longest_load(scene, options.zoom)
+}
 
 /// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
 /// visible. The factor is the same for all frames in `marks`.

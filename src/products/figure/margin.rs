@@ -21,7 +21,6 @@ use super::legend::{self, Entry};
 use super::mechanism;
 use super::panel::composed;
 use super::pen::Pen;
-use super::thrust;
 use crate::analysis::{Analysis, FrameAnalysis, Toward, Verdict};
 use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
@@ -39,21 +38,6 @@ impl PanelContent for CollapseMargin {
             lines_cross_names: true,
             ..About::default()
         }
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
-        // Loads are drawn in the same way as in a figure of the line of thrust.
-        thrust::marks(analysis, frame, options, newtons_per_unit)
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let scene = &of.analysis.scene;
-        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {

@@ -12,9 +12,8 @@ mod joint_mark;
 
 pub(crate) use joint_mark::{joint_entries, joint_marks};
 
-use super::arrow::Marks;
 use super::collapse;
-use super::content::{About, FrameSource, PanelContent};
+use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::displacement::{Course, Displacement};
@@ -23,7 +22,6 @@ use super::label;
 use super::legend::{self, Entry};
 use super::panel::composed;
 use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_LENGTH, Pen};
-use super::thrust;
 use super::verdict;
 use super::words::quantity;
 use crate::analysis::{Analysis, FrameAnalysis, MarginKind, Motion, Verdict};
@@ -66,17 +64,6 @@ impl PanelContent for Mechanism {
 
     fn course(&self, analysis: &Analysis, frame: usize, unit: f64) -> Course {
         Course::new(analysis, frame, unit)
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let FrameSource {
-            analysis, frame, ..
-        } = of;
-        thrust::load_scale(&analysis.scene, &analysis.scene.frames[frame], of.options)
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {

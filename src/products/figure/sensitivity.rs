@@ -16,7 +16,6 @@ use super::label::{self, Callout};
 use super::legend::{self, Entry};
 use super::panel::composed_with;
 use super::pen::Pen;
-use super::thrust;
 use super::words::{counted, round_below};
 use crate::analysis::MarginKind;
 use crate::drawing::arrow::straight;
@@ -49,15 +48,6 @@ impl PanelContent for CornerEffects {
             lines_cross_names: true,
             ..About::default()
         }
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let scene = &of.analysis.scene;
-        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {

@@ -18,23 +18,20 @@ use state::{
     central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note,
 };
 
-use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
+use super::arrow::Marks;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::funicular::segments;
 use super::label;
 use super::legend::{self, Entry};
-use super::mark;
-use super::option::{ArrowScale, Options};
+use super::option::ArrowScale;
 use super::panel::composed;
 use super::pen::Pen;
-use super::unit::{LOAD_SHAFT, longest_load, unit};
 use super::verdict;
 use super::words::quantity;
 use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
 use crate::drawing::Group;
 use crate::geometry::Bounds;
-use crate::scene::{Frame, Scene};
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;
@@ -55,17 +52,6 @@ impl PanelContent for ThrustLine {
             true => &[MarginKind::Kernel],
             false => &[],
         }
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let FrameSource {
-            analysis, frame, ..
-        } = of;
-        load_scale(&analysis.scene, &analysis.scene.frames[frame], of.options)
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
@@ -204,49 +190,6 @@ fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
         }
         None => format!("line of thrust, this thick for {largest}"),
     }
-}
-
-/// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. The arrow of a
-/// load of `newtons_per_unit` newtons is one unit length long.
-pub(crate) fn marks(
-    analysis: &Analysis,
-    frame: usize,
-    options: &Options,
-    newtons_per_unit: f64,
-) -> Marks {
-    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let loads = marks.arrows.into_iter();
-    let loads = loads.filter(|arrow| arrow.kind == ArrowKind::Load);
-    let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
-    let ended = loads.map(|arrow| ForceArrow {
-        at: arrow.at - arrow.vector,
-        width: arrow.width.max(width),
-        ..arrow
-    });
-    let turns = marks.turns.into_iter();
-    let turns = turns.filter(|turn| turn.kind == TurnKind::Load);
-    let loads = Marks {
-        arrows: ended.collect(),
-        turns: turns.collect(),
-        newtons_per_unit,
-    };
-    // If there are no arrows, return no scale either, so that the legend shows none.
-    if loads.arrows.is_empty() && loads.turns.is_empty() {
-        Marks::default()
-    } else {
-        loads
-    }
-}
-
-/// Returns the load whose arrow is one unit length long, N, so that the arrow of the largest load of a frame has a
-/// readable length. Weights are not loads.
-pub(crate) fn load_scale(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
-    let loads = scene
-        .loads
-        .iter()
-        .filter(|l| frame.placed.contains(&l.block));
-    let largest = loads.map(|l| l.force.norm()).fold(0.0, f64::max);
-    largest * unit(scene, options.zoom) / longest_load(scene, options.zoom)
 }
 
 /// Returns the forces whose line of thrust the figure shows: the most central forces, those farthest from the ends of

@@ -6,10 +6,9 @@
 
 mod symbol;
 
-use super::arrow::Marks;
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;
-use super::content::{About, FrameSource, PanelContent};
+use super::content::{About, PanelContent};
 use super::context::FigureContext;
 use super::description;
 use super::joint_name::joint_name;
@@ -18,7 +17,6 @@ use super::legend::{self, Entry};
 use super::limit;
 use super::panel::composed;
 use super::pen::Pen;
-use super::thrust;
 use super::verdict;
 use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
@@ -43,16 +41,6 @@ impl PanelContent for Utilisation {
             title: "Friction used in a dry-laid structure",
             ..About::default()
         }
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        // Loads are drawn in the same way as in a figure of the line of thrust.
-        thrust::marks(of.analysis, of.frame, of.options, newtons_per_unit)
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let scene = &of.analysis.scene;
-        thrust::load_scale(scene, &scene.frames[of.frame], of.options)
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {

@@ -265,13 +265,15 @@ fn has_too_many_loads(context: &FigureContext<'_>) -> bool {
         .any(|marks| loads(marks) > CROWDED_AMOUNTS)
 }
 
-/// True if, in at least one frame, an arrow of a load is drawn at a larger scale than other forces.
+/// True if, in at least one frame, an arrow of a load is drawn at a larger scale than the arrows of other forces. False
+/// for frames in which all arrows are loads.
 fn own_scale(context: &FigureContext<'_>) -> bool {
     let longer = |marks: &Marks, arrow: &ForceArrow| {
         let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
         arrow.kind == ArrowKind::Load && arrow.vector.norm() > 1.01 * usual
     };
-    let mut frames = context.marks.iter();
+    let other = |marks: &&Marks| marks.arrows.iter().any(|a| a.kind != ArrowKind::Load);
+    let mut frames = context.marks.iter().filter(other);
     frames.any(|marks| marks.arrows.iter().any(|arrow| longer(marks, arrow)))
 }
 

@@ -135,24 +135,23 @@ fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Op
     ends.find(|other| other * edge < 0.0)
 }
 
-/// Draws the arrow of gravity for the legend.
+/// Draws the symbol of turned gravity for the legend.
 pub(super) fn gravity_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let from = at.moved(8.0, -7.0);
-    let now = Outline::line([from, from.moved(0.0, 14.0)]);
-    let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
-    vec![
-        Path::stroked(now, dashed).into(),
-        Path::filled(straight(from, (8.0, 12.0), 1.6), theme.ink).into(),
-    ]
+    symbol(at.moved(8.0, -7.0), (8.0, 12.0), theme)
 }
 
-/// Draws the arrow of a horizontal load for the legend.
+/// Draws the symbol of a horizontal load for the legend.
 pub(super) fn push_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let from = at.moved(4.0, -7.0);
+    symbol(at.moved(4.0, -7.0), (18.0, 0.0), theme)
+}
+
+/// Draws a dashed vertical line for the direction of gravity, and an arrow along `vector` for the direction at the
+/// margin. Both begin at `from`. Lengths are in pixels.
+fn symbol(from: PagePoint, vector: (f64, f64), theme: &Theme) -> Vec<Item> {
     let now = Outline::line([from, from.moved(0.0, 14.0)]);
     let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
     vec![
         Path::stroked(now, dashed).into(),
-        Path::filled(straight(from, (18.0, 0.0), 1.6), theme.ink).into(),
+        Path::filled(straight(from, vector, 1.6), theme.ink).into(),
     ]
 }
