@@ -44,7 +44,7 @@ impl Progress {
                 let since = trials().saturating_sub(before);
                 if since > 0 {
                     // If the bar cannot be drawn, the work continues without it.
-                    let _ = write!(to, ", {since} changed frames decided,");
+                    let _ = write!(to, ", {since} verdicts for margins,");
                 }
             };
             bar.set_style(style.with_key("trials", counted));
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn the_progress_of_margins_counts_decided_frames() {
+    fn the_progress_of_margins_counts_verdicts() {
         let paper = Paper::default();
         let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
         let progress = Progress::on(1, Duration::ZERO, target);
@@ -166,7 +166,7 @@ mod tests {
         thread::sleep(Duration::from_millis(300));
         drop(progress);
         let drawn = paper.text();
-        assert!(drawn.contains("changed frames decided"), "{drawn:?}");
+        assert!(drawn.contains("verdicts for margins"), "{drawn:?}");
     }
 
     fn drawn(patience: Duration, work: Duration) -> String {

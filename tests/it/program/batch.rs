@@ -284,6 +284,33 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
 }
 
 #[test]
+fn pictures_of_a_scene_and_of_a_line_never_have_the_same_name() {
+    let bench = Bench::new();
+    for name in ["a-0000001.json", "a0000001.json", "0000001.json"] {
+        fs::copy(bench.path("stands.json"), bench.path(name)).expect("copied");
+    }
+    fs::write(bench.path("a.ndjson"), line(STANDS)).expect("written");
+    for clash in [
+        "a-0000001.json a.ndjson",
+        "a.ndjson a-0000001.json",
+        "- 0000001.json",
+    ] {
+        let ran = bench.run_with(
+            &format!("batch {clash} --render drawn"),
+            line(STANDS).as_bytes(),
+        );
+        assert_eq!((ran.code, &*ran.out), (2, ""), "{clash}");
+        assert!(ran.err.contains("would have the same names"), "{}", ran.err);
+    }
+    let ran = bench.run("batch a.ndjson a0000001.json 0000001.json --render drawn");
+    let pictures: Vec<Value> = lines(&ran.out)
+        .iter()
+        .map(|answer| answer["picture"].clone())
+        .collect();
+    assert_eq!(pictures, ["a-0000001.png", "a0000001.png", "0000001.png"]);
+}
+
+#[test]
 fn the_time_limit_applies_to_each_scene() {
     let bench = Bench::new();
     // The forces of a tower are unique, so no solver runs that could exceed the time limit. A bridge needs the

@@ -84,13 +84,16 @@ pub(super) fn shown(record: &Record) -> String {
     }
 }
 
+/// The least number of digits of a line number in the name of a picture.
+const LINE_DIGITS: usize = 7;
+
 /// Returns the file name of a record's picture without the extension, such as `scenes-0000003` for line 3.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);
     match (stem, record.line) {
-        (None, line) => format!("{:07}", line.unwrap_or(0)),
+        (None, line) => format!("{:0LINE_DIGITS$}", line.unwrap_or(0)),
         (Some(stem), None) => stem,
-        (Some(stem), Some(line)) => format!("{stem}-{line:07}"),
+        (Some(stem), Some(line)) => format!("{stem}-{line:0LINE_DIGITS$}"),
     }
 }
 
@@ -151,15 +154,35 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
 /// Returns an error for each pair of files whose pictures would have the same name.
 fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
-    let mut complaints = Vec::new();
+    let mut clashes = Vec::new();
     for file in files {
-        if let Some(other) = first.insert((stem(file), is_whole(file)), file) {
-            complaints.push(CliError::CommandLine(format!(
-                "the pictures of {} and {} would have the same names; rename one, or draw them into folders of their own",
-                other.display(),
-                file.display()
-            )));
-        }
+        clashes.extend(
+            first
+                .insert((stem(file), is_whole(file)), file)
+                .zip(Some(file.as_path())),
+        );
     }
-    complaints
+    // The scene `a-0000001.json` and line 1 of `a.ndjson` have the same name, and so have `0000001.json` and line 1 of
+    // standard input.
+    for file in files.iter().filter(|file| is_whole(file)) {
+        let stem = stem(file);
+        let lines = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+        if stem.len() - lines.len() < LINE_DIGITS {
+            continue;
+        }
+        let lines = match lines {
+            "" => Some("-"),
+            lines => lines.strip_suffix('-'),
+        };
+        let other = lines.and_then(|lines| first.get(&(lines.to_owned(), false)));
+        clashes.extend(other.map(|other| (*other, file.as_path())));
+    }
+    let complaint = |(one, other): (&Path, &Path)| {
+        CliError::CommandLine(format!(
+            "the pictures of {} and {} would have the same names; rename one, or draw them into folders of their own",
+            one.display(),
+            other.display()
+        ))
+    };
+    clashes.into_iter().map(complaint).collect()
 }
