@@ -23,7 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The same scene built in code. An error names the path of the faulty entry; for a file, it also names the line.
+//! This example builds the same scene in code. An error names the path of the faulty entry; for a file, it also names
+//! the line.
 //!
 //! ```
 //! use drystone::{Analysis, Scene, scene::format::BlockEntry};
@@ -103,9 +104,9 @@
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
 // Structs with public fields are `#[non_exhaustive]` if later versions may add fields. Users start from the default
-// value and call one setter method for each field. These macros write the setter methods for all modules below.
+// value and call one setter method for each field. These macros define the setter methods for all modules below.
 
-/// Writes methods that set a field.
+/// Defines one setter method for each listed field.
 macro_rules! setters {
     ($($field:ident: $type:ty, $doc:literal;)*) => {
         $(
@@ -118,7 +119,7 @@ macro_rules! setters {
     };
 }
 
-/// Writes methods that set an optional field.
+/// Defines one setter method for each listed field of type `Option`. The method takes the value without `Some`.
 macro_rules! optional_setters {
     ($($field:ident: $type:ty, $doc:literal;)*) => {
         $(

@@ -1,4 +1,4 @@
-//! The entry points: the command line, the Python module, and the module for browsers.
+//! The ways to use the library without Rust code: the command line, the Python module, and the module for browsers.
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -38,8 +38,8 @@ impl Aabb {
 }
 
 impl Aabb<4> {
-    /// Returns the ranges of x, y, x + y and y − x over the points. They describe two boxes around the points: an
-    /// upright box and a box rotated by 45°.
+    /// Returns the ranges of x, y, x + y and y − x over the points. These ranges describe two boxes around the points:
+    /// an upright box and a box rotated by 45°.
     pub(crate) fn with_diagonals(points: &[Point]) -> Aabb<4> {
         points.iter().fold(Aabb::EMPTY, |bounds, p| {
             let at = [p.x, p.y, p.x + p.y, p.y - p.x];
@@ -77,9 +77,9 @@ impl<const D: usize> Aabb<D> {
 
 /// Items that can be searched by their bounding boxes.
 pub(crate) enum BoxIndex<T, const D: usize = 2> {
-    /// Up to [`MAX_SCANNED_ITEMS`] items.
+    /// A sorted list of up to [`MAX_SCANNED_ITEMS`] items.
     Sorted(SortedBoxes<T, D>),
-    /// More items.
+    /// A tree of more than [`MAX_SCANNED_ITEMS`] items.
     Tree(BoxTree<T, D>),
 }
 
@@ -90,7 +90,7 @@ pub(crate) struct SortedBoxes<T, const D: usize> {
 
 struct SortedEntry<T, const D: usize> {
     bounds: Aabb<D>,
-    /// The rightmost end of all boxes up to and including this one.
+    /// The largest right end of all boxes in the list up to and including this box.
     max_right: f64,
     item: T,
 }
@@ -183,9 +183,9 @@ impl<T, const D: usize> BoxTree<T, D> {
 /// Returns the typical size of a box in each coordinate. Distances in different coordinates are divided by these sizes
 /// before they are compared.
 ///
-/// Each typical size is the median size plus 1/500 of the interquartile range of the centres. The second term keeps the
-/// result above 0 for point-like boxes. The result is a median because the ground may be far larger than all other
-/// items.
+/// Each typical size is the median size plus 1/500 of the interquartile range of the centres. The median is used
+/// because the ground may be far larger than all other items. The second term prevents a result near 0 for point-like
+/// boxes.
 fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     const SPREAD_SHARE: f64 = 1e-3;
     let mut values = Vec::with_capacity(order.len());

@@ -1,8 +1,8 @@
-//! [`CompensatedSum`]: a sum with about 32 significant digits, for large terms that nearly cancel.
+//! [`CompensatedSum`]: adds numbers with about 32 significant digits, for large terms that nearly cancel.
 //!
-//! The rounding error of a floating-point addition or product is itself a floating-point number. It is computed exactly
-//! and added up separately. References: Knuth, The Art of Computer Programming 2, §4.2.2 (two-sum); Ogita, Rump and
-//! Oishi, Accurate Sum and Dot Product, 2005 (the same with products).
+//! The rounding error of a floating-point addition or product is itself a floating-point number. Each of these errors
+//! is computed exactly, and the errors are added up separately. References: Knuth, The Art of Computer Programming 2,
+//! §4.2.2 (two-sum); Ogita, Rump and Oishi, Accurate Sum and Dot Product, 2005 (products).
 
 /// A sum that is kept as a rounded value and the sum of all rounding errors.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,5 +1,5 @@
-//! [`crossings`]: finds the pairs of a polygon's sides that cross or touch. Neighbouring
-//! sides that meet only at their common corner do not count, so a simple polygon has no crossings.
+//! [`crossings`]: finds the pairs of a polygon's sides that cross or touch. Neighbouring sides that meet only at their
+//! common corner do not count, so a simple polygon has no crossings.
 //!
 //! Every pair of sides whose boxes intersect is tested with the exact predicate [`orientation`]. The answer therefore
 //! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
@@ -17,21 +17,21 @@ const MAX_SIDES_WITHOUT_INDEX: usize = 12;
 
 /// Two sides with a common point that is not the common corner of neighbours.
 pub(super) struct Crossing {
-    /// The rings of the two sides.
+    /// The indices of the rings to which the two sides belong.
     pub rings: [usize; 2],
     /// The corners at which the two sides begin, counted from 0 within their rings.
     pub corners: [usize; 2],
-    /// A point that both sides contain.
+    /// A common point of the two sides, rounded.
     pub at: Point,
 }
 
-/// A side with its ring and its number in this ring.
+/// A side of a polygon, with the index of its ring and its position in this ring.
 #[derive(Clone, Copy)]
 struct Side {
     ring: usize,
-    /// The number of the corner at which it begins.
+    /// The index of the corner at which the side begins, in its ring.
     corner: usize,
-    /// Number of corners of its ring.
+    /// The number of corners of the ring.
     ring_len: usize,
     edge: Edge,
 }
@@ -45,8 +45,7 @@ impl Side {
     /// sides always share a corner; for them, returns this corner only if one side folds back onto the other.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
         let (a, b) = (self, later);
-        // Neighbouring sides share a corner. They share more than this corner only if one side folds back onto the
-        // other.
+        // The sides are neighbours if `b` follows `a`, or if `a` is the first side of the ring and `b` the last.
         if (a.ring, a.corner + 1) == (b.ring, b.corner) {
             folds_back(a.edge.from, a.edge.to, b.edge.to)
         } else if a.ring == b.ring && a.corner == 0 && b.corner + 1 == b.ring_len {
@@ -128,9 +127,9 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. If an
-    // end lies on that line but outside the other segment (those on the segment were found above), both ends of the
-    // other segment lie on the same side, so the segments do not cross.
+    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. The
+    // test is false if an end of one segment lies on the line through the other segment, but outside that segment: both
+    // ends of that segment then lie on the same side of the line through the first segment.
     if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);

@@ -5,9 +5,9 @@ use super::{Aabb, Point, Vector};
 /// A directed side of a polygon; the polygon's material lies on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// Start point, metres.
+    /// Start point, in metres.
     pub from: Point,
-    /// End point, metres.
+    /// End point, in metres.
     pub to: Point,
 }
 
@@ -22,7 +22,7 @@ impl Edge {
         self.vector().norm()
     }
 
-    /// Returns the distance of a point from the edge, metres.
+    /// Returns the distance of a point from the edge in metres.
     pub(crate) fn distance(&self, point: Point) -> f64 {
         let along = self.vector();
         let share = (point - self.from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);

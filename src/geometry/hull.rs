@@ -1,8 +1,8 @@
-//! [`convex_hull`]: the smallest convex polygon around some points (Andrew 1979).
+//! [`convex_hull`]: the smallest convex polygon around some points (monotone chain algorithm, Andrew 1979).
 
 use super::{Point, cross};
 
-/// Returns the corners of the convex hull of some points, anticlockwise.
+/// Returns the corners of the convex hull of some points, anticlockwise. Points on the sides of the hull are left out.
 pub(crate) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();

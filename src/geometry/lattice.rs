@@ -66,7 +66,7 @@ impl Cell {
         }
     }
 
-    /// Returns the cell rotated anticlockwise about node (0, 0) by `steps` of 60° (triangles) or 90° (squares).
+    /// Returns the cell rotated anticlockwise about node (0, 0) by `steps` times 60° (triangles) or 90° (squares).
     pub fn turned(self, steps: i64) -> Cell {
         let kind = if self.shape == CellShape::Square {
             LatticeKind::Square
@@ -119,7 +119,7 @@ impl Cell {
     }
 }
 
-/// Rotates a node anticlockwise about node (0, 0) by `steps` of 60° (triangular lattice) or 90° (square lattice).
+/// Rotates a node anticlockwise about node (0, 0) by `steps` times 60° (triangular lattice) or 90° (square lattice).
 pub(crate) fn turned(kind: LatticeKind, node: (i64, i64), steps: i64) -> (i64, i64) {
     let (mut x, mut y) = node;
     match kind {
@@ -158,7 +158,8 @@ impl Lattice {
     /// ```
     pub fn point(&self, x: f64, y: f64) -> Point {
         match self.kind {
-            // 2x + y is exact for every node, so nodes at the same position get bit-identical coordinates.
+            // 2x + y is exact for every node, so nodes on one vertical line get exactly the same x coordinate in
+            // metres.
             LatticeKind::Triangular => Point::new(
                 (2.0 * x + y) * (self.side / 2.0),
                 y * (self.side * HALF_SQRT_3),
@@ -234,7 +235,8 @@ fn trace(cells: &[Cell]) -> Option<Vec<Vec<Node>>> {
             ring.push(a);
             // Several edges begin at a node where the boundary touches itself. Continue with the leftmost of them,
             // because it belongs to the same group of cells as the edge before. The sign of the turn is enough to
-            // find it: at most one edge turns left, and if none does, only one goes straight on.
+            // find the leftmost edge: at most one edge turns left. If none does, at most one goes straight on. If none
+            // goes straight on either, only one edge is left.
             let begin = edges.partition_point(|edge| edge.0 < b);
             let candidates = (begin..edges.len()).take_while(|k| edges[*k].0 == b);
             let next = (candidates.filter(|k| unused[*k])).max_by_key(|k| turn(a, b, edges[*k].1));

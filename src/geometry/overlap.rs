@@ -18,8 +18,8 @@ use super::{Bounds, Point, Polygon, Vector, convex_hull, cross, quarter_turn};
 /// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
 /// triangles.
 ///
-/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies. The bounds of
-/// the two are then often enough to exclude an overlap, and otherwise their convex hulls.
+/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies. Then the
+/// bounds or the convex hulls of the two bodies are often enough to exclude an overlap, and no pieces are needed.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
     polygon: &'p Polygon,
@@ -28,11 +28,12 @@ pub struct ConvexPieces<'p> {
     hull: OnceLock<Vec<Point>>,
 }
 
-/// If both polygons together have at most this number of corners, their hulls are not computed: ear clipping is fast.
+/// If the outlines of both polygons together have at most this number of corners, their hulls are not computed, because
+/// ear clipping is fast.
 const FEW_CORNERS: usize = 2000;
 
-/// If the smaller hull has more corners than this, the hulls are not compared: the time grows with the product of both
-/// numbers.
+/// If the hull with fewer sides has more sides than this, the hulls are not compared, because the time grows with the
+/// product of the two numbers of sides.
 const MAX_HULL_SIDES: usize = 500;
 
 /// A convex piece with the data for two quick tests: its bounds, and its extent across its longest side.
@@ -130,9 +131,9 @@ impl<'p> ConvexPieces<'p> {
     }
 
     /// Returns an upper bound of the depth of the overlap of two polygons with many corners, in metres: the least
-    /// distance, perpendicular to a side of the smaller hull, by which one must move until their convex hulls are
-    /// disjoint. All pieces lie inside the hulls, so the bound is valid for the same reason as [`Self::depth_bound`].
-    /// It is infinite if the polygons have few corners, or if both hulls have many sides.
+    /// distance, perpendicular to a side of the hull with fewer sides, by which one polygon must move until the hulls
+    /// are disjoint. All pieces lie inside the hulls, so the bound is valid for the same reason as
+    /// [`Self::depth_bound`]. It is infinite if the polygons have few corners, or if both hulls have many sides.
     fn hull_depth_bound(&self, other: &ConvexPieces<'_>) -> f64 {
         if self.polygon.outline().len() + other.polygon.outline().len() <= FEW_CORNERS {
             return f64::INFINITY;
@@ -213,7 +214,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     if depth <= gap {
         return None;
     }
-    // Compute the area and the centroid of the intersection relative to a corner near it, so that few digits are lost.
+    // Compute the area and the centroid of the intersection relative to a corner of `a`, so that few digits are lost.
     let base = a.pieces().first()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
     (area > 0.0).then(|| Overlap {
@@ -245,8 +246,8 @@ fn common_area(pairs: &[PiecePair<'_>], base: Point) -> (f64, Vector) {
 }
 
 /// Returns the depth to which the convex polygon `b` reaches into the convex polygon `a`, in metres. For each side of
-/// `a`, this is the largest distance of a point of `b` from the side, measured inwards; the result is the smallest of
-/// these distances.
+/// `a`, the function finds the largest distance of a corner of `b` from this side, measured inwards. The depth is the
+/// smallest of these distances.
 ///
 /// The result is at most 0 if a side of `a` separates the two polygons.
 fn penetration(a: &[Point], b: &[Point]) -> f64 {
@@ -268,7 +269,8 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
     depth
 }
 
-/// Returns the intersection of two convex polygons. It cuts `a` along the line through each side of `b`.
+/// Returns the corners of the intersection of two convex polygons. The function cuts `a` along the line through each
+/// side of `b`.
 fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut kept = a.to_vec();
     for i in 0..b.len() {
@@ -278,8 +280,8 @@ fn clipped(a: &[Point], b: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// Returns the part of a convex polygon in which `height` is at most 0. `height` is the signed distance from a line, or
-/// a positive multiple of this distance.
+/// Returns the corners of the part of a convex polygon in which `height` is at most 0. `height` is the signed distance
+/// from a line, or a positive multiple of this distance.
 ///
 /// One step of the clipping method of Sutherland and Hodgman: keep the corners on the inner side, and add the points
 /// where the outline crosses the line. A corner on the line is kept.

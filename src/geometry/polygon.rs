@@ -10,9 +10,9 @@ use super::{Bounds, Edge, Point, Vector, cross};
 
 /// A ring with |area| up to this fraction of its squared perimeter encloses no area.
 ///
-/// It is about five times the machine epsilon, so that the computed area of collinear corners counts as 0. A limit
-/// ten times smaller would accept the rounding error of a flat ring as an area. A limit ten times larger would change
-/// little: the thinnest stones of real scenes are above 10⁻⁶.
+/// The value is about five times the machine epsilon, so that the computed area of collinear corners counts as 0. A
+/// limit ten times smaller would accept the rounding error of a flat ring as an area. A limit ten times larger would
+/// change little: for the thinnest stones of real scenes, the fraction is above 10⁻⁶.
 const MIN_AREA_PER_SQUARED_PERIMETER: f64 = 1e-15;
 
 /// A simple polygon, possibly with holes.
@@ -291,8 +291,8 @@ struct DroppedCorners(Vec<(usize, usize)>);
 
 impl DroppedCorners {
     /// Removes each corner of a ring that equals the corner before it, and records its index. Then removes corners at
-    /// the end of the ring that equal the first corner; their indices are not recorded, because no later corner
-    /// follows.
+    /// the end of the ring that equal the first corner. Their indices are not recorded, because their removal does not
+    /// change the index of any other corner.
     fn drop_repeated(&mut self, points: &mut Vec<Point>, ring: usize) {
         let (mut before, mut number) = (None, 0);
         points.retain(|p| {
@@ -309,8 +309,8 @@ impl DroppedCorners {
         }
     }
 
-    /// Returns the index of a corner in the list that the caller passed. `kept` is its index after repeated corners
-    /// were dropped.
+    /// Returns the index of a corner in the list that the caller passed. `kept` is the corner's index after repeated
+    /// corners were dropped.
     fn listed(&self, ring: usize, kept: usize) -> usize {
         let dropped = self.0.iter().filter(|dropped| dropped.0 == ring);
         dropped.fold(kept, |number, (_, d)| number + usize::from(*d <= number))

@@ -4,8 +4,8 @@
 //! is off by 6·10⁻⁸ of each coordinate, a file with few decimals by more. The scene estimates this error from the
 //! decimals of its coordinates. Two edges *touch* when their distance is at most [`Tolerance::gap`]. They form an
 //! interface when they overlap by more than [`Tolerance::min_contact_length`], and otherwise only a touching corner.
-//! That length depends on the length of the edges. A tip as short as a millionth of a block may be the only support
-//! of a stone, but two long bricks that overlap by this length merely touch.
+//! This minimum length depends on the length of the edges. A tip as short as a millionth of a block may be the only
+//! support of a stone, but two long bricks that overlap by this length merely touch.
 
 /// The lengths, in metres, and the angle up to which differences between two bodies of a scene count as rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,9 +29,9 @@ impl Tolerance {
     pub const GAP_PER_EXTENT: f64 = 1e-6;
     /// The shortest interface of long edges, as a fraction of the gap.
     pub const LENGTH_PER_GAP: f64 = 0.25;
-    /// The shortest interface as a fraction of the shorter edge. It applies if the result is less than `min_length`.
+    /// The shortest interface as a fraction of the shorter edge. This limit applies if it is less than `min_length`.
     pub const LENGTH_PER_EDGE: f64 = 1e-3;
-    /// The largest angle between two edges that can form an interface, radians.
+    /// The largest angle between two edges that can form an interface, in radians.
     ///
     /// If it were ten times smaller, short joints with rounded ends would be missed. If it were ten times larger, open
     /// wedges would become interfaces.

@@ -110,8 +110,8 @@ pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     Some(max * (1.0 + 1e-5))
 }
 
-/// Returns an upper bound of the result of [`zonotope_gauge`]. It is larger than the bound of [`zonotope_gauge_bound`],
-/// but faster to compute.
+/// Returns an upper bound of the result of [`zonotope_gauge`]. This bound is larger than that of
+/// [`zonotope_gauge_bound`], but faster to compute.
 ///
 /// Each axis is scaled by the generators' root sum of squares along this axis; the least-squares combination does not
 /// depend on this scaling. Without it, the forces on a body that is pushed sideways without friction would form a
@@ -190,8 +190,8 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
             try_normal(cross(*a, *b));
         }
     }
-    // `plane` is the normal of the plane in which a flat zonotope lies. If the zonotope is a line segment, it is the
-    // normal of any plane through the segment.
+    // `plane` is the normal of the plane in which a flat zonotope lies. If the zonotope is a line segment, `plane` is
+    // the normal of any plane through the segment.
     let plane = generators
         .iter()
         .map(|g| cross(longest, *g))
@@ -202,9 +202,9 @@ fn gauge_over_normals(generators: &[Vec3], point: Vec3) -> f64 {
         let across = axes.map(|axis| cross(longest, axis));
         across.into_iter().max_by(by_length).unwrap_or_default()
     });
-    // Try the normal of the plane, and the longest generator, which bounds a line segment. Then try two directions for
-    // each generator: the normal of its side within the plane, and the direction perpendicular to both, which is the
-    // plane's normal up to rounding.
+    // Try the normal of the plane, and the direction of the longest generator, which bounds a line segment. Then try
+    // two directions for each generator: the normal of the generator within the plane, and the direction perpendicular
+    // to this normal and to the generator, which is the plane's normal up to rounding.
     try_normal(plane);
     try_normal(longest);
     for g in generators {
@@ -269,7 +269,7 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
         }
     }
     reduced.extend(cell_sums.into_iter().filter(|g| norm(*g) > 0.0));
-    // Until few enough generators are left, merge the pair for which the zonotope shrinks least.
+    // Until few enough generators are left, add up the pair for which the zonotope shrinks least.
     while reduced.len() > MAX_GENERATORS {
         let mut best = (f64::INFINITY, 0, 1);
         for i in 0..reduced.len() {
@@ -290,11 +290,12 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
     reduced
 }
 
-/// Directions are sorted into this many cells along each edge of a face of a cube.
+/// The faces of a cube around the origin are divided into square cells, to group generators by their directions. This
+/// is the number of cells along each edge of a face.
 const CELLS_PER_SIDE: usize = 6;
 
-/// Returns the index of the cell of directions to which the vector `g` belongs. Opposite vectors belong to the same
-/// cell.
+/// Returns the index of the cell, on a face of a cube, to which the vector `g` points. Opposite faces share their
+/// cells, so opposite vectors belong to the same cell.
 fn direction_cell(g: Vec3) -> usize {
     let axis = (0..3)
         .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))

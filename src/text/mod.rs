@@ -1,14 +1,16 @@
 //! Escapes untrusted text for each output format. All text that does not come from this program is untrusted.
 //!
 //! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of
-//! terminals, characters that reverse the reading direction, markup, or spreadsheet formulas. These functions return
-//! harmless text on one line. Invisible characters become [`HIDDEN`], so that the reader sees where they were.
+//! terminals, characters that reverse the reading direction, markup, or spreadsheet formulas. The functions of this
+//! module return harmless text, on one line except for JSON. Except in JSON, control characters become spaces or
+//! [`HIDDEN`], so that the reader sees where they were.
 
 mod spelling;
 
 pub use spelling::nearest;
 
-/// The character that replaces each control character and each character that changes the reading direction.
+/// The character that replaces control characters, except line breaks and tabs, and characters that change the reading
+/// direction.
 pub const HIDDEN: char = '\u{fffd}';
 
 /// Returns a 64-bit hash of some bytes (FNV-1a). The hash is the same on every machine and in every version of Rust. It
@@ -52,7 +54,8 @@ pub fn heading(text: &str, max_chars: usize) -> String {
         .collect()
 }
 
-/// Returns the character itself if it is visible, otherwise its replacement: a space or [`HIDDEN`].
+/// Returns a space for a line break or tab, [`HIDDEN`] for another control character or a character that changes the
+/// reading direction, and otherwise the character itself.
 fn visible(c: char) -> char {
     match c {
         '\t' | '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}' => ' ',
@@ -61,7 +64,8 @@ fn visible(c: char) -> char {
     }
 }
 
-/// True for control characters and for characters that override or embed a writing direction ([UAX9] 2.1 to 2.4).
+/// True for control characters, and for characters that embed, override or isolate a writing direction ([UAX9] 2.1 to
+/// 2.4).
 ///
 /// [UAX9]: https://www.unicode.org/reports/tr9/
 fn is_hidden(c: char) -> bool {
@@ -180,8 +184,8 @@ pub fn json(text: &str) -> String {
     out
 }
 
-/// Escapes text for a GitHub annotation: `%` becomes `%25`, a line break becomes `%0A`, and invisible characters become
-/// a space or [`HIDDEN`].
+/// Escapes text for a GitHub annotation: `%` becomes `%25`, and a line break becomes `%0A`. Other characters are
+/// replaced as by [`line()`].
 pub fn github(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(line).collect();
     lines.join("\n").replace('%', "%25").replace('\n', "%0A")

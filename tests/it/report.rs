@@ -165,7 +165,7 @@ fn the_same_scenes_give_the_same_bytes_and_times_are_written_only_on_request() {
         rows.next().unwrap_or_default().to_owned()
     };
     assert!(timed.contains("| unknowns | time |"), "{timed}");
-    for stage in ["posing", "solving and proving", "margins:"] {
+    for stage in ["setting up", "solving and proving", "margins:"] {
         let time = row(stage);
         assert!(time.ends_with(" ms |") || time.ends_with(" s |"), "{time}");
     }

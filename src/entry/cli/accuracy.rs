@@ -37,7 +37,7 @@ fn tolerance(typed: &str) -> Result<f64, String> {
     }
 }
 
-/// The file formats of a study.
+/// The file formats in which the results of an accuracy study can be written.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Html,
@@ -56,7 +56,7 @@ impl Accuracy {
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
         destination::refuse_overwrites(&self.output, &scenes).map_err(|c| vec![c])?;
         let sources = source::read(&self.scenes, None, None)?;
-        // A scene without a title gets the name of its file as its title.
+        // A scene without a title gets the name of its file, without the extension, as its title.
         let scenes: Vec<Scene> = sources
             .iter()
             .map(|source| {

@@ -1,5 +1,5 @@
-//! [`AnalysisArgs`]: the options `--accuracy`, `--wedging`, `--contact-tolerance` and `--time-limit`, which all
-//! commands that analyse scenes share.
+//! [`AnalysisArgs`]: the options `--accuracy`, `--wedging`, `--contact-tolerance` and `--time-limit`, which `check`,
+//! `batch`, `render`, `report` and `export` share.
 
 use std::time::Duration;
 
@@ -12,8 +12,8 @@ use crate::clock::Instant;
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct AnalysisArgs {
-    /// standard computes the unique forces; proved also requires proofs that are stricter by a factor of 100 for
-    /// forces and 1000 for motions
+    /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces and
+    /// 1000 for motions
     #[arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser())]
     accuracy: Accuracy,
     /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up from
@@ -35,7 +35,8 @@ impl AnalysisArgs {
         self.wedging
     }
 
-    /// Returns the name and the value of each option on which an answer depends. A resume file records them.
+    /// Returns the name and the value of each option on which the result of a scene depends. A resume file records
+    /// them.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",
@@ -67,7 +68,8 @@ impl AnalysisArgs {
     }
 }
 
-/// Returns the parser for a level of accuracy. For the former level `draft`, its error message names the replacement.
+/// Returns the parser for a level of accuracy. It refuses `draft`, a level that was removed, with a message that names
+/// the replacement.
 fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
     let names = ["standard", "proved", "draft"];
     let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));

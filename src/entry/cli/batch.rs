@@ -1,4 +1,4 @@
-//! `drystone batch`: reads any number of scenes and prints one line of JSON for each.
+//! `drystone batch`: analyses any number of scenes, and writes one line of JSON for each scene or a CSV table.
 
 mod csv;
 mod input;
@@ -49,17 +49,17 @@ pub(crate) struct Batch {
     /// a table with one row for each frame
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Continue an output file: keep its complete lines and answer the remaining scenes. It is refused if the lines
-    /// belong to other scenes or options, which FILE.resume records. The exit code covers only the scenes that this
-    /// run answers
+    /// Continue an output file: keep its complete lines and answer the remaining scenes. FILE.resume records the
+    /// scenes and the options of these lines; if they differ from those of this run, nothing is written. The exit code
+    /// covers only the scenes that this run answers
     #[arg(long, requires = "output")]
     resume: bool,
     /// The fields of a result to write, such as verdict,frames.total_force or all; file and line are always written.
     /// --margins adds frames.margins, --wedging adds frames.only_by_wedging
     #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
     fields: Fields,
-    /// Draw every scene into this folder, by default as PNG, 400 pixels wide. The line or the file of a scene gives
-    /// the name of its picture
+    /// Draw every scene into this folder, by default as PNG, 400 pixels wide. A picture is named after the file and
+    /// the line of its scene
     #[arg(long, value_name = "FOLDER")]
     render: Option<PathBuf>,
     /// Number of threads [default: the number of cores, or 1.5 times as many with --render, because pictures wait for
@@ -132,7 +132,7 @@ impl Batch {
                 }
             },
         );
-        // Write the answers that precede the error: they are valid results.
+        // Write the answers that are still in memory. Answers that precede an error are valid results.
         let flushed = output.flush();
         pace.end();
         match (failed, flushed) {
@@ -155,8 +155,8 @@ impl Batch {
     }
 
     /// Returns the output format that the extension of the output file selects: CSV for `.csv`, otherwise lines of
-    /// JSON.
-    /// Returns an error for a format that drystone does not write, and for options that a CSV file does not support.
+    /// JSON. Returns an error for the extension of another table format, such as `.xlsx`, and for options that a CSV
+    /// file does not support.
     fn form(&self) -> Result<Form, CliError> {
         let ending = self
             .output
@@ -266,8 +266,9 @@ enum Form {
     Csv,
 }
 
-/// A line of the output, with the exit status and the hash of its scene.
+/// The output for one scene, with the exit status and the hash of this scene.
 struct OutputLine {
+    /// One line of JSON, or the CSV rows of all frames.
     line: String,
     ending: ExitStatus,
     /// The hash of the scene.
@@ -275,8 +276,9 @@ struct OutputLine {
 }
 
 impl SceneWork {
-    /// Analyses one scene of the input, and returns its output line. A scene that is not valid gets a line with its
-    /// problems. Returns an error if the picture cannot be written, because later pictures would then fail too.
+    /// Analyses one scene of the input, and returns its output line. If the scene is not valid, or if the program
+    /// itself fails on it, the line contains the problems. Returns an error if the picture cannot be written, because
+    /// later pictures would then fail too.
     fn answer(&self, record: Record) -> Result<OutputLine, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
@@ -334,7 +336,7 @@ impl SceneWork {
         (line, ExitStatus::WrongInput)
     }
 
-    /// Returns the options of an analysis that computes only the values in the output line. The time limit starts at
+    /// Returns analysis options with which only the values in the output line are computed. The time limit starts at
     /// this call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());

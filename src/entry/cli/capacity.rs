@@ -6,7 +6,8 @@ use crate::analysis::{Options, typed_capacity};
 use crate::cli::error::CliError;
 use crate::scene::Scene;
 
-/// The block whose capacity is computed, and the cases in which it must carry the forces.
+/// The block whose capacity is computed, and the ranges of `--for-all`: the block must be able to carry the forces for
+/// all values in these ranges.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct CapacityArgs {
     /// Compute all forces that a block can carry in addition to the forces that already act: BLOCK at its centroid

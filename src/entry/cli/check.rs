@@ -73,8 +73,7 @@ impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
             .map_err(|c| vec![c])?;
-        // JSON contains an object for every file, in the order of the files. Without `--json`, files that are not
-        // valid are reported first.
+        // The JSON of a single file may have several lines. Of several files, each has one line of JSON.
         let layout = if outcomes.len() == 1 {
             Layout::Lines
         } else {
@@ -88,7 +87,8 @@ impl Check {
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }
-        // An internal fault of the program concerns only its scene: the other scenes are still answered.
+        // Without `--json`, no scene is analysed if any file is not valid. If the program itself fails on a scene, the
+        // other scenes are still answered. With `--json`, every file gets an object.
         let is_wrong = |(.., complaint): &RefusedFile| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
             return Err(refused
@@ -126,7 +126,8 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Analyses all scenes in parallel, and shows a progress bar. Returns an answer or an error for each scene.
+    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. Returns a result or an error for
+    /// each scene, in the order of `sources`.
     fn answers(
         &self,
         sources: &[(usize, Source)],
@@ -159,7 +160,8 @@ impl Check {
             .collect()
     }
 
-    /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table.
+    /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table; the other of
+    /// the two is empty.
     fn answer(
         &self,
         source: &Source,
@@ -220,7 +222,8 @@ impl Check {
     }
 }
 
-/// The exit status of a scene, the verdicts of its frames, and its JSON or its table.
+/// The exit status of a scene, the verdicts of its frames, its JSON, and its table. The JSON is empty without `--json`,
+/// and the table is empty with `--json`.
 type SceneResult = (ExitStatus, Vec<Verdict>, String, Page);
 
 /// The index and the path of a file that has no result, and the error.
@@ -241,7 +244,8 @@ fn objects(done: &[SceneResult], refused: &[RefusedFile], layout: Layout) -> Str
     objects.concat()
 }
 
-/// Counts the verdicts of several scenes: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`.
+/// Returns how many scenes and frames have each verdict: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`. A
+/// scene counts with the worst verdict of its frames.
 fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     let counts = |verdicts: &[Verdict]| {
         let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
@@ -278,7 +282,7 @@ fn sensitivities(analysis: &Analysis) -> Page {
     page
 }
 
-/// Writes the notes below a table. Each note has two lines: its message, and a hint that says what to change.
+/// Returns the notes below a table. Each note has two lines: its message, and a hint that says what to change.
 fn notes_page(notes: &[Note]) -> Page {
     let mut page = Page::default();
     for note in notes {

@@ -14,7 +14,7 @@ pub(crate) enum Destination {
     Stdout,
     /// A single file.
     File(PathBuf),
-    /// A file in a folder, named after the scene. The folder is created if it does not exist.
+    /// A folder, which is created if it does not exist. Each picture is a file in it, named after its scene.
     Folder(PathBuf),
 }
 

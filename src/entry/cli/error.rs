@@ -1,7 +1,7 @@
 //! [`CliError`]: all errors of a command, and their messages.
 //!
-//! No other file uses `ariadne`. `ariadne` shows a problem of a scene below its line in the file. It gets only this
-//! line, so that a long file takes no more time than a short one.
+//! No other file uses the crate `ariadne`, which prints the line of a scene file that contains a problem, with a mark
+//! below it. `ariadne` gets only this line, so that a long file takes no more time than a short one.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -20,12 +20,13 @@ const MAX_SHOWN_PROBLEMS: usize = 30;
 /// A line with more characters, or wider than the terminal, is not shown completely: an excerpt shows the characters
 /// around the problem.
 const MAX_LINE_CHARACTERS: usize = 160;
-/// The width of an excerpt in columns, a third of them before the problem. It is smaller on a narrower terminal.
+/// The width of an excerpt in columns, of which at most a third are before the problem. On a narrow terminal, the
+/// excerpt is narrower.
 const EXCERPT_COLUMNS: usize = 120;
 /// The least width of an excerpt in columns.
 const MIN_EXCERPT_COLUMNS: usize = 12;
 
-/// An error that ends the command.
+/// An error that ends the command, or only the work on one scene.
 #[derive(Debug)]
 pub(crate) enum CliError {
     /// A scene is not valid.
@@ -53,7 +54,8 @@ pub(crate) enum CliError {
     NoSuchFrame(String),
     /// A drawing cannot be imported; the page is the message.
     Drawing(Page),
-    /// Scenes in a book cannot be drawn. Each entry has lines whose parts are escaped by [`line`].
+    /// Scenes in a book cannot be drawn. Each entry is a message of one or more lines, whose parts are escaped by
+    /// [`line`].
     Book(Vec<String>),
     /// The command line is wrong; the text is the message.
     CommandLine(String),
@@ -258,7 +260,7 @@ fn headline(problem: &Problem) -> String {
     }
 }
 
-/// Writes the message without quoting the line of the file.
+/// Returns the message of a problem without quoting the line of the file.
 fn plain(name: &str, problem: &Problem) -> String {
     let at = if problem.line == 0 {
         String::new()
@@ -272,11 +274,11 @@ fn plain(name: &str, problem: &Problem) -> String {
     out
 }
 
-/// Writes the message with the line and a mark below it. The lines above are replaced by empty lines, so that
-/// `ariadne` shows the right line number.
+/// Returns the message of a problem with the line of the file and a mark below the problem. Empty lines replace the
+/// lines above, so that `ariadne` shows the right line number.
 fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
-    // Add a space after the line, so that a problem at its very end, such as a file that ends early, can be marked.
+    // Add a space after the line, so that a problem after its last character, such as a missing `}`, can be marked.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
@@ -299,7 +301,8 @@ fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usi
     }
 }
 
-/// Writes the message with a part of the line, for a line that is too long to be shown completely.
+/// Returns the message of a problem with a part of the line of the file, for a line that is too long to be shown
+/// completely.
 fn windowed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     // Reserve four columns: two spaces before the text, and one `…` at each of its ends.
     let room = width.map_or(EXCERPT_COLUMNS, |width| {

@@ -16,7 +16,8 @@ pub(crate) enum ExitStatus {
     Unstable,
     /// The output could not be written.
     NotWritten,
-    /// An input or the command line is wrong. No output was written for that input.
+    /// An input or the command line is wrong, or the program itself failed on a scene. There is no result for this
+    /// input.
     WrongInput,
 }
 

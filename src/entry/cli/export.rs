@@ -16,8 +16,9 @@ use crate::output::file::Existing;
 
 /// Write a frame as a DXF drawing in metres: structure, line of thrust or collapse
 ///
-/// Blocks, ground and grips of robots are on the layers "blocks", "ground" and "robots". All other layers begin with "guide",
-/// and import leaves them out: the drawing can be edited in a CAD program and imported again.
+/// Blocks, ground and grips of robots are on the layers "blocks", "ground" and "robots". The names of all other layers
+/// begin with "guide", and import leaves these layers out. So the drawing can be edited in a CAD program and imported
+/// again.
 #[derive(Debug, Args)]
 pub(crate) struct Export {
     /// The scene file; - reads standard input

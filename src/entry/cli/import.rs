@@ -1,4 +1,4 @@
-//! `drystone import`: turns a drawing into a scene.
+//! `drystone import`: turns a drawing, a contact list or an assembly of COMPAS into a scene file.
 
 mod value;
 
@@ -21,7 +21,7 @@ use crate::scene::format::SceneFile;
 use crate::scene::{Note, NoteCode, Scene};
 use value::{FormatArg, ScaleArg, Unit, gravity, scale, stone};
 
-/// The largest number of moved bodies that are listed; `--json` lists all.
+/// At most this many bodies whose corners were moved are listed; `--json` lists all.
 const MAX_LISTED_BODIES: usize = 12;
 
 /// Turn a drawing (SVG, DXF, GeoJSON, WKT), a contact list or a COMPAS assembly into a scene
@@ -258,7 +258,8 @@ impl Import {
         }
     }
 
-    /// Prints warnings, the numbers of imported bodies, the notes and the moved bodies to standard error.
+    /// Prints warnings, the numbers of imported bodies, notes, and the bodies whose corners were moved, to standard
+    /// error.
     fn print_summary(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
             terminal.notes(&remark_page("warning", name, remark));

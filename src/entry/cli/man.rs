@@ -14,7 +14,7 @@ use crate::output::file::Existing;
 
 /// Write the manual pages into a folder, one for each command
 ///
-/// In this folder, man finds them without further settings: drystone man ~/.local/share/man/man1
+/// To a folder in which the program man looks for pages: drystone man ~/.local/share/man/man1
 #[derive(Debug, Args)]
 pub(crate) struct Manual {
     /// The folder; created if it does not exist

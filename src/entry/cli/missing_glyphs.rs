@@ -1,4 +1,5 @@
-//! Finds characters that no font has. A warning names them, and figures show their code points.
+//! Finds characters of scenes that neither the built-in fonts nor the fonts of `--font` have. A warning names these
+//! characters, and figures show their code points.
 
 use std::borrow::Cow;
 
@@ -8,7 +9,7 @@ use crate::cli::terminal::Terminal;
 use crate::output::fonts::Fonts;
 use crate::scene::Scene;
 
-/// Warns about characters of the scenes that no font has.
+/// Prints a warning for each scene with characters that no font has.
 pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
     for source in sources {
         let lacking = fonts.lacking(&words(&source.scene).join(" "));

@@ -1,8 +1,8 @@
 //! The command line, with one file per command.
 //!
 //! Commands write results to standard output or files, and everything else to standard error. They return an exit
-//! code. A command reads and checks all of its input before it writes anything. Output files are written completely
-//! or not at all.
+//! code. A command, except `batch`, reads and checks all of its input before it writes anything, and writes an output
+//! file completely or not at all.
 //!
 //! | code | meaning |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! | 3 | done, nothing is unstable, and something is undecided |
 //! | 4 | the output could not be written |
 //!
-//! If several codes apply, the first of 2, 4, 1, 3 is used: wrong input stops everything, and a falling frame matters
-//! more than an undecided one.
+//! If several codes apply, the first of 2, 4, 1, 3 is used: errors matter more than verdicts, and a falling frame
+//! matters more than an undecided one.
 
 mod accuracy;
 mod batch;

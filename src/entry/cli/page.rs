@@ -1,8 +1,8 @@
 //! [`Page`]: text for a terminal. It escapes all text that may come from files.
 //!
-//! The terminal prints only pages. Fixed text of the program is `&'static str`. All other text is escaped when it is
-//! added, so that the title of a scene cannot begin a line, set a colour or move the cursor. No message can skip this
-//! step, because there is no other way to add text.
+//! All messages for people are pages. Fixed text of the program is `&'static str`. All other text is escaped when it
+//! is added, so that the title of a scene cannot begin a line, set a colour or move the cursor. No message can skip
+//! this step, because there is no other way to add text.
 
 use clap::builder::styling::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -33,7 +33,7 @@ impl Page {
         self.text.push_str(&text::line(words));
     }
 
-    /// Appends escaped text in a colour to the current line.
+    /// Appends escaped text to the current line, in a style such as a colour or bold.
     pub(crate) fn styled(&mut self, style: Style, words: &str) {
         self.text.push_str(&style.render().to_string());
         self.words(words);

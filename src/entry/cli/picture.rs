@@ -178,8 +178,9 @@ impl Picture {
         self.width_mm.map(page_width)
     }
 
-    /// Returns the largest ratio of height to width that a figure on an A4 page may have. With `--width-mm`, a figure
-    /// may be 247 mm high, which is the height between the margins of the page.
+    /// Returns the largest ratio of height to width that a figure on an A4 page may have: the ratio of the page itself.
+    /// With `--width-mm`, a narrow figure may have a larger ratio, up to a height of 247 mm, which is the height
+    /// between the margins of the page.
     pub(crate) fn page_ratio(&self) -> f64 {
         let page = 297.0 / 210.0;
         self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
@@ -300,7 +301,7 @@ fn background(typed: &str) -> Result<Background, String> {
         "white" => Ok(Background::Plain(Colour::WHITE)),
         _ => match typed.strip_prefix('#').and_then(hex) {
             Some(value) => Ok(Background::Plain(Colour::hex(value))),
-            None => Err("a page is none, white or #rrggbb, such as #f4f1ea; in a shell, put the colour in quotes".into()),
+            None => Err("give none, white or #rrggbb, such as #f4f1ea; in a shell, put the colour in quotes".into()),
         },
     }
 }

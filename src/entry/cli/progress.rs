@@ -1,8 +1,8 @@
 //! [`Progress`]: a progress bar on standard error, which appears when the work takes longer than half a second.
 //!
-//! No other file uses `indicatif`. The bar counts steps of work. Next to the bar is the number of changed frames
-//! whose verdict was computed for margins; one step may need hundreds of such frames. The bar is removed when the
-//! work is done.
+//! No other file uses `indicatif`. The bar counts steps of work. If margins are computed, the number of computed
+//! verdicts is shown next to the bar: a margin needs the verdicts of many changed frames, for example tilted ones. The
+//! bar is removed when the work is done.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{self, JoinHandle};

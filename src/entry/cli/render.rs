@@ -191,7 +191,7 @@ impl Render {
         }
     }
 
-    /// Returns an error if several scenes would go to one file or to standard output, or if a terminal would show
+    /// Returns an error if several figures would go to one file or to standard output, or if a terminal would show
     /// binary data. Reads no scene.
     fn check_count(
         &self,
@@ -336,7 +336,7 @@ impl Render {
     }
 
     /// Returns the parameter of the margin that `--margin` names: tilt, horizontal load or load factor. Returns `None`
-    /// without this option, or if the margin has no mechanism.
+    /// without this option, and for the margins of friction and kernel.
     fn toward(&self) -> Option<Toward> {
         self.margin.and_then(|margin| Toward::from_margin(margin.0))
     }

@@ -171,7 +171,7 @@ impl Report {
         }
     }
 
-    /// Returns an error if the report would overwrite one of its inputs.
+    /// Returns an error if the main file of the report is also one of its inputs.
     fn check_targets(&self, tasks: &[Task], form: Form) -> Result<(), CliError> {
         let main = match form {
             Form::Split => self.output.join("index.html"),
@@ -304,7 +304,8 @@ impl Report {
             Err(wrong) => return Ok(Err(wrong)),
         };
         if form == Form::Pdf {
-            // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
+            // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts
+            // lack.
             for (source, _) in &mut read {
                 source.scene = missing_glyphs::legible(&source.scene, &Fonts::default());
             }

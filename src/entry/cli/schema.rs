@@ -9,8 +9,8 @@ use crate::result;
 
 /// Print the JSON Schema of scene files, or of results
 ///
-/// With the schema, an editor completes and checks a scene while you write it. Put its path into the scene as
-/// "$schema".
+/// With the schema, an editor completes and checks a scene while you write it. Put the path of the schema into the
+/// scene as "$schema".
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
     /// Print the schema of the output of check --json instead of the schema of scene files

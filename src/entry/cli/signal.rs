@@ -36,8 +36,9 @@ pub(crate) fn listen() {
     });
 }
 
-/// Returns the signals that this process ignores since its start, for example if `nohup` started it. Each signal is
-/// one bit; signal 1 is the lowest. They are known on Linux only; elsewhere the result is 0.
+/// Returns the signals that this process has ignored since its start, for example because `nohup` started it. Each
+/// signal is one bit; signal 1 is the lowest bit. Only Linux tells which signals are ignored; elsewhere, the result is
+/// 0.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -46,6 +47,6 @@ fn ignored() -> u64 {
         .unwrap_or(0)
 }
 
-/// Does nothing: this system has no signals.
+/// Does nothing, because signals are handled only on Unix.
 #[cfg(not(unix))]
 pub(crate) fn listen() {}

@@ -1,4 +1,4 @@
-//! `drystone snapshot`: compares scenes and their pictures with the references next to them.
+//! `drystone snapshot`: compares the results and pictures of scenes with references that are stored next to the scenes.
 
 mod answer;
 
@@ -120,7 +120,8 @@ impl Snapshot {
         destination::write(&written, Existing::Replace)
     }
 
-    /// Refuses options that contradict each other.
+    /// Returns an error for options that contradict each other, for a review page that is not an .html file, and, if
+    /// the variable `CI` is set, for accepting results or reviewing them in the terminal without `--accept-in-ci`.
     fn check_options(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {
@@ -174,8 +175,8 @@ impl Snapshot {
         ))
     }
 
-    /// Prints the differences (as annotations with `--github`) and a summary. If there are differences, also prints
-    /// the commands to review and to accept them.
+    /// Prints the differences (as annotations with `--github`) and a summary. If there are differences and they were
+    /// not accepted, also prints the commands to review and to accept them.
     fn print_result(
         &self,
         terminal: &Terminal,

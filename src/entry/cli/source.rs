@@ -57,7 +57,7 @@ impl Source {
 /// The frame that `--frame` selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FrameChoice {
-    /// By its number, from 0.
+    /// The frame with this number, counted from 0.
     Number(usize),
     /// The last frame.
     Last,
@@ -103,8 +103,8 @@ impl FromStr for FrameChoice {
     }
 }
 
-/// Reads all scenes, or returns the errors of all files that cannot be read. With `frame`, each scene keeps only this
-/// frame. A `tolerance` in metres replaces the contact tolerances of the scenes.
+/// Reads all scenes. If any file cannot be read or is not a valid scene, returns the errors of all such files. With
+/// `frame`, each scene keeps only this frame. A `tolerance` in metres replaces the contact tolerances of the scenes.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
@@ -141,7 +141,8 @@ pub(crate) fn read_apart_from_faults(
 pub(crate) type ReadResult = (PathBuf, Result<Source, CliError>);
 
 /// Reads all scenes, and returns a scene or an error for each file. The files are in the order of `paths`, and the
-/// files of a folder in the order of their names.
+/// files of a folder in the order of their names. Returns a single error if a folder cannot be read or has no `.json`
+/// file, or if `paths` contains standard input twice.
 pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,

@@ -8,7 +8,7 @@ use crate::cli::exit_status::ExitStatus;
 use crate::cli::terminal::Terminal;
 use crate::drawing::Theme;
 
-/// Print a theme as a style file, for render --style
+/// Print a theme as a style file, for the option --style
 ///
 /// Change some keys and delete the others: keys that a style file does not have come from the theme that it names.
 #[derive(Debug, Args)]

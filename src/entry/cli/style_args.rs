@@ -1,4 +1,4 @@
-//! [`StyleArgs`]: the options `--theme` and `--style`, which all commands that draw share.
+//! [`StyleArgs`]: the options `--theme` and `--style`, which `render`, `batch`, `report`, `figures` and `shapes` share.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,5 @@
-//! Writes an analysis as a table for people: a row for each frame, and below it the failures in words.
+//! Writes an analysis as a table for people: a row for each frame, and below the row its failures, margins and other
+//! remarks in words.
 
 use std::fmt::Write;
 
@@ -18,7 +19,7 @@ use crate::wording::{capacity, failure, margin, proof};
 const MEANINGS: [[&str; 2]; 16] = [
     [
         "stands",
-        "some set of admissible forces balances every block. Rigid blocks, laid dry, at rest; a balance that exists only by wedging counts too.",
+        "some set of admissible forces balances every block. The blocks are rigid, laid dry and at rest; a balance that exists only by wedging counts too.",
     ],
     [
         "falls",
@@ -45,7 +46,7 @@ const MEANINGS: [[&str; 2]; 16] = [
         "robots",
         "the largest ratio of a robot's force or torque to its limit",
     ],
-    ["-", "no value, because the frame falls"],
+    ["-", "no value, because the frame falls or is undecided"],
     [
         "comes off",
         "the two bodies separate; the number is the pull that would have to hold them together",
@@ -106,7 +107,8 @@ const MAX_BODY_NAME: usize = 30;
 /// On narrow terminals, titles of frames keep at least this many columns.
 const MIN_TITLE: usize = 8;
 
-/// Titles of frames and names of bodies are first cut to these numbers of columns.
+/// If rows are too wide, titles of frames and names of bodies are first shortened to no less than these numbers of
+/// columns. If rows are then still too wide, both are shortened further.
 const READABLE_WIDTHS: [usize; 2] = [20, 12];
 /// The index of the column with the names of the two bodies.
 const BODIES_COLUMN: usize = 4;
@@ -116,7 +118,7 @@ const BODIES_COLUMN: usize = 4;
 pub(crate) enum Detail {
     /// The most important results only.
     Short,
-    /// Also the sums, the proof and the contact tolerance.
+    /// Also the sums of forces, the proof and the contact tolerance, and the time if it is included.
     Full(Timing),
 }
 
@@ -285,7 +287,8 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
 
 /// Returns the cells of the row of a frame, in the order of [`COLUMN_HEADS`].
 fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
-    // The forces of a frame that falls are balanced only together with the missing forces, so they are not shown.
+    // The forces of a frame that falls are balanced only together with the missing forces, and the forces of an
+    // undecided frame are not proved. So they are not shown.
     let stands = frame.verdict == Verdict::Stable;
     let exists = |cell: String| if stands { cell } else { "-".into() };
     let force = |contact: &Contact| contact.resultant.force.norm();
@@ -341,7 +344,7 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
-/// Returns the remarks below the row of a frame. Each remark is one sentence.
+/// Returns the remarks below the row of a frame. Each remark is printed on a separate line.
 fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Detail::Full(timing) = detail {

@@ -1,7 +1,8 @@
 //! [`Terminal`]: standard output and standard error, with the options for quiet output and colours.
 //!
-//! No other file uses `anstream` and `terminal_size`. All text may contain escape codes for colours. They are removed
-//! here if the stream is not a terminal, or if `NO_COLOR` is set. The option `--color` takes precedence over both.
+//! No other file uses `anstream` and `terminal_size`. Pages may contain escape codes for colours. They are removed
+//! here if the stream is not a terminal, or if `NO_COLOR` is set. The option `--color` takes precedence over both
+//! conditions.
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
@@ -16,7 +17,7 @@ use crate::cli::page::Page;
 /// The options for messages and colours.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct OutputArgs {
-    /// Print only errors; the result of check is then its exit code
+    /// Print no tables, notes or progress; the result of check is then its exit code
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Colour the text; auto depends on the terminal and on NO_COLOR
@@ -51,7 +52,7 @@ impl Terminal {
         }
     }
 
-    /// True if only errors are printed.
+    /// True if `--quiet` is given: tables, notes and progress are not printed.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }

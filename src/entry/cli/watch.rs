@@ -1,7 +1,7 @@
 //! `--watch`: repeats a command whenever one of its input files changes.
 //!
-//! It compares the size and the modification time of the files a few times a second. This works on every system and
-//! on network drives.
+//! The size and the modification time of the files are compared with their earlier values a few times a second. This
+//! works on every system and on network drives.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,8 @@ use crate::cli::terminal::Terminal;
 /// The time between two comparisons.
 const POLL_INTERVAL: Duration = Duration::from_millis(200);
 
-/// The modification time of a file, and its size in bytes; `None` while an editor replaces the file.
+/// The modification time of a file, and its size in bytes; `None` if they cannot be read, for example while an editor
+/// replaces the file.
 type FileStamp = Option<(SystemTime, u64)>;
 
 /// Runs a command, and runs it again whenever one of the files changes, until the process is stopped.

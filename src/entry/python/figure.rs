@@ -97,7 +97,7 @@ pub(super) fn report(
     let chosen = match theme {
         Some(name) => Theme::named(name).ok_or_else(|| {
             let known = Theme::NAMES.join(", ");
-            format!("there is no theme {name}; it is one of {known}")
+            format!("there is no theme {name}; the themes are {known}")
         })?,
         None => Theme::default(),
     };

@@ -1,6 +1,7 @@
-//! The private module `drystone._drystone` of the Python package. It takes scenes as JSON text and returns results.
+//! The private module `drystone._drystone` of the Python package. It takes scenes as JSON text, calls the library and
+//! returns the results.
 //!
-//! Nothing is computed here. The public names, their arguments and their documentation are in `python/drystone`.
+//! The public names, their arguments and their documentation are in `python/drystone`.
 
 mod figure;
 mod session;
@@ -36,7 +37,8 @@ struct Options {
     time_limit: Option<Duration>,
     contact_tolerance: Option<f64>,
     notes: bool,
-    /// Whether problems have a line and a column. This is useful only if the scene was read from text.
+    /// Whether problems and notes state their position in the text. This is useful only if the scene was read from
+    /// text.
     located: bool,
 }
 
@@ -204,7 +206,8 @@ impl Analysis {
         self.analysis.verdict() == Verdict::Stable
     }
 
-    /// Returns the result in the form that `check --json` prints.
+    /// Returns the result in the form that `check --json` prints. `file` is the name of the scene file in the result,
+    /// `timing` includes times, and `lines` breaks the JSON into lines.
     fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
         let timing = match timing {
             true => Timing::Included,
@@ -220,14 +223,15 @@ impl Analysis {
         })
     }
 
-    /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for one frame or for all frames.
+    /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for the frame with the index `frame`, or for all
+    /// frames if `frame` is `None`.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
         table::Table::new(&self.analysis, name, frame)
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
-    /// Returns the name and the rings of each body, in metres: first of the parts of the ground, then of the blocks.
-    /// The first ring of a body is its outline, and the others are its holes.
+    /// Returns the name and the rings of each body, in metres: first of the parts of the ground, which have no name,
+    /// then of the blocks. The first ring of a body is its outline, and the others are its holes.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
         figure::outlines(&self.analysis.scene)
     }
@@ -238,8 +242,8 @@ impl Analysis {
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 
-    /// Draws a figure of one frame or of all frames, and returns the bytes of the picture file. `words` are options of
-    /// `render`, and the file extension `ending` selects the format.
+    /// Draws a figure of all frames, or only of the frame with the index `frame`, and returns the bytes of the picture
+    /// file. `words` are options of `render`, and the file extension `ending` selects the format.
     fn figure(
         &self,
         py: Python<'_>,
@@ -299,7 +303,8 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
     }
 }
 
-/// Analyses a scene, given as JSON text. Raises an exception if the scene is not valid.
+/// Analyses a scene, given as JSON text. Raises an exception if the scene is not valid, or if the requested capacity
+/// does not fit the scene.
 #[pyfunction]
 fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
     py.detach(|| options.analysis(text))
@@ -307,8 +312,9 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
         .map_err(|why| why.raised(py, options.located))
 }
 
-/// Analyses scenes on several threads, and returns analyses and errors in the order of the scenes. Calls `progress`
-/// with the number of finished scenes; if `progress` raises an exception, the work ends with this exception.
+/// Analyses scenes on several threads. Returns an analysis or an exception for each scene, in the order of the scenes.
+/// Calls `progress` with the number of finished scenes. If `progress` raises an exception or the user interrupts
+/// Python, the work ends with this exception.
 #[pyfunction]
 fn check_many(
     py: Python<'_>,
@@ -399,7 +405,8 @@ fn schema() -> String {
     crate::scene::schema()
 }
 
-/// Returns the kinds of figures, each with a line of help.
+/// Returns the names of the kinds of figures with panels, each with a line of help. The free-body diagram is not in
+/// this list.
 #[pyfunction]
 fn kinds() -> Vec<(&'static str, &'static str)> {
     let all = crate::figure::Kind::ALL.into_iter();

@@ -30,8 +30,9 @@ impl Session {
         Ok(Session { inner })
     }
 
-    /// Places a block with these rings, in metres or in the scene's unit of length. `keys` are its other keys as JSON
-    /// text; without `polygon`, one of these keys must define the outline.
+    /// Places a block with these rings, in the scene's unit of length (by default metres), and returns the verdict.
+    /// `keys` are the other keys of the block as JSON text. Without `polygon`, one of these keys must define the
+    /// outline.
     fn place(
         &mut self,
         py: Python<'_>,
@@ -93,7 +94,8 @@ impl Session {
             .collect()
     }
 
-    /// Analyses the placed blocks with these options.
+    /// Analyses the placed blocks. Of the options, only those of the analysis itself are used, without time limit and
+    /// capacity.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.inner.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.analysis_options)))

@@ -1,5 +1,5 @@
-//! [`Table`]: results as a table for Python: either columns for numpy (numbers as bytes, texts as a list), or an Arrow C
-//! stream.
+//! [`Table`]: results as a table for Python: either columns for numpy (numbers as bytes, texts as a list), or an Arrow
+//! C stream.
 
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ impl Table {
         self.columns.iter().map(one).collect()
     }
 
-    /// Returns the table as an Arrow C stream. It ignores the requested schema, as the protocol allows.
+    /// Returns the table as an Arrow C stream. The requested schema is ignored, as the protocol allows.
     #[pyo3(signature = (requested_schema = None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -121,7 +121,8 @@ impl Table {
     }
 }
 
-/// Returns a table with a row for each frame of several analyses. A scene that is not valid is `None` and has no row.
+/// Returns a table with a row for each frame of several analyses. For a scene that is not valid, the list contains
+/// `None`, and the table has no row.
 #[pyfunction]
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let valid = analyses.iter().enumerate();
@@ -162,7 +163,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
 /// The column of a margin, and the function that returns the margin.
 type NamedMargin = (&'static str, fn(&Margins) -> &Margin);
 
-/// The margins of a frame that are one number.
+/// The margins of a frame that are a single number. The margins of the robots are left out.
 const MARGINS: [NamedMargin; 7] = [
     ("friction", |m| &m.friction),
     ("tilt_left", |m| &m.tilt.left),
@@ -222,8 +223,8 @@ impl<T> Rows<T> {
         self.columns.push((name, Column::Word(all.collect())));
     }
 
-    /// Adds columns with the names and the numbers of two bodies. The number is −1 for the ground or if there is no
-    /// body.
+    /// Adds columns with the names of two bodies and their indices among the blocks. The index is −1 for the ground or
+    /// if there is no body.
     fn bodies(&mut self, scene: &Scene, of: impl Fn(&T) -> [Option<BodyId>; 2]) {
         let name = |id: Option<BodyId>| id.map_or_else(String::new, |id| scene.name(id).to_owned());
         self.word("body_0", |row| name(of(row)[0]));

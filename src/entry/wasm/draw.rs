@@ -7,8 +7,8 @@ use crate::analysis::{self, Analysis};
 use crate::figure::{self, Kind};
 use crate::scene::{Scene, Sketch};
 
-/// Draws a figure of a scene, and returns the SVG. With the option `broken`, draws the outlines of a scene that is not
-/// valid.
+/// Draws a figure of a scene, and returns the SVG. With the option `broken`, draws the outlines of a scene that may be
+/// invalid, with its problems.
 pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refusal> {
     if options.broken {
         let sketch = Sketch::from_bytes(text.as_bytes(), options.contact_tolerance);
@@ -28,8 +28,8 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
     page(&analysis, options)
 }
 
-/// Adds the block of the option `capacity`, and the margin of the option `margin` if the figure shows the sensitivity of
-/// a margin.
+/// Adds two requests to the options of the analysis: for the forces that the block of the option `capacity` can carry,
+/// and for the sensitivity of the margin of the option `margin` if the figure shows a sensitivity.
 fn with_requests(
     analysis_options: analysis::Options,
     scene: &Scene,

@@ -27,7 +27,8 @@ pub(super) struct ImportOptions {
     gravity: Option<[f64; 2]>,
 }
 
-/// Imports a drawing. Returns JSON with the log of the import and the text of the scene file.
+/// Imports a drawing, given as text. `format` is the name of its format. Returns JSON with the log of the import and
+/// the text of the scene file.
 pub(super) fn imported(
     text: &str,
     format: &str,

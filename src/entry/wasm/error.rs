@@ -6,8 +6,8 @@ use crate::import::DrawingProblems;
 use crate::result::{problem_list, remark_list};
 use crate::scene::SceneError;
 
-/// Why the input was refused. JavaScript receives an `Error` with this message. The property `problems` of the
-/// `Error` is a list.
+/// Why the input was refused. JavaScript receives an `Error` with this message, whose property `problems` is the list
+/// of the problems.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
     /// The message, which contains all problems.

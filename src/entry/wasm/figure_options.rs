@@ -173,8 +173,8 @@ impl FigureOptions {
     }
 }
 
-/// Declares enums for options. Each variant is a word of the option with its value for figures; the first is the
-/// default.
+/// Declares an enum for each option with a fixed set of words. Each variant is a word that the option accepts, with its
+/// value for figures. The first variant is the default.
 macro_rules! choices {
     ($($name:ident: $target:ty { $first:ident => $default:expr $(, $word:ident => $value:expr)* })*) => {
         $(

@@ -1,10 +1,10 @@
 //! The WebAssembly module for browsers. Its functions take scenes and options as JSON text, and return results and
 //! pictures as text.
 //!
-//! Nothing is computed here. `examples/playground/build.sh` makes a package of it for JavaScript, with declarations
-//! for TypeScript. A function that refuses its input throws an `Error`. Its property `problems` is the list of
-//! problems that `drystone check --json` prints. After an internal error (an `Error` without `problems`) the module
-//! has to be started again.
+//! The script `examples/playground/build.sh` makes a package of this module for JavaScript, with declarations for
+//! TypeScript. A function that refuses its input throws an `Error`. The property `problems` of the `Error` is the list
+//! of problems that `drystone check --json` prints, and is empty if an option is not valid. After an internal error (an
+//! `Error` without `problems`) the module has to be started again.
 
 mod draw;
 mod drawing;
@@ -63,12 +63,12 @@ pub fn kinds() -> String {
     format!("[{}]", entries.join(","))
 }
 
-/// Analyses a scene. Returns the JSON that `drystone check --json` prints, without times. `options` is a JSON object
-/// with the names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`, `accuracy`,
-/// `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`, `capacity` (such as
-/// "lintel", "lintel@2,3" or "lintel@1,3..3,3"), `for_all` (such as "tilt=±2,friction=0.5..0.7") and `sensitivity`
-/// (load_factor, tilt, horizontal_load, friction or kernel). Two more options are `timing`, which includes times, and
-/// `file`, the name of the file in the result.
+/// Analyses a scene. Returns the JSON that `drystone check --json` prints, but without times. `options` is a JSON
+/// object with the names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`,
+/// `accuracy`, `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`,
+/// `capacity` (such as "lintel", "lintel@2,3" or "lintel@1,3..3,3"), `for_all` (such as "tilt=±2,friction=0.5..0.7")
+/// and `sensitivity` (load_factor, tilt, horizontal_load, friction or kernel). Two more options are `timing` (true to
+/// add the times to the result) and `file` (the name of the file in the result).
 ///
 /// # Errors
 /// Returns the problems of the scene, or a message about an option that is not valid.
@@ -89,8 +89,8 @@ pub fn figure(scene: &str, options: Option<String>) -> Result<String, Refusal> {
     draw::figure(scene, &option::read(options.as_deref())?)
 }
 
-/// Returns the problems of a scene as a JSON list, `[{ code, path, line, column, message, hint }]`, which is empty for
-/// a valid scene.
+/// Returns the problems of a scene as a JSON list of objects `{ code, path, line, column, message, hint }`. The list is
+/// empty for a valid scene.
 #[wasm_bindgen]
 pub fn problems(scene: &str) -> String {
     match Scene::from_json(scene) {
@@ -101,8 +101,8 @@ pub fn problems(scene: &str) -> String {
 
 /// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the
 /// log of the import as JSON, with the text of the scene file under the key `scene`. `options` is a JSON object with
-/// the keys `scale`, `flatten`, `gap`, `ratio`, `ground_layers`, `frame`, `title`, `friction`, `material`, `density`,
-/// `thickness`, `kernel`, `gravity`.
+/// the keys `scale`, `flatten`, `gap`, `ratio`, `ground_layers`, `frame` (counted from 1), `title`, `friction`,
+/// `material`, `density`, `thickness`, `kernel` and `gravity`.
 ///
 /// # Errors
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.

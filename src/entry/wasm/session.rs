@@ -1,4 +1,4 @@
-//! [`Session`]: keeps a scene with its analysis, so that the verdict, the result and the figures need only one
+//! [`Session`]: keeps a scene with its analysis, so that the verdict, the result and most figures need only one
 //! analysis.
 
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -8,8 +8,8 @@ use super::{Refusal, draw, examine};
 use crate::analysis::Analysis;
 use crate::result::word;
 
-/// A scene that is changed often, for example while a block is dragged. It is analysed once for each change, and the
-/// verdict, the result and the figures come from the same analysis.
+/// A scene that is changed often, for example while a block is dragged. It is analysed once for each change. The
+/// verdict, the result and the figures come from this analysis, unless a figure needs results that it lacks.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct Session {
@@ -32,9 +32,8 @@ impl Session {
 
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
     ///
-    /// # Errors
-    /// Returns the problems of the scene, or a message that the selected frame does not exist. The session then keeps
-    /// the former scene.
+    /// # Errors Returns the problems of the scene, or a message about an option that does not fit the scene, such as a
+    /// frame that does not exist. The session then keeps the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
         self.analysis = self.options.analysis(scene)?;
         Ok(self.verdict())
@@ -50,8 +49,9 @@ impl Session {
         examine::written(self.analysis.clone(), &self.options)
     }
 
-    /// Draws a figure of the analysed frames as SVG. `options` are those of `figure`; options of the analysis have no
-    /// effect, except `capacity` and `for_all` for the figure `capacity`.
+    /// Draws a figure of the analysed frames as SVG. `options` are those of the function `figure`. Options of the
+    /// analysis have no effect, except `capacity` and `for_all` for the figure `capacity`, and `margin` for the figure
+    /// `sensitivity`.
     ///
     /// # Errors
     /// Returns a message about an option that is not valid.

@@ -20,8 +20,8 @@ use crate::geometry::{Point, Vector, quarter_turn};
 const MAX_ITERATIONS: usize = 200;
 /// Two lines whose angle has a squared sine up to this are treated as parallel: their intersection is ill-conditioned.
 ///
-/// The limit is an angle of 0.57°. If the angle were 0.18°, a node could move 300 times as far as its lines are off. If
-/// it were 1.8°, the corners of slender wedges would no longer move to the intersection.
+/// The limit is an angle of 0.57°. If the angle were 0.18°, a node could move 300 times as far as its distance from the
+/// lines. If the angle were 1.8°, the corners of slender wedges would no longer move to the intersection.
 const MIN_SQUARED_SINE: f64 = 1e-4;
 /// Lengths below this fraction of the gap are rounding: the tolerance of the convergence test, and of the test
 /// whether a line is horizontal or vertical.
@@ -42,7 +42,8 @@ struct Line {
 /// How the line through some nodes is determined.
 #[derive(Clone, Copy)]
 enum LineKind {
-    /// The line through the two end nodes of one side, which extends along all nodes.
+    /// The line through the two end nodes of one side. All nodes of the line lie between these two nodes, up to their
+    /// gaps.
     Side([usize; 2]),
     /// A horizontal line through the mean of the nodes.
     Horizontal,
@@ -164,8 +165,8 @@ impl Line {
     /// node's gap.
     ///
     /// The line runs along the longest side if no node lies beyond the ends of this side by more than the node's gap.
-    /// Otherwise the line is fitted to the nodes. It is made exactly horizontal or vertical if the scatter of the
-    /// nodes allows this.
+    /// Otherwise the line is fitted to the nodes. The fitted line is made exactly horizontal or vertical if the scatter
+    /// of the nodes allows this.
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();

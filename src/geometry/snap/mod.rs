@@ -1,7 +1,8 @@
 //! Snapping: moves corners of bodies that nearly touch, so that the bodies touch exactly. Imported drawings and scenes
 //! with rounded coordinates need this.
 //!
-//! Every body has a gap, the distance by which its corners may move; between two bodies the smaller gap applies.
+//! Every body has a gap, the distance within which its corners and sides are joined to those of other bodies. Between
+//! two bodies, the smaller gap applies.
 //!
 //! 1. Corners of different bodies within the gap are merged into one node ([`Nodes`]): clustering with complete
 //!    linkage.
@@ -11,9 +12,9 @@
 //! 4. The result is checked. A body that lost its shape or overlaps another body more than before is left as drawn, and
 //!    the steps are repeated without moving it.
 //!
-//! Invariant: no body loses its shape, and no two bodies overlap more than as drawn. References: Everitt et al.,
-//! Cluster Analysis, 2011, §4.2 (complete linkage); Milenkovic, Verifiable implementations of geometric algorithms
-//! using finite precision arithmetic, 1988 (merging corners and shifting them onto sides).
+//! Invariant: no body loses its shape, and no two bodies overlap more than as drawn, apart from a small tolerance.
+//! References: Everitt et al., Cluster Analysis, 2011, §4.2 (complete linkage); Milenkovic, Verifiable implementations
+//! of geometric algorithms using finite precision arithmetic, 1988 (merging corners and shifting them onto sides).
 
 mod line;
 mod node;
@@ -28,9 +29,9 @@ use node::Nodes;
 /// A corner of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
-    /// Position, metres.
+    /// Position, in metres.
     pub(crate) at: Point,
-    /// Whether the side that begins here approximates a piece of a curve.
+    /// Whether the side that begins at this corner approximates a piece of a curve.
     pub(crate) curved: bool,
 }
 
@@ -71,18 +72,19 @@ const MIN_MOVE: f64 = 1e-6;
 /// A ring whose area shrinks to this fraction of its former area, or below, has lost its shape.
 const MIN_AREA_SHARE: f64 = 0.5;
 
-/// How far corners may move.
+/// The distances within which corners are joined to other bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gaps<'g> {
     /// The gap of each body in metres; 0 for a body whose corners are not to be moved.
     pub(crate) of_body: &'g [f64],
-    /// A corner moves by at most this fraction of the shorter of its two sides; infinite if only the gap limits it.
+    /// The gap of a corner is at most this fraction of the shorter of its two sides. Infinite if every corner has the
+    /// gap of its body.
     pub(crate) share_of_edge: f64,
 }
 
 impl<'g> Gaps<'g> {
-    /// Creates limits for the moves of corners: each corner may move by the gap of its body, in metres. The lengths of
-    /// sides do not limit the moves.
+    /// Creates gaps from the gap of each body, in metres. Every corner has the gap of its body, however short its sides
+    /// are.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -108,14 +110,14 @@ pub(crate) struct Moved {
     pub(crate) body: usize,
     /// The number of its corners that were moved or added.
     pub(crate) corners: usize,
-    /// The largest distance by which one of its corners moved, metres.
+    /// The largest distance by which one of its corners moved, in metres.
     pub(crate) distance: f64,
     /// Numbers of the bodies that it touches after snapping.
     pub(crate) to: BTreeSet<usize>,
 }
 
-/// Moves corners onto corners and sides of other bodies that lie within the gaps. If two corners merge, both take the
-/// position of the corner of the earlier body.
+/// Moves corners onto corners and sides of other bodies that lie within the gaps. Corners that merge take the position
+/// of the corner of a fixed body, or else of the earliest body in the list.
 ///
 /// A body marked in `fixed` does not change. Corners of other bodies move onto it, but its corners do not move onto
 /// their sides. Overlaps with a depth of up to `noise` times the smaller gap of two bodies are ignored.
@@ -177,9 +179,9 @@ struct Side {
 struct NodeNearSide<'s> {
     node: usize,
     side: &'s Side,
-    /// Distance from the side's start to the foot of the perpendicular from the node, metres.
+    /// Distance from the side's start to the foot of the perpendicular from the node, in metres.
     reach: f64,
-    /// Distance of the node from the side, metres.
+    /// Distance of the node from the side, in metres.
     off: f64,
 }
 
@@ -211,8 +213,9 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
             touching[*a].extend(there.iter().filter(|b| *b != a));
         }
     }
-    // `on` maps each straight side, given by its two end nodes, to the nodes that lie on it. `taken` maps each curved
-    // side to the nodes that become additional corners of it, each with its distance from the start of the side.
+    // `on` maps each straight side, given by its two end nodes, to the nodes within the gap of this side. `taken` maps
+    // each curved side to the nodes that become additional corners of this side, each with its distance from the start
+    // of the side.
     let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
     let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
     for NodeNearSide {

@@ -1,8 +1,8 @@
 //! [`Nodes`]: the points to which the corners of bodies move. Corners that are close together share one node.
 //!
 //! Corners are clustered bottom up with complete linkage: pairs are merged in the order of their distance, and two
-//! clusters are merged only if every corner of one lies within the gap of every corner of the other. Chains of close
-//! corners therefore cannot drift together. Reference: Everitt et al., Cluster Analysis, 2011, §4.2.
+//! clusters are merged only if every corner of one lies within the gap of every corner of the other. A long chain of
+//! close corners therefore does not merge into one node. Reference: Everitt et al., Cluster Analysis, 2011, §4.2.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ pub(super) struct Node {
     pub(super) at: Point,
     /// The range of its bodies in [`Nodes::bodies`], the list for all nodes.
     bodies: Range<usize>,
-    /// The smallest gap of its corners, metres.
+    /// The smallest gap of its corners, in metres.
     pub(super) gap: f64,
     /// Whether the node must not move, because one of its bodies must stay as drawn.
     pub(super) fixed: bool,
@@ -39,18 +39,18 @@ pub(super) struct Nodes {
 struct UnplacedCorner {
     at: Point,
     body: usize,
-    /// The largest distance by which it may move, metres.
+    /// The distance within which the corner is joined to other bodies, in metres.
     gap: f64,
 }
 
-/// A corner is paired with at most this number of corners at exactly its own position. One pair joins a corner to the
-/// cluster at its position; the others matter only if a body has several corners there. Thousands of equal outlines
-/// would have millions of such pairs.
+/// A corner is paired with at most this number of corners at exactly its own position. One pair is enough to join a
+/// corner to the cluster at its position; more pairs matter only if a body has several corners there. Thousands of
+/// equal outlines would have millions of such pairs.
 const MAX_COINCIDENT: usize = 64;
 
-/// Returns the largest distance, in metres, by which each corner of a ring may move.
+/// Returns the gap of each corner of a ring, in metres: the distance within which the corner is joined to other bodies.
 ///
-/// This distance is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
+/// This gap is the body's `gap`, but at most the fraction `share` of the shorter of the corner's two sides.
 fn gaps_of_corners(ring: &[Corner], gap: f64, share: f64) -> impl Iterator<Item = f64> + '_ {
     let length = |a: &Corner, b: &Corner| (b.at - a.at).norm();
     ring.iter().enumerate().map(move |(i, corner)| {
@@ -68,7 +68,7 @@ impl Nodes {
     /// A node lies at a corner of a body that is marked in `kept`. Without such a body, it lies at the corner of the
     /// earliest body.
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
-        // List all corners, with the distance by which each may move.
+        // List all corners with their gaps.
         let rings = bodies.iter().flatten();
         let mut corners: Vec<UnplacedCorner> =
             Vec::with_capacity(rings.clone().map(Vec::len).sum());

@@ -1,7 +1,7 @@
 //! Analyses all frames of a scene, one after the other.
 //!
-//! For each frame: assemble it, split it into components, decide the components that did not occur in an earlier
-//! frame, and combine the results. Then look for wedging and margins if they are requested.
+//! For each frame: assemble it, split it into components, decide the components that did not occur in an earlier frame,
+//! and combine the results. If they are requested, wedging, margins and sensitivity follow.
 
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ pub(super) struct ResultCache {
     intervals: BTreeMap<Key, ComponentIntervals>,
 }
 
-/// A component of a frame with its findings.
+/// A component of a frame, with its key in the cache and the results of its decision.
 struct SolvedComponent<'a> {
     component: &'a Assembly,
     key: &'a Key,
@@ -50,7 +50,7 @@ pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<Fram
     (interfaces, frames)
 }
 
-/// Analyses every frame of a scene, with interfaces that were found before.
+/// Analyses every frame of a scene. `interfaces` are the interfaces of the whole scene.
 pub(super) fn analyse_frames(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -73,8 +73,8 @@ pub(super) fn analyse_frames(
         .collect()
 }
 
-/// Analyses one frame. Reuses the results of components that are in `known`, and adds the results of new components to
-/// it.
+/// Analyses one frame. Takes the results of components from `known` if they are there, and adds the results of new
+/// components to `known`.
 pub(super) fn analyse_frame(
     context: &FrameContext,
     options: Options,
@@ -138,7 +138,7 @@ pub(super) fn analyse_frame(
     analysis
 }
 
-/// Decides the components that are not in `known`, and adds their findings to it. Returns the total effort and the
+/// Decides the components that are not in `known`, and adds their findings to `known`. Returns the total effort and the
 /// number of these components.
 fn decide_fresh(
     components: &[Assembly],
@@ -150,7 +150,7 @@ fn decide_fresh(
         .filter(|k| !known.contains_key(&keys[*k]))
         .collect();
     let decide_one = |k: &usize| {
-        // The guard works only on its own thread, so each task creates one.
+        // A deadline guard applies only to the thread that creates it, so each task creates one.
         let _until = DeadlineGuard::new(options.deadline);
         decide_component(&components[*k], options)
     };
@@ -220,7 +220,7 @@ fn find_wedging(
 }
 
 /// Computes the margins of a frame and stores them in `analysis`. Returns how many changed copies of its components
-/// were decided for this; `None` if `options` request no margins.
+/// were evaluated for this; `None` if `options` request no margins.
 fn find_margins(
     scene: &Scene,
     analysis: &mut FrameAnalysis,
@@ -243,7 +243,7 @@ fn find_margins(
 }
 
 /// Computes the sensitivity of one margin: its derivatives with respect to geometry, weights, friction and loads.
-/// `None` if `options` do not request it.
+/// `None` if `options` do not request a sensitivity, or if the frame has no margins.
 fn find_sensitivity(
     context: &FrameContext,
     analysis: &FrameAnalysis,

@@ -8,16 +8,16 @@ use super::Method;
 pub struct SolveReport {
     /// The method that decided the hardest component: the greatest [`Method`] of all components.
     pub method: Method,
-    /// The total number of solver iterations of all programs.
+    /// The total number of solver iterations of the programs that `programs` counts.
     pub iterations: usize,
-    /// The number of programs solved for this frame; 0 if closed forms or results of earlier frames decided every
-    /// component.
+    /// The number of linear programs solved for the verdict and forces of this frame; 0 if closed forms or results of
+    /// earlier frames decided every component.
     pub programs: usize,
     /// The number of components. Blocks in different components cannot influence each other.
     pub groups: usize,
     /// The number of components whose results come from an earlier frame.
     pub reused: usize,
-    /// The wall time for the frame, in seconds.
+    /// The wall time for the whole frame, in seconds.
     pub seconds: f64,
     /// The wall time of each stage.
     pub stages: Stages,

@@ -2,17 +2,17 @@
 //! whole frame. The routes are tried in the order of their numbers.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
-//! can stop. A route may save time, but it never decides without a proof. All routes for one component end in a
-//! [`Decision`] or in [`Findings`].
+//! can stop. A route may save time, but it never decides without a proof. All routes for one component return a
+//! [`Decision`] or [`Findings`].
 //!
 //! For one component, by [`decide_component`]:
 //!
 //! | | route | file | decides because |
 //! |---|---|---|---|
 //! | 1 | closed form | `decide.rs`, `solve::determinate` | no load, no support, or forces that the balance equations alone determine |
-//! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these the program is smaller |
+//! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these limits the program is smaller |
 //! | 3 | programs in order | `programs.rs`, `strategy/` | each may find forces or a motion, whose proof is then computed |
-//! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the whole may leave a light body unbalanced; that body is solved again in its own scale |
+//! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the component as a whole may leave light bodies unbalanced; these bodies are solved again in their own scale |
 //! | 3b | – remove the solver's error from a motion | `motion.rs`, `pieces.rs` | a motion must not violate any contact, not even by rounding |
 //! | 4 | complete | `complete.rs` | forces of least sum if the component stands, least adhesion if it falls |
 //!
@@ -20,7 +20,7 @@
 //! every body. Then both proofs hold. The proof of a motion has a tolerance, so the forces decide.
 //!
 //! If only the verdict is needed, by [`decide_verdict`]: first forces and motions of similar components
-//! (`proof_cache.rs`), then routes 1 to 3. Margins use this.
+//! (`proof_cache.rs`), then routes 1 to 3. Margins and capacities need only the verdict.
 //!
 //! For whole frames:
 //!
@@ -61,15 +61,16 @@ use programs::Decision;
 pub(super) use strategy::LimitDistance;
 pub use strategy::Method;
 
-/// Bodies slower than this are left out of a reported mechanism; the fastest point has speed 1. Solver noise on
-/// resting bodies reaches 1e-9, so a value ten times smaller could list bodies at rest. Even a value ten times larger
+/// Bodies slower than this are left out of a reported mechanism; the fastest point has speed 1. Solver noise on resting
+/// bodies reaches 1e-9, so a value a hundred times smaller could list bodies at rest. Even a value ten times larger
 /// would hide no visible motion in a picture of a thousand pixels.
 const MIN_SHOWN_SPEED: f64 = 1e-7;
 
-/// Components of a velocity below this are reported as 0: they are the solver's rounding.
+/// Components of a velocity that are smaller than this are reported as 0, because they are rounding errors of the
+/// solver.
 const SPEED_NOISE: f64 = 1e-9;
 
-/// The findings for one component. Forces are in the order of its contacts and grips.
+/// The results for one component. Forces are in the order of its contacts and grips.
 #[derive(Clone, Debug)]
 pub(super) struct Findings {
     pub verdict: Verdict,
@@ -86,14 +87,14 @@ pub(super) struct Findings {
     pub proof: Proof,
     pub method: Method,
     pub effort: Effort,
-    /// The numbers of unknowns of its program and of its adhesion, for each effect.
+    /// For each effect, the number of unknowns in the component's program, including the unknowns for adhesion.
     pub count: UnknownCounts,
 }
 
 /// One component of a frame with everything that its decision depends on.
 struct Component<'a> {
     assembly: &'a Assembly,
-    /// Units of length and force of its programs.
+    /// The units of length and force of the component's programs.
     scale: Scale,
     /// The solver's settings, in the order in which they are tried.
     settings: Vec<SolverSettings>,
@@ -101,7 +102,7 @@ struct Component<'a> {
     threshold: ProofThreshold,
     /// Whether forces of least sum and failures are computed after the verdict.
     complete_result: bool,
-    /// What is known about its distance from the limit of stability.
+    /// What is known about the component's distance from the limit of stability.
     limit_distance: LimitDistance,
 }
 
@@ -115,8 +116,8 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
-    // First leave out the limits of robots that are far above the loads. If the result exceeds such a limit, decide
-    // again with all limits.
+    // First leave out the limits of robots that are far above the loads. If the result exceeds such a limit or is
+    // undecided, decide again with all limits.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
@@ -151,8 +152,8 @@ impl<'a> Component<'a> {
         proof.meets(self.threshold)
     }
 
-    /// Route 1: decides a component in closed form, without a solver. `None` if no closed form applies, or if its
-    /// forces have no proof.
+    /// Route 1: decides a component in closed form, without a solver. `None` if no closed form applies, or if the
+    /// forces that the balance equations determine have no proof.
     fn in_closed_form(&self, program: &Program) -> Option<Findings> {
         let found = if self.assembly.heaviest_load() == 0.0 {
             // Without loads, zero forces balance every body.

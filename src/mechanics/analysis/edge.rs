@@ -5,7 +5,8 @@ use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::proof::Motion;
 use crate::scene::Scene;
 
-/// How far gravity is rotated beyond the limit to find the mechanism there, degrees.
+/// How far gravity is rotated beyond the limit to find the mechanism there, degrees. In radians, this is also the step
+/// of the horizontal load, and the relative step of the load factor.
 const DEGREES_BEYOND_LIMIT: f64 = 0.05;
 
 /// A limit of the parameter of a margin.
@@ -19,9 +20,10 @@ struct Limit {
 }
 
 impl Analysis {
-    /// Returns the value of a parameter at which a frame (numbered from 0) begins to fall, and the elementary
-    /// mechanism there. Of two such values, returns the value nearer to 0. If the load factor has no upper limit,
-    /// returns its lower limit. `None` if the margin was not computed, or if the frame falls at no value.
+    /// Returns the value of a parameter at which a frame (numbered from 0) begins to fall, and the elementary mechanism
+    /// there. Of two limits of tilt or horizontal load, returns the limit nearer to 0. For the load factor, returns the
+    /// upper limit, or the lower limit if there is no upper limit. `None` if the margin was not computed, or if no
+    /// limit with a mechanism was found.
     ///
     /// Units and signs: see [`Toward`].
     pub fn edge(&self, frame: usize, toward: Toward) -> Option<(f64, Vec<Motion>)> {

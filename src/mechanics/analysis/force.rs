@@ -29,7 +29,7 @@ pub struct Contact {
 pub struct RobotForce {
     /// The robot.
     pub robot: RobotId,
-    /// The block it holds.
+    /// The block that the robot holds.
     pub block: BlockId,
     /// The grip point, metres.
     pub at: Point,
@@ -60,16 +60,16 @@ pub enum Failure {
         bodies: [BodyId; 2],
         /// The middle of the interface, metres.
         at: Point,
-        /// The force on `bodies[0]`, N.
+        /// The missing friction force on `bodies[0]`, N.
         force: Vector,
     },
     /// A robot force beyond the robot's limits.
     RobotForce {
         /// The robot.
         robot: RobotId,
-        /// The block it holds.
+        /// The block that the robot holds.
         block: BlockId,
-        /// The grip point.
+        /// The grip point, metres.
         at: Point,
         /// The missing force on the block, N.
         force: Vector,
@@ -78,9 +78,9 @@ pub enum Failure {
     RobotTorque {
         /// The robot.
         robot: RobotId,
-        /// The block it holds.
+        /// The block that the robot holds.
         block: BlockId,
-        /// The grip point.
+        /// The grip point, metres.
         at: Point,
         /// The missing torque on the block, N·m.
         torque: f64,

@@ -1,11 +1,12 @@
 //! Route 5: makes a verdict undecided if it depends on a small gap or overlap that may be a drawing error.
 //!
-//! Edges that face each other with a gap above the contact tolerance and below a hundredth of the block's size may
-//! have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:
+//! Edges that face each other with a gap above the contact tolerance and below a hundredth of the smaller block's size
+//! may have been meant to touch. So may bodies with an overlap of this size. A frame with such places is decided twice:
 //! as it is written, where neither gaps nor overlaps carry force, and with all of them closed. If necessary, they are
-//! closed by a larger length, which allows for rounded corners. If the verdicts differ, the intended structure is
-//! unknown. The frame is then undecided, and the reason lists the places and a tolerance that closes them. If the
-//! verdicts agree, a notice reports the overlaps. If the scene gives a tolerance, no second verdict is needed.
+//! closed by a larger length, which allows for corners with rounded coordinates. If the verdicts differ, the intended
+//! structure is unknown. The frame is then undecided, and the reason lists the places and a tolerance that closes them.
+//! If the verdicts agree, a notice reports the overlaps. A frame also becomes undecided if it falls, but stands if very
+//! short contacts carry force. If the scene gives a tolerance, none of this is checked.
 
 use super::analyse::{analyse, analyse_frames};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
@@ -20,8 +21,9 @@ const MAX_NOTED_GAPS: usize = 10;
 /// All places are closed by the widest gap or overlap times this factor: one percent more than needed, so that
 /// rounding leaves none open.
 const CLOSING_FACTOR: f64 = 1.01;
-/// A rounded corner is farther from its true position than from either of its edges, and gaps and overlaps are
-/// measured from the edges. Closing may therefore need the widest of them times this factor.
+/// A corner with rounded coordinates is farther from its true position than from the true edges, and gaps and overlaps
+/// are measured from the edges. The closing length may therefore have to be the widest gap or overlap times this
+/// factor.
 const CORNER_CLOSING_FACTOR: f64 = 2.5;
 /// Bodies that are meant to touch are at most this fraction of the smallest block's size apart.
 const MAX_SIZE_SHARE: f64 = 0.01;
@@ -58,8 +60,8 @@ impl From<&Penetration> for AmbiguousPlace {
     }
 }
 
-/// Analyses the scene again with all small gaps and overlaps closed. A frame becomes undecided if the second verdict
-/// differs from the first.
+/// Analyses the scene again, with all small gaps and overlaps closed and with very short contacts. A frame becomes
+/// undecided if its verdict depends on them. Does nothing if the scene gives a tolerance.
 pub(super) fn recheck(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -123,8 +125,8 @@ fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<Ambiguous
 }
 
 /// Analyses the scene with gaps and overlaps closed by slightly more than the widest of them. If the verdict of some
-/// frame does not change, also closes them by a larger length, because rounded corners may be farther off. Returns each
-/// length, in metres, with the analysed frames.
+/// frame with gaps or overlaps does not change, also closes them by a larger length, because corners with rounded
+/// coordinates may be farther from their true position. Returns each length, in metres, with the analysed frames.
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
@@ -159,7 +161,8 @@ fn compare_verdicts(
     closed: &[(f64, Verdict)],
 ) {
     let overlaps: Vec<AmbiguousPlace> = places.iter().copied().filter(|p| p.overlaps).collect();
-    // Use the first closing length that changes the verdict. If none does, use the first.
+    // Use the first closing length with a different verdict, stable or unstable. If there is none, use the first
+    // length.
     let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;

@@ -3,12 +3,11 @@
 use crate::assembly::Assembly;
 use crate::scene::{BlockId, RobotId};
 
-/// Components with the same key have the same findings. The key contains the blocks, each hold (robot, block, and the
-/// bits of the grip point's coordinates), and the bits of L.
+/// Components of one scene with the same key have the same results. The key contains the blocks, each hold (robot,
+/// block, and the bits of the grip point's coordinates), and the bits of the component's length L.
 pub(super) type Key = (Vec<BlockId>, Vec<(RobotId, BlockId, [u64; 2])>, u64);
 
-/// Returns the key of a component: its blocks, its holds and its length L. Components with equal keys have equal
-/// results.
+/// Returns the key of a component: its blocks, its holds and its length L.
 pub(super) fn key(component: &Assembly) -> Key {
     let blocks = component.bodies.iter().map(|body| body.block);
     let holds = component.grips.iter().map(|grip| {

@@ -6,9 +6,9 @@
 //! elementary mechanism is an extreme ray of the cone of motions that no admissible force can stop. It also proves
 //! the fall, and it is the mechanism that textbooks draw.
 //!
-//! In this motion a block that slides also rises, by μ metres for every metre. The reason is the associated flow
-//! rule, which makes equilibrium a linear program. A real block slides along its joint. For drawing, a motion that
-//! slides along the joints and keeps hinges closed therefore replaces the rising motion, if there is one.
+//! In an elementary mechanism, a block that slides also rises, by μ metres for every metre. The reason is the
+//! associated flow rule, which makes equilibrium a linear program. A real block slides along its joint. For drawing, a
+//! motion that slides along the joints and keeps hinges closed therefore replaces the rising motion, if there is one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -67,7 +67,7 @@ impl Analysis {
         analysis
     }
 
-    /// Returns the elementary mechanisms of an unstable frame, numbered from 0.
+    /// Returns the elementary mechanisms of an unstable frame. `number` is the number of the frame, from 0.
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
         let analysis = &self.frames[number];
         self.elementary_mechanisms(&self.scene, analysis, &analysis.mechanism)
@@ -213,9 +213,9 @@ impl<'a> FallingPart<'a> {
         row
     }
 
-    /// Returns the rows of the conditions row · y ≥ 0 on a motion y. No contact force may oppose the motion. A robot's
-    /// component with a finite limit yields, but only in the direction in which `start` moves it. A component without
-    /// a limit does not move.
+    /// Returns the rows of the conditions row · y ≥ 0 on a motion y. No contact force may oppose the motion. If a
+    /// robot's force x, force y or torque has a finite limit, the robot yields, but only in the direction in which
+    /// `start` moves it. Without a limit, it does not yield.
     fn rows(&self, start: &[f64]) -> Vec<Row> {
         let mut rows = Vec::new();
         for contact in &self.analysis.contacts {
@@ -243,7 +243,8 @@ impl<'a> FallingPart<'a> {
         for (row, limit) in self.grips() {
             let current: f64 = row.iter().map(|(k, v)| v * start[*k]).sum();
             let negated: Row = row.iter().map(|(k, v)| (*k, -v)).collect();
-            // A robot without limits keeps its block at rest. A robot at its limit yields in the direction of `start`.
+            // Without a limit, the robot prevents this motion. At a finite limit, the robot yields in the direction of
+            // `start`.
             if limit.is_finite() {
                 rows.push(if current < 0.0 { negated } else { row });
             } else {
@@ -254,8 +255,8 @@ impl<'a> FallingPart<'a> {
         rows
     }
 
-    /// Returns, for each component of each robot's grip, the velocity as a row of coefficients, and the limit of the
-    /// force, N. The limit of the torque is divided by L.
+    /// Returns, for force x, force y and torque of each robot, the corresponding velocity as a row of coefficients, and
+    /// the limit of the force, N. The limit of the torque is divided by L.
     fn grips(&self) -> Vec<(Row, f64)> {
         let mut grips = Vec::new();
         for robot in &self.analysis.robots {

@@ -1,9 +1,9 @@
 //! [`Analysis`]: a scene with the results of all its frames.
 //!
-//! Everything here is in the scene's own units (metres, newtons) and axes (x right, y up). Figures and reports use
-//! only these types. Components of a frame's assembly cannot influence each other and are solved separately. A
-//! component that was solved in an earlier frame is not solved again. `decide` decides one component, and `analyse`
-//! combines them.
+//! Everything here is in metres and newtons, in the axes of the scene (x right, y up). Figures and reports use only
+//! these types. Components of a frame's assembly cannot influence each other and are solved separately. A component
+//! that was solved in an earlier frame is not solved again. `decide` decides one component, and `analyse` combines the
+//! components of a frame.
 
 mod analyse;
 mod capacity;
@@ -122,14 +122,14 @@ pub struct FrameAnalysis {
     /// The sum of all contact and robot forces, Σ(N1+N2+|T|) + Σ(|Fx|+|Fy|+|M|/L), N. The reported forces minimise it
     /// if [`least_force`](FrameAnalysis::least_force) is true.
     pub total_force: f64,
-    /// A lower bound of this sum for all forces that balance the frame, N, proved by a motion
-    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)). `None` if the frame does not stand or no
-    /// bound was proved.
+    /// A lower bound on the total force of all forces that balance the frame, N, proved by a motion
+    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)). `None` if the frame does not stand or no bound
+    /// was proved.
     pub force_bound: Option<f64>,
-    /// Whether the total force exceeds this bound by at most a millionth. If not, forces with a smaller sum may
-    /// balance, too.
+    /// Whether the total force is proved to be the least: it exceeds `force_bound` by at most a millionth. If not,
+    /// forces with a smaller sum may balance, too.
     pub least_force: bool,
-    /// The sum of all failures, N; torques are divided by L.
+    /// The sum of the magnitudes of all missing forces in `failures`, N; torques are divided by L.
     pub total_sticking: f64,
     /// Sum of the placed blocks' weights, N.
     pub weight: f64,

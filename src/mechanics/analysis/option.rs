@@ -13,9 +13,10 @@ use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The accuracy that a proof needs.
+    /// How strong the proof of a verdict must be.
     pub accuracy: Accuracy,
-    /// A solver tolerance that replaces the tolerance of `accuracy`. Benchmarks set it to measure its cost.
+    /// A solver tolerance that replaces the tolerance of `accuracy`. Benchmarks use it to measure how the tolerance
+    /// changes the computing time.
     pub tolerance: Option<f64>,
     /// Whether to compute how far each frame is from its limit of stability.
     pub margins: bool,
@@ -23,7 +24,7 @@ pub struct Options {
     pub margin_kinds: MarginKinds,
     /// The margin whose derivatives are computed, if any. The margin itself is computed too.
     pub sensitivity: Option<MarginKind>,
-    /// The block of which to compute all forces that it can carry.
+    /// The request to compute all forces that a block can carry, if any.
     pub capacity: Option<CapacityRequest>,
     /// Whether to check if a stable frame stands only by wedging.
     pub wedging: bool,
@@ -36,14 +37,14 @@ pub struct Options {
     pub deadline: Option<Instant>,
 }
 
-/// How strong the proof of a verdict must be.
+/// How strong the proof of a verdict must be. Without such a proof, the verdict is `Undecided`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Accuracy {
     /// A proof must meet [`ProofThreshold::STANDARD`].
     #[default]
     Standard,
-    /// A proof must meet [`ProofThreshold::STRICT`]; otherwise the verdict is `Undecided`.
+    /// A proof must meet [`ProofThreshold::STRICT`].
     Proved,
 }
 
@@ -59,7 +60,7 @@ impl Accuracy {
 
 impl Options {
     setters! {
-        accuracy: Accuracy, "The accuracy that a proof needs.";
+        accuracy: Accuracy, "How strong the proof of a verdict must be.";
         margins: bool, "Whether to compute how far each frame is from its limit of stability.";
         margin_kinds: MarginKinds, "The margins to compute, if margins are requested.";
         wedging: bool, "Whether to check if a stable frame stands only by wedging.";
@@ -68,7 +69,7 @@ impl Options {
 
     optional_setters! {
         sensitivity: MarginKind, "The margin whose derivatives are computed.";
-        capacity: CapacityRequest, "The block of which to compute all forces that it can carry.";
+        capacity: CapacityRequest, "The request to compute all forces that a block can carry.";
         tolerance: f64, "A solver tolerance that replaces the tolerance of `accuracy`.";
         deadline: Instant, "The time at which the analysis stops.";
     }

@@ -130,9 +130,8 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
             words.push(format!("{what} {b} in place of {a}"));
         }
     };
-    // Compare the settings of the whole scene.
     compare("kernel", first.kernel, second.kernel);
-    // Compare the friction coefficients of all bodies, each counted once.
+    // Collect the different friction coefficients of all bodies of each scene, and compare them.
     let friction_coefficients = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
         let mut all: Vec<f64> = bodies

@@ -53,17 +53,17 @@ pub struct ThrustStates {
     /// The state at the largest safety kernel, with the largest distance of the forces from the edges of all joints.
     /// It requires that the margin of the kernel was computed.
     pub central: Option<ThrustState>,
-    /// The horizontal thrust of the forces of the analysis, N.
+    /// The horizontal thrust of the forces of the analysis, N; 0 if no states were computed.
     pub present: f64,
-    /// The number of blocks on which the frame rests on the ground. A single horizontal thrust exists only for two.
+    /// The number of blocks that touch the ground. The states are computed only if there are two.
     pub supports: usize,
 }
 
 impl Analysis {
-    /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust,
-    /// the forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does
-    /// not exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` unless the frame
-    /// rests on the ground with exactly two blocks.
+    /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust, the
+    /// forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does not
+    /// exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` unless exactly two
+    /// blocks touch the ground.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();

@@ -11,11 +11,11 @@ use crate::proof::Proof;
 pub enum UndecidedReason {
     /// [`Options::deadline`](super::Options::deadline) passed before the frame was decided.
     Late,
-    /// For some of its blocks neither forces nor a motion are proved.
+    /// For some blocks of the frame, neither forces nor a motion are proved.
     Unproved {
-        /// The best forces that were found, and how far off they are.
+        /// The errors of the best forces that were found.
         forces: Proof,
-        /// The best motion that was found, if any.
+        /// The errors of the best motion that was found; `None` if no motion was found.
         motion: Option<Proof>,
     },
     /// The verdict depends on narrow gaps or overlaps.
@@ -79,7 +79,8 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
-    /// Returns why the frame is undecided, in words, with the errors of both proofs. Empty if the frame is decided.
+    /// Returns why the frame is undecided, in words, with the errors of the forces and motions that were found. Empty
+    /// if the frame is decided.
     pub fn doubt(&self) -> String {
         let reasons: Vec<String> = self.doubts.iter().map(UndecidedReason::to_string).collect();
         match self.doubts.as_slice() {

@@ -6,7 +6,7 @@ use crate::geometry::Vector;
 use crate::program::Scale;
 use crate::solve::{self, SelfStress, Slide};
 
-/// The self-stress without which a frame does not stand.
+/// The proof that a frame does not stand without a self-stress.
 ///
 /// If all contacts are springs without initial stress, they do not come to rest under the loads. The blocks move
 /// along `gives_way`, and the faces `interfaces` open or slide. In every balance the normal forces on these faces sum
@@ -21,7 +21,7 @@ pub struct Wedged {
     pub at_least: Option<(f64, Vec<Motion>)>,
     /// The motion of the blocks if contacts are springs; the fastest block has a speed of about 1.
     pub gives_way: Vec<Motion>,
-    /// Whether this motion compresses no face.
+    /// Whether the motion `gives_way` compresses no face.
     pub presses_nothing: bool,
     /// The states of pressing and sliding that springs at rest cannot have. Together they cover all possible states.
     pub ruled_out: Vec<RuledOut>,

@@ -1,8 +1,8 @@
 //! [`in_order`]: processes the items of a stream in parallel and returns the results in order, with bounded memory.
 //!
-//! One thread reads the items, several workers compute the answers, and the calling thread receives them. An item
-//! counts towards the [`Capacity`] from the time it is read until its answer has been received. A slow item or a slow
-//! receiver therefore stops the reader, and the memory stays bounded.
+//! One thread reads the items, several workers compute the answers, and the calling thread receives the answers. An
+//! item counts towards the [`Capacity`] from the time it is queued until its answer has been received. A slow item or a
+//! slow receiver therefore stops the reader, and the memory stays bounded.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
@@ -44,8 +44,9 @@ pub trait ByteSize {
 struct State<T> {
     /// Items that no worker has taken yet, with their numbers.
     waiting: VecDeque<(u64, T)>,
-    /// Items in progress, and their bytes.
+    /// The number of items in progress.
     items: usize,
+    /// The total size of the items in progress, in bytes.
     bytes: usize,
     /// Whether the reader has reached the end of the input.
     ended: bool,
@@ -55,9 +56,9 @@ struct State<T> {
 
 struct Shared<T> {
     state: Mutex<State<T>>,
-    /// Signalled when an item is waiting or the input has ended.
+    /// Signalled when an item is waiting, the input has ended, or the receiver has stopped.
     work: Condvar,
-    /// Signalled when an answer was received, which leaves space for an item.
+    /// Signalled when an answer was received, which leaves space for an item, or when the receiver has stopped.
     space: Condvar,
 }
 
@@ -73,11 +74,12 @@ impl<T> Shared<T> {
 /// stream.
 ///
 /// `receive` is called with `None` whenever no answer is ready, so that it can flush its output. If `receive` returns
-/// `Break`, everything stops. A thread that waits for input at this moment ends only when the input arrives.
+/// `Break`, this function returns, and each thread ends after its current item. A thread that waits for input ends only
+/// when the input arrives.
 ///
 /// # Panics
 ///
-/// `work` must not panic: `in_order` would wait for its answer forever.
+/// `work` must not panic. After a panic, `in_order` may wait forever, or return without the answers that are missing.
 pub fn in_order<T, R>(
     input: impl Iterator<Item = T> + Send + 'static,
     capacity: Capacity,
@@ -144,8 +146,8 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, cap
     shared.work.notify_all();
 }
 
-/// Takes items from the queue, processes them and sends the answers, until the input has ended. Runs in each worker
-/// thread.
+/// Takes items from the queue, processes them and sends the answers, until the input has ended or the receiver has
+/// stopped. Runs in each worker thread.
 fn answer_all<T: ByteSize, R>(
     shared: &Shared<T>,
     work: &impl Fn(T) -> R,

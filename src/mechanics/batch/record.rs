@@ -15,11 +15,11 @@ const MAX_RECORD_BYTES: usize = 1 << 28;
 /// The text of one scene, not parsed yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// Its file, as given by the user; `None` for standard input.
+    /// The file of the scene, as given by the user; `None` for a stream without a file, such as standard input.
     pub file: Option<PathBuf>,
-    /// Its line, counted from 1; `None` if the file contains only this scene.
+    /// The line of the scene, counted from 1; `None` if the file contains only this scene or could not be opened.
     pub line: Option<usize>,
-    /// Its bytes without the line ending, or the reason why they could not be read.
+    /// The bytes of the scene without the line ending, or the reason why they could not be read.
     pub bytes: Result<Vec<u8>, String>,
 }
 
@@ -31,9 +31,9 @@ impl ByteSize for Record {
 
 /// A source of records.
 pub enum Input {
-    /// A scene on every line.
+    /// A file or stream with one scene on each line.
     Lines {
-        /// The file, unless it is a stream.
+        /// The path of the file; `None` for a stream without a file, such as standard input.
         file: Option<PathBuf>,
         /// The open stream. If `None`, the file is opened when the earlier inputs have been read.
         reader: Option<Box<dyn Read + Send>>,
@@ -178,7 +178,8 @@ impl Iterator for Records {
 }
 
 /// Reads a line. Returns its size in bytes, including the line ending, and its text without the line ending. The size
-/// is 0 at the end of the stream and after an error.
+/// is 0 at the end of the stream and if the stream cannot be read. The text is an error if the stream cannot be read or
+/// the line is too long.
 fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
     let mut line = Vec::new();
     let mut size = 0;

@@ -1,9 +1,10 @@
 //! [`Column`]: one unknown force, at least 0, and its coefficients in the equilibrium equations.
 //!
 //! The columns of a contact are the generators of the friction cone at each application point: the pure normal force
-//! n̂, and the normal force with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each costs 1 per unit. Every
-//! admissible contact force is a sum of generators with amounts ≥ 0, so the program needs no inequality for friction.
-//! The optimum is the same as in [Vallat23](crate::doc::references) §2.0.3, which uses other unknowns.
+//! n̂, and the normal force with full friction in either direction, (n̂ ± μ t̂)/(1 + μ). Each generator has the cost 1
+//! in the objective. Every admissible contact force is a sum of generators with amounts ≥ 0, so the program needs no
+//! inequality for friction. The optimum is the same as in [Vallat23](crate::doc::references) §2.0.3, which uses other
+//! unknowns.
 
 use super::{ContactTerm, GripTerm, Program};
 use crate::effect::EffectName;
@@ -15,43 +16,43 @@ use crate::interface::ContactKind;
 pub enum Force {
     /// A generator of the friction cone at an application point: friction is 0 or ±μ times the normal force.
     Ray {
-        /// The contact.
+        /// The index of the contact.
         contact: usize,
         /// The application point, 0 or 1.
         point: usize,
-        /// Normal force per unit.
+        /// Normal force per unit of the unknown.
         normal: f64,
-        /// Friction per unit, signed along (−n_y, n_x).
+        /// Friction per unit of the unknown, positive along (−n_y, n_x).
         friction: f64,
     },
-    /// A robot's force (component 0, 1) or torque (2), along `sign`.
+    /// A component of a robot's force or torque, in the direction `sign`, up to the limit of the robot.
     Grip {
-        /// The grip.
+        /// The index of the grip.
         grip: usize,
-        /// 0: force x, 1: force y, 2: torque/L.
+        /// 0: force x, 1: force y, 2: torque divided by the length scale L.
         component: usize,
         /// +1 or −1.
         sign: f64,
     },
     /// A tensile force at an application point.
     AdhesionNormal {
-        /// The contact.
+        /// The index of the contact.
         contact: usize,
-        /// The application point.
+        /// The application point, 0 or 1.
         point: usize,
     },
     /// Friction that needs no normal force, along `sign` times the tangent.
     AdhesionFriction {
-        /// The contact.
+        /// The index of the contact.
         contact: usize,
         /// +1 or −1.
         sign: f64,
     },
-    /// A component of a robot's force or torque, regardless of its limit.
+    /// A component of a robot's force or torque, in the direction `sign`, regardless of the limit of the robot.
     AdhesionGrip {
-        /// The grip.
+        /// The index of the grip.
         grip: usize,
-        /// 0: force x, 1: force y, 2: torque/L.
+        /// 0: force x, 1: force y, 2: torque divided by the length scale L.
         component: usize,
         /// +1 or −1.
         sign: f64,
@@ -89,17 +90,17 @@ impl Force {
     }
 }
 
-/// A force and its entries in the balance.
+/// One column of the program: a force, and its coefficients in the equilibrium equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Rows and values; the first `count` are used.
+    /// The coefficients as (row, value) pairs; only the first `count` pairs are used.
     places: [(usize, f64); 6],
     count: usize,
     /// The cost per unit of amount: 1 for every normal, friction or robot force, as in Vallat (2023).
     pub cost: f64,
     /// The largest amount; infinite if there is no limit.
     pub limit: f64,
-    /// The force that it represents.
+    /// The force that the column represents.
     pub force: Force,
 }
 
@@ -121,8 +122,8 @@ impl Column {
             && self.limit == other.limit
     }
 
-    /// Returns the inner product with the velocities `y` of the bodies. It is the velocity of the point of application
-    /// in the direction of the force; for a force between two bodies, it is their relative velocity.
+    /// Returns the power of one unit of the force at the velocities `y` of the blocks: the inner product of the column
+    /// and `y`. For a force between two blocks, this is the sum of the power on both blocks.
     pub fn dot(&self, y: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (row, value) in self.filled() {
@@ -255,8 +256,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
             } else {
                 &[0.0][..]
             } {
-                // Scale each generator so that the magnitudes of its normal force and its friction sum to 1. Columns then
-                // have similar sizes for every friction coefficient.
+                // Scale each generator so that the magnitudes of its normal force and its friction sum to 1. Columns
+                // then have similar sizes for every friction coefficient.
                 let (normal, friction) = if *side == 0.0 {
                     (1.0, 0.0)
                 } else {
@@ -296,8 +297,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
 
 /// Returns the columns of all adhesive forces of a program, which have no limits.
 ///
-/// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. There is only one adhesive
-/// friction force per interface, because the friction forces at both ends act along the same line.
+/// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. Each contact has adhesive
+/// friction at only one of its application points, because friction forces at both points act along the same line.
 pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {

@@ -7,10 +7,10 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `column` | the entries of each force in the balance rows |
+//! | `column` | the coefficients of each force in the equilibrium equations |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `parallel_joints` | a program in which nearly parallel joints are made parallel |
+//! | `parallel_joints` | simplified programs: nearly parallel joints made parallel, or slight loads omitted |
 //! | `vallat` | the program of Vallat (2023), for comparison |
 
 mod column;
@@ -45,7 +45,7 @@ pub struct Program {
     pub contacts: Vec<ContactTerm>,
     /// The grips.
     pub grips: Vec<GripTerm>,
-    /// The metres and newtons per unit.
+    /// The metres and newtons per unit of the program.
     pub scale: Scale,
 }
 
@@ -54,11 +54,11 @@ pub struct Program {
 pub struct ContactTerm {
     /// Edge or corner.
     pub kind: ContactKind,
-    /// The first body, and the arms of the application points about its centroid.
+    /// The index of the first body, and the lever arms of the application points about its centroid.
     pub on: (usize, [Vector; 2]),
-    /// The other body and the arms about its centroid; `None` for the ground.
+    /// The index of the second body, and the lever arms about its centroid; `None` if the second body is the ground.
     pub from: Option<(usize, [Vector; 2])>,
-    /// Unit normal into `on`.
+    /// Unit normal that points into the first body.
     pub normal: Vector,
     /// Friction coefficient; 0 if friction is not simulated.
     pub friction: f64,
@@ -69,11 +69,12 @@ pub struct ContactTerm {
 /// A grip in scaled numbers.
 #[derive(Clone, Debug)]
 pub struct GripTerm {
-    /// The held block.
+    /// The index of the held body.
     pub block: usize,
-    /// Arm of the grip point about the block's centroid.
+    /// Lever arm of the grip point about the body's centroid.
     pub arm: Vector,
-    /// Limits of force x, force y and torque/L; infinite without a limit, 0 if the component is not simulated.
+    /// Limits of force x, force y and torque divided by L; infinite without a limit, 0 if the component is not
+    /// simulated.
     pub limits: [f64; 3],
 }
 
@@ -124,9 +125,9 @@ impl Program {
     /// Returns the program without those limits of robots that are far above the loads. `None` if there are no such
     /// limits.
     ///
-    /// A limit adds a row and an unknown, and a limit of 10⁹ loads dominates the objective numerically. The caller
-    /// checks with [`Program::allows`] whether a result exceeds an omitted limit, and then solves the program again
-    /// with all limits.
+    /// A limit adds a row and an unknown, and a limit of 10⁹ times the loads dominates the objective numerically. The
+    /// caller checks with [`Program::allows`] whether the result respects the omitted limits. If it does not, the
+    /// caller solves the program again with all limits.
     pub fn without_non_binding_limits(&self) -> Option<Program> {
         let sum: f64 = self.loads.iter().map(|v| v.abs()).sum();
         let non_binding = |limit: f64| limit.is_finite() && limit > Self::NON_BINDING_RATIO * sum;
@@ -145,7 +146,8 @@ impl Program {
         })
     }
 
-    /// True if robot forces, in program units, are within the limits of this program, up to rounding.
+    /// True if robot forces are within the limits of this program, up to rounding. `grips` has the force x, force y and
+    /// torque of each grip, in program units.
     pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
         self.grips.iter().zip(grips).all(|(term, given)| {
             term.limits

@@ -14,11 +14,12 @@ const PARALLEL_TOL: f64 = 1e-5;
 /// Rotations below this, in radians, are the rounding of the angles themselves.
 const ROUNDING_TOL: f64 = 1e-12;
 
-/// Loads below this fraction of the largest one are slight.
+/// Components of loads below this fraction of the largest component are slight.
 const SLIGHT: f64 = 1e-6;
 
 impl Program {
-    /// Returns the program without its slight loads. `None` if it has none.
+    /// Returns the program without its slight loads, which are below a millionth of the largest load component. `None`
+    /// if there are no slight loads.
     ///
     /// A load of 10⁻⁸ of the weights can require a force that does not contribute to the balance of other loads. The
     /// solver, which is accurate to 10⁻⁹, then ends without a result. Without this load it solves the program.
@@ -38,9 +39,9 @@ impl Program {
     /// Returns the program with all nearly parallel or perpendicular joints made exactly parallel or perpendicular.
     /// `None` if this changes no joint.
     ///
-    /// A block between faces that differ by 10⁻⁶ from parallel is a very slender wedge. The faces open only if the
-    /// block moves with a velocity of 10⁶, and the solver ends without a result. It solves the program if the faces are
-    /// exactly parallel.
+    /// A block between two faces that are parallel up to an angle of 10⁻⁶ is a very slender wedge. The faces open with
+    /// a speed of 1 only if the block moves with a speed of 10⁶, so the solver ends without a result. It solves the
+    /// program if the faces are exactly parallel.
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let alignment_angles = alignment_angles(&normals);

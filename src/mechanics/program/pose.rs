@@ -4,7 +4,8 @@
 //! others.
 //!
 //! Most problems are built in their dual, the kinematic form: the unknowns are the velocities of the bodies, and the
-//! forces are the multipliers of the rows. It has three unknowns per body; the static form has six per contact.
+//! forces are the multipliers of the rows. This form has three unknowns per body; the static form has six per edge
+//! contact.
 //! Reference: Livesley, Limit analysis of structures formed from rigid blocks, 1978, for the pair of linear programs.
 
 use super::{Column, Force};
@@ -141,8 +142,8 @@ pub fn load_factor_dual(
 /// Returns the dual of the problem of the smallest change of the loads. The primal is min |λ| s.t. Σ amount·column =
 /// loads + λ·toward. The dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
 ///
-/// Also returns the rows that [`kinematic_dual`] returns. λ is the multiplier of the second-last row of the program minus
-/// the multiplier of the last row.
+/// Also returns the rows that [`kinematic_dual`] returns. λ is the multiplier of the second-last row of the problem
+/// minus the multiplier of the last row.
 pub fn nearest_factor_dual(
     loads: &[f64],
     toward: &[f64],
@@ -163,8 +164,8 @@ pub fn nearest_factor_dual(
 /// Returns the dual of the problem of the least residual: the primal is min Σ |residual of the equilibrium equations|,
 /// the dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1.
 ///
-/// The dual always has an optimum. Its multipliers are the forces with the least residual. In the motion −y, where y
-/// is its solution, the loads have the largest power.
+/// The dual always has an optimum. Its multipliers are the forces with the least residual. If y is its solution, −y is
+/// the motion in which the loads have the largest power.
 pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for row in 0..loads.len() {
@@ -227,14 +228,15 @@ pub struct Correction<'a> {
     pub size: f64,
 }
 
-/// Returns the problem of balancing `loads` with the least sum of squared forces. All amounts must be at least 0.
+/// Returns the problem of balancing `loads` with the least sum of squared forces. Every amount must be at least 0 and
+/// at most the limit of its column.
 ///
 /// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
 /// The result therefore does not depend on how the friction cone is divided into columns.
 ///
 /// With a `correction`, the unknowns are changes of given amounts, and the sum is over the squared change of each
-/// column. Squares of forces would not bound opposite columns, such as the two directions of a robot's force, and the
-/// solver would end without a result.
+/// column. The changes balance `loads`. Squares of forces would not bound opposite columns, such as the two directions
+/// of a robot's force, and the solver would end without a result.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],
@@ -244,8 +246,8 @@ pub fn least_squares(
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
     }
-    // The columns of one contact are consecutive. The inner loop therefore stops at the first column of another
-    // contact.
+    // The columns of one contact or grip are consecutive. The inner loop therefore stops at the first column of another
+    // contact or grip.
     let squared = if correction.is_some() { &[] } else { columns };
     for (j, column) in squared.iter().enumerate() {
         for (i, other) in columns[..=j].iter().enumerate().rev() {
@@ -305,28 +307,28 @@ pub fn force_primal(
     problem
 }
 
-/// Returns the inner product of two unit forces, in the components (N1, N2, T) of a contact or (F_x, F_y, M/L) of a
-/// grip.
+/// Returns the inner product of two forces of amount 1, in the components (N1, N2, T) of a contact or (F_x, F_y, M/L)
+/// of a grip.
 ///
-/// `None` if they belong to different contacts or grips, or to different kinds of columns.
+/// `None` if the forces belong to different contacts or grips, or if only one of them is adhesion.
 pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
     let ((place, u), (other, v)) = (components(a), components(b));
     (place == other).then(|| u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
 }
 
-/// Where a unit force acts, with the kind of its columns.
+/// The contact or grip at which a force acts. Adhesion has separate variants.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Site {
     Contact(usize),
     Grip(usize),
     /// Adhesion of a contact.
     ContactAdhesion(usize),
-    /// The force of a grip beyond its limits.
+    /// Adhesion of a grip: its force regardless of its limits.
     GripAdhesion(usize),
 }
 
-/// Returns where a unit force acts, and its components: (N1, N2, T) at a contact, (F_x, F_y, M/L) at a grip. Adhesion
-/// at a contact or grip has a separate site.
+/// Returns the contact or grip at which a force of amount 1 acts, and the components of the force: (N1, N2, T) at a
+/// contact, (F_x, F_y, M/L) at a grip.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

@@ -1,9 +1,9 @@
 //! [`Scale`]: the units of length and force of a program, in metres and newtons.
 //!
 //! The tolerances of an interior-point solver are absolute numbers, so its data must have a suitable size. For 3 000
-//! towers with lengths of about 1, every verdict was right if the heaviest load was between 0.1 and 10⁴. In SI units,
-//! as for large structures, half of the towers were reported as infeasible. The unit of length is therefore the median
-//! interface length, and forces are scaled so that the heaviest load is 300.
+//! towers with lengths of about 1, every verdict was right if the heaviest load was between 0.1 and 10⁴. With loads as
+//! large as those of large structures in newtons, half of the towers were reported as infeasible. The unit of length is
+//! therefore the median interface length, and forces are scaled so that the heaviest load is 300.
 
 use crate::assembly::Assembly;
 
@@ -22,8 +22,8 @@ impl Scale {
         Scale::new(assembly.length, assembly.heaviest_load())
     }
 
-    /// The heaviest load of a frame in scaled units. The verdicts were also right with a tenth of this value and with
-    /// ten times this value.
+    /// The heaviest load of an assembly in scaled units. The verdicts were also right with a tenth of this value and
+    /// with ten times this value.
     pub const HEAVIEST: f64 = 300.0;
 
     /// Chooses the units from a median interface length (m) and the heaviest load (N). If there are no loads, the

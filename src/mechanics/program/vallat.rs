@@ -7,9 +7,9 @@ use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
 /// Returns the linear program of [Vallat23](crate::doc::references) §2.0.7–8, in which every force may exceed its limit
 /// at the high cost β.
 ///
-/// Every interface and every grip has six unknowns. Each of these has an opposite partner at cost β. All are at least
-/// 0. The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤ limit. This program
-/// is used only to measure how much a large β reduces speed and accuracy.
+/// Every interface and every grip has six unknowns at cost 1. Each of these has an opposite partner at cost β. All
+/// unknowns are at least 0. The constraints are A_eq x = b_eq, f⁺ + f⁻ ≤ μN per application point, and robot unknowns ≤
+/// limit. This program is used only to measure how much a large β reduces speed and accuracy.
 ///
 /// The order of the unknowns is N1, f1⁺, f1⁻, N2, f2⁺, f2⁻ for each interface, then Fx±, Fy±, M± for each grip, then
 /// all opposite partners in the same order.

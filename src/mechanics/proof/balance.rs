@@ -4,7 +4,7 @@
 //! by at most τ of the body's radius R. Each force is a vector (F_x, F_y, M/R), where M is its moment about the
 //! centroid. The forces are each normal force, each friction force, each component of a robot, the weight, and the
 //! listed loads. Moving all forces by R changes M/R by at most Σ |F|. The imbalance is therefore the gauge of the
-//! residual in the zonotope of these vectors ([`zonotope_gauge`]). It has no unit, and does not depend on other
+//! residual in the zonotope of these vectors ([`zonotope_gauge`]). τ has no unit, and does not depend on other
 //! bodies.
 //!
 //! Forces are rounded numbers, so the residual is summed with twice the digits. A rounding of about 10⁻¹⁵ Σ |F| is
@@ -24,17 +24,18 @@ const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 /// The strictest threshold of any proof. The allowed rounding is scaled so that it changes τ by no more than this.
 const MIN_THRESHOLD: f64 = 1e-9;
 
-/// If an upper bound of τ is at most this, it is returned instead of τ: it is faster to compute, and a tenth of any
-/// threshold.
+/// If an upper bound of τ is at most this, it is returned instead of τ. The bound is faster to compute than τ, and this
+/// limit is at most a tenth of any threshold.
 const NEGLIGIBLE_IMBALANCE: f64 = 1e-10;
 
-/// The friction force at a contact, and the largest friction force that its normal forces allow.
+/// The friction force at a contact of a body, and the largest friction force that the normal forces of the contact
+/// allow.
 struct Cone {
     /// A friction force of 1 N as a vector (F_x, F_y, M/R).
     along: Vec3,
     /// The absolute value of the friction force, N.
     given: f64,
-    /// The largest friction that its normal forces allow, N.
+    /// The largest friction force that the normal forces of the contact allow, N.
     available: f64,
 }
 
@@ -142,8 +143,8 @@ impl BodyForces {
     }
 }
 
-/// Returns the imbalance τ of each body, in the order of the bodies. It is infinite if the body does not balance
-/// however much its forces change.
+/// Returns the imbalance τ of each body, in the order of the bodies. τ is infinite if the body does not balance however
+/// much its forces change.
 ///
 /// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {

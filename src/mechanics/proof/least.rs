@@ -1,9 +1,9 @@
 //! Computes a lower bound of the sum of forces that any balance of an assembly needs, by weak duality from a motion.
 //!
 //! If forces balance the loads, contacts and grips absorb the power P of the loads along every motion. A contact force
-//! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A robot's component absorbs at most its
-//! amount times its speed. Forces with a sum below P/δ therefore cannot balance the loads. A robot with a limit may
-//! absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
+//! absorbs at most δ(N + |T|), where δ is the worst violation of the motion. A component of a robot's force absorbs at
+//! most its amount times the speed of the grip point. Forces with a sum below P/δ therefore cannot balance the loads. A
+//! robot with a limit may absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
 
 use super::{
     Forces, Motion, NON_BINDING_RATIO, ROUNDING_TOL, moving_load, power_of_loads, worst_violation,
@@ -24,11 +24,11 @@ impl Forces {
 
 /// Returns a lower bound, N, of [`Forces::sum`] for all admissible forces that balance an assembly exactly.
 ///
-/// The bound follows from the motion. The motion must be scaled like the dual variables: a unit force may act against a
-/// speed of at most 1. The bound is 0 if the motion proves no better bound. Torques are divided by the assembly's
-/// length L.
+/// The bound follows from the motion, which has one entry for each body. The motion must be scaled like the dual
+/// variables: a unit force may act against a speed of at most 1. The bound is 0 if the motion proves no better bound.
+/// Torques are divided by the assembly's length L.
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
-    // A robot limit above this value counts as unlimited.
+    // A robot with a limit above this value counts as unlimited.
     let binding = NON_BINDING_RATIO * moving_load(assembly, motions);
     // `worst` is δ. Robot components without a limit can increase δ. For a component with a limit, the power beyond δ
     // is subtracted from the power of the loads.

@@ -9,12 +9,12 @@
 //! error is relative to the forces on the same block or at the same contact. The check of the smallest stone
 //! therefore depends neither on the heaviest block nor on the typical length.
 //!
-//! *Unstable* is proved by a motion (a collapse mechanism): the loads do work along it, and every contact only opens
-//! or slides apart. No admissible force can then resist. These are the static and the kinematic theorem of limit
-//! analysis (Livesley 1978), and weak duality of linear programs. If forces with the sum Σ(N + |T|) = F balanced the
-//! loads, then power ≤ violation · F. A motion with violation δ therefore rules out every balance with less force
-//! than power/δ ([`Proof::excluded_force_sum`]). Power is relative to the loads of the moving bodies. Rounding errors
-//! are added to the violation and subtracted from the power, so that the proof holds in spite of them.
+//! *Unstable* is proved by a motion (a collapse mechanism): no admissible contact force acts against the motion, and
+//! the loads do more work than the robots can absorb. The two proofs follow from the static and the kinematic theorem
+//! of limit analysis (Livesley 1978), and from weak duality of linear programs. If forces with the sum Σ(N + |T|) = F
+//! balanced the loads, then power ≤ violation · F. A motion with violation δ therefore rules out every balance with
+//! less force than power/δ ([`Proof::excluded_force_sum`]). Power is relative to the loads of the moving bodies.
+//! Rounding errors are added to the violation and subtracted from the power, so that the proof holds in spite of them.
 
 mod balance;
 mod least;
@@ -34,7 +34,7 @@ use crate::scene::{BlockId, Scene};
 /// The proof of a verdict: the largest errors of forces or of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
-    /// Forces that balance the loads. All numbers are without unit; 0 means an exact balance.
+    /// Forces that balance the loads. All numbers are without unit; 0 means no error.
     Forces {
         /// The largest imbalance τ of all blocks. A block balances to τ if it balances exactly after each force on it
         /// is changed by at most τ of its amount and moved by at most τ of the block's radius ([`imbalances`]).
@@ -43,18 +43,18 @@ pub enum Proof {
         worst_share: f64,
         /// The largest tensile force at an application point, relative to the forces at its contact.
         worst_pull: f64,
-        /// The largest friction beyond μN, relative to the forces at its contact, or robot component beyond its limit,
-        /// relative to that component.
+        /// The largest excess of friction over μN, relative to the forces at its contact, or of a component of a
+        /// robot's force over its limit, relative to this component.
         worst_slip: f64,
     },
-    /// A collapse mechanism. Velocities are relative to that of its fastest point.
+    /// A collapse mechanism. Both numbers are without unit: velocities are divided by the speed of the fastest point.
     Mechanism {
-        /// A lower bound, rounding included, of the power of the loads minus the power that robots can resist. It is
-        /// relative to [`moving_load`], the loads of the moving bodies weighted by their speeds.
+        /// A lower bound, rounding included, of the power of the loads minus the power that robots with limits can
+        /// absorb. It is relative to [`moving_load`], the loads of the moving bodies weighted by their speeds.
         power: f64,
-        /// An upper bound, rounding included, of the velocity against which an admissible force could act, in watts
-        /// per newton of N + |T|. Such a force acts at a contact that closes or slides within its friction cone, or
-        /// at an unlimited grip that moves.
+        /// An upper bound, rounding included, of the power that an admissible force can absorb, per unit of N + |T|.
+        /// Such a force acts at a contact that closes, or that slides without opening enough, or at an unlimited grip
+        /// that moves.
         worst_violation: f64,
     },
 }
@@ -72,8 +72,8 @@ impl Proof {
     /// loads.
     ///
     /// The solver's error is removed from motions before they are checked. At contacts that neither open nor close,
-    /// only the rounding of speeds remains, about 10⁻¹⁵. A motion therefore proves the verdict if its power exceeds
-    /// [`Proof::IMBALANCE_TOL`].
+    /// only the rounding of speeds remains, about 10⁻¹⁵. A motion without other errors therefore proves the verdict if
+    /// its power exceeds [`Proof::IMBALANCE_TOL`].
     pub const MIN_POWER_RATIO: f64 = 1e7;
 
     /// True if the proof is strong enough for a verdict: it meets [`ProofThreshold::STANDARD`].
@@ -81,7 +81,7 @@ impl Proof {
         self.meets(ProofThreshold::STANDARD)
     }
 
-    /// True if the errors of the proof are within the threshold.
+    /// True if the errors of the proof are within the threshold. The power of a motion must also exceed 10⁻¹².
     pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
             Proof::Forces { .. } => {
@@ -94,8 +94,8 @@ impl Proof {
         }
     }
 
-    /// Returns the largest error of forces: the imbalance of a body, or the pull or the slip at a joint, each relative to
-    /// the forces there. `None` for a proof by a motion.
+    /// Returns the largest error of forces: the imbalance of a body, or the pull or the slip at a joint, each relative
+    /// to the forces there. `None` for a proof by a motion.
     pub fn force_error(&self) -> Option<f64> {
         match *self {
             Proof::Forces {
@@ -111,8 +111,8 @@ impl Proof {
     /// Returns the sum of forces, Σ(N + |T|) relative to the moving loads, below which the motion excludes any balance.
     ///
     /// This sum equals power / violation, and includes the forces of robots without limits. It is infinite if the
-    /// motion violates no contact: then no forces balance the loads, however large they are. It is 0 for a proof by
-    /// forces.
+    /// violation is 0: then no forces balance the loads, however large they are. It is 0 for a proof by forces, and if
+    /// the power is not positive.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
             Proof::Mechanism {
@@ -156,7 +156,7 @@ pub struct Forces {
     pub grips: Vec<GripForces>,
 }
 
-/// The forces at one contact, newtons.
+/// The forces at one contact, in newtons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForces {
     /// Normal forces at the two application points, pressure positive.
@@ -188,13 +188,14 @@ impl Forces {
     }
 }
 
-/// The velocity of a block as a rigid body, relative to the fastest point of its mechanism.
+/// The velocity of a block as a rigid body. In results, it is divided by the speed of the fastest point of the
+/// mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Motion {
     /// The block.
     pub block: BlockId,
-    /// Velocity of its centroid.
+    /// Velocity of the block's centroid.
     pub velocity: Vector,
     /// Angular velocity, anticlockwise positive: radians per metre that the fastest point moves.
     pub spin: f64,
@@ -238,8 +239,8 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)
 }
 
-/// A grip whose limit exceeds this multiple of the moving loads counts as unlimited: in a valid motion its point must
-/// not move.
+/// A grip whose limit exceeds this multiple of the moving loads counts as unlimited: in a valid motion, its grip point
+/// must not move in the direction of this limit.
 ///
 /// A tenth of this value would reject motions in which a robot that can hold a thousand times the load gives way. With
 /// ten times this value, the rounding of a speed (10⁻¹⁵) times the limit would be a noticeable power.
@@ -317,7 +318,7 @@ pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
 const ROUNDING_TOL: f64 = 8.0 * f64::EPSILON;
 
 /// Returns the largest violation of a contact by a motion: the speed against which a contact force with N + |T| = 1
-/// would act, including rounding. It is 0 if every contact opens.
+/// would act, including rounding. It is 0 if every contact opens or is at rest.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // The velocity of a point, and the sum of the magnitudes of its terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
@@ -363,8 +364,8 @@ fn power_of_loads(assembly: &Assembly, motions: &[Motion]) -> (f64, f64) {
     (power, summed)
 }
 
-/// Returns the power of the loads along a motion, minus the largest power that limited robots can absorb, in watts.
-/// Bodies without an entry in `motions` are at rest.
+/// Returns the power of the loads along a motion, minus the largest power that robots with limits can absorb. The
+/// result is in watts if the velocities are in m/s. Bodies without an entry in `motions` are at rest.
 pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
     let motion_of: HashMap<BlockId, &Motion> = motions.iter().map(|m| (m.block, m)).collect();
     let mut power = 0.0;
@@ -392,8 +393,8 @@ pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
     power
 }
 
-/// Checks a motion, which has one entry for each body. Returns the power of the loads along it, and the largest
-/// velocity against which contacts or grips could act.
+/// Checks a motion, which has one entry for each body. Returns the power of the loads minus the power that robots with
+/// limits can absorb, and the largest velocity against which contacts or unlimited grips could act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly

@@ -3,7 +3,7 @@
 use crate::scene::SceneError;
 use crate::text::line;
 
-/// Why a step was refused. The session is unchanged.
+/// Why a session could not start, or why it refused a step. A refused step does not change the session.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {

@@ -1,12 +1,12 @@
 //! [`Session`]: places and removes blocks one by one, and returns the verdict after each step.
 //!
 //! A session is for planners and training loops that need a verdict after each step. The solution of the last step is
-//! the warm start for the next. It is accepted only with a proof. The verdict is therefore the same as for a scene
-//! file with the same blocks and holds.
+//! the warm start for the next step. The result of a warm start is accepted only with a proof. The verdict is therefore
+//! the same as for a scene file with the same blocks and holds.
 //!
-//! On a lattice, contacts are found with integer arithmetic, so a step updates only the contacts of one block. In
-//! other scenes, every new block can change the contact tolerance, which depends on all coordinates. The scene is
-//! therefore read again after each step.
+//! On a lattice without corner contacts, contacts are found with integer arithmetic, so a step updates only the
+//! contacts of one block. In other scenes, every new block can change the contact tolerance, which depends on all
+//! coordinates. The whole scene is therefore read again after a block is placed or removed.
 
 mod error;
 
@@ -48,7 +48,7 @@ use crate::solve::DeadlineGuard;
 pub struct Session {
     /// The given scene file with the blocks placed so far, without holds.
     file: SceneFile,
-    /// The scene file without bodies, robots and loads: the context for reading a single block.
+    /// The scene file without title, bodies, robots, loads and listed contacts: the context for reading a single block.
     bare: SceneFile,
     /// The block that each robot holds, with the grip point if it was given.
     grips: BTreeMap<RobotId, (String, Option<Point>)>,
@@ -130,7 +130,8 @@ impl Session {
     /// yet.
     ///
     /// # Errors
-    /// Returns an error, and places nothing, if the block is not valid, for example because it overlaps another block.
+    /// Returns an error, and places nothing, if the block is not valid, for example because it overlaps another block,
+    /// or if its id is in use.
     pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, SessionError> {
         let id = block.id.get_or_insert_with(|| self.free_number()).clone();
         if self.lookup.numbers.contains_key(&id) {
@@ -259,9 +260,9 @@ impl Session {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// Computes the margins of the placed blocks: how far friction, tilt, loads, kernel and robot limits may change
-    /// before they fall. The values equal those of [`Session::analysis`] with [`Options::margins`]. `None` if there is
-    /// no frame.
+    /// Computes the requested margins of the placed blocks: how far friction, tilt, loads and robot limits may change
+    /// before the blocks fall, and the kernel. The values equal those of [`Session::analysis`] with
+    /// [`Options::margins`]. `None` if there is no frame.
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;
@@ -316,8 +317,8 @@ impl Session {
     }
 
     /// Adds a block that consists of lattice cells, without reading the whole scene again. Returns false, and adds
-    /// nothing, if the block has no cells or overlaps another block. The caller then reads the whole scene again,
-    /// which adds the block or returns an error.
+    /// nothing, if the block has no cells or overlaps another body. The caller then reads the whole scene again,
+    /// which adds the block or returns an error. Returns an error if the block alone is not valid.
     fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
         let alone = Scene::new(SceneFile {
             blocks: vec![block.clone()],

@@ -5,15 +5,15 @@ use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{Force, Program};
 
-/// Amounts of the forces of a program, in program units.
+/// The forces at all contacts and grips of a program, in program units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amounts {
-    /// Per contact: the normal forces at its two application points, ≥ 0. In a list of adhesion they are tensile
+    /// Per contact: the normal forces at its two application points, ≥ 0. In `LeastAdhesion::adhesion` they are tensile
     /// forces.
     pub normal: Vec<[f64; 2]>,
-    /// Per contact: friction along (−n_y, n_x).
+    /// Per contact: the friction along the tangent (−n_y, n_x), where n is the contact's normal.
     pub friction: Vec<f64>,
-    /// Per grip: force x, force y, torque/L.
+    /// Per grip: the force x, force y and torque/L on the held block, where L is the unit of length of the program.
     pub grip: Vec<[f64; 3]>,
 }
 
@@ -75,7 +75,7 @@ impl Amounts {
         pairs.chain(grip.flatten()).for_each(|v| *v *= factor);
     }
 
-    /// Adds `amount` times a unit force to the forces of its contact or grip.
+    /// Adds `amount` times the unit force `force` to the forces of its contact or grip.
     pub fn add(&mut self, force: Force, amount: f64) {
         match force {
             Force::Ray {

@@ -2,14 +2,14 @@
 
 use crate::program::QuadraticProgram;
 
-/// The status with which a solver ended.
+/// How a solver ended: with an optimum, with a certificate that there is none, or without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// x, s and z are an optimum.
     Solved,
     /// The rows contradict each other; z is a certificate (Aᵀz = 0, bᵀz < 0).
     Infeasible,
-    /// The objective has no lower bound; x is a direction along which it decreases without limit.
+    /// The objective has no lower bound; x is a direction along which the objective decreases without limit.
     Unbounded,
     /// The solver ended without a result: too many iterations, the deadline, or numerical trouble.
     Unsolved,
@@ -18,11 +18,11 @@ pub enum Status {
 /// The result of a solver.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The status.
+    /// How the solver ended. The status says what `x`, `z` and `s` contain.
     pub status: Status,
     /// The unknowns; for an unbounded problem the direction of decrease.
     pub x: Vec<f64>,
-    /// The multipliers of the rows.
+    /// The multipliers of the rows; for an infeasible problem the certificate of infeasibility.
     pub z: Vec<f64>,
     /// The slacks of the rows, b − Ax.
     pub s: Vec<f64>,

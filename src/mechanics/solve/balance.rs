@@ -1,5 +1,5 @@
 //! The program of least force: finds admissible forces of least sum that balance every block, or a motion that no
-//! contact opposes.
+//! contact resists and along which the structure falls.
 //!
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
@@ -7,6 +7,7 @@
 //! 2. find the face of optima from the basic columns ([`Face::optimal_face`]);
 //! 3. on the face, find the forces of least Σ force², which are unique;
 //! 4. accept them if they balance every block and cost as much as the optimum; otherwise try another margin for step 2.
+//!    If no margin succeeds, use the optimum of step 1.
 
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
@@ -21,11 +22,13 @@ use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 pub struct Balance {
     /// Forces that balance every block, if there are any.
     pub forces: Option<Amounts>,
-    /// If no forces balance every block: a motion along which the loads do work and no contact does, three velocities
-    /// for each block.
+    /// If no forces balance every block: a motion that no contact resists, three velocities for each block. Along it,
+    /// the loads do more work than the robots can absorb. If both `forces` and `motion` are `None`, the solver ended
+    /// without a result.
     pub motion: Option<Vec<f64>>,
-    /// If forces were found: a motion along which the negative work of each unit force is at most its cost. The
-    /// loads' power along it is a lower bound of the sum of forces.
+    /// If forces were found: a motion, three velocities for each block, that proves a lower bound of their sum. The
+    /// work against each unit force is at most its cost, except for robots at their limits. The bound is the work of
+    /// the loads, minus the excess work against these robots.
     pub witness: Option<Vec<f64>>,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,
@@ -41,49 +44,52 @@ const ACTIVE_MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
 /// The largest relative difference of cost between the optimum and a balance on the face of optima.
 ///
 /// On the true face every balance has the same cost, up to the solver's error. A larger difference shows that the face
-/// has a column too many. If the tolerance were ten times larger, it would accept such a column; if it were ten times
-/// smaller, it would be within the solver's error.
+/// contains a column that does not belong to it. If the tolerance were ten times larger, a face with such a column
+/// would be accepted; if it were ten times smaller, it would be within the solver's error.
 const COST_TOL: f64 = 2e-8;
 
 /// The relative difference of cost up to which a balance is accepted if none meets [`COST_TOL`]; the cheapest one is
 /// chosen.
 ///
-/// With very high friction the solver loses digits, and the cost of a balance is then more accurate than its objective.
+/// With very high friction the solver loses digits, and the cost of a balance is then more accurate than the optimum
+/// that the solver returns.
 const ROUGH_COST_TOL: f64 = 1e-6;
 
-/// The residual that the least-squares problem may leave, relative to the largest load: half of what a proof allows.
+/// The largest residual that a balance may leave after the least-squares problem, relative to the largest load: half of
+/// what a proof allows.
 const BALANCE_TOL: f64 = 5e-8;
 
-/// From this number of blocks on, an attempt with plain conditioning stops early, and full conditioning is not tried.
+/// From this number of blocks on, an attempt with plain conditioning stops after fewer iterations, and is not followed
+/// by an attempt with full conditioning.
 const MANY_BLOCKS: usize = 200;
 
-/// The largest number of iterations for a program of many blocks.
+/// The largest number of iterations for a program of many blocks with plain conditioning.
 ///
 /// Walls of 400 to 2 000 bricks take 6 to 60 iterations unless they are within a thousandth of their limit. Closer to
 /// the limit, least force ends without a result after 100 iterations with either conditioning, while the program
 /// without cost is solved in 30.
 const MAX_ITERATIONS_MANY: usize = 60;
 
-/// The largest number of iterations in the first attempt at a program of many blocks.
+/// The largest number of iterations in the first attempt at a program of many blocks, with plain conditioning.
 ///
 /// Walls of 400 to 900 bricks take 6 iterations if they stand upright and 7 to 9 if they clearly fall. Arches of
 /// 1 000 and 10 000 stones take 11 and 13. Structures that take more are near their limit. For these, the program
 /// without cost, which is tried next, takes 12 to 20.
 const MAX_ITERATIONS_FIRST_LOOK: usize = 15;
 
-/// If more than this fraction of the basic columns is doubtful, a program of many blocks is solved again to a finer
-/// tolerance.
+/// If the doubtful columns, whose amount and slack are of similar size, are more than this fraction of the number of
+/// basic columns, a program of many blocks is solved again to a finer tolerance.
 ///
 /// In walls whose coordinates have 4 decimals, thousands of columns have an amount and a slack of about the same size,
 /// 10⁻⁴ of the other amounts. The face of optima found from them has no balance, and the least-squares
 /// problem takes long to show that.
 const MAX_DOUBTFUL_SHARE: f64 = 0.05;
 
-/// The finer tolerance, as a fraction of the normal one.
+/// The finer tolerance, as a fraction of the tolerance in the settings.
 const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
-/// Returns the fraction of the basic columns that are doubtful, because their amount and slack differ by a factor of
-/// less than 1000. The fraction is 0 if the dual is not solved.
+/// Returns the number of doubtful columns divided by the number of basic columns. A column is doubtful if its amount
+/// and its slack differ by a factor of less than 1000. The result is 0 if the dual is not solved.
 fn doubtful_share(solved: &Dual) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
@@ -95,17 +101,17 @@ fn doubtful_share(solved: &Dual) -> f64 {
     }
 }
 
-/// Finds forces of least sum that balance every block, or a motion that no contact opposes.
+/// Finds forces of least sum that balance every block, or a motion that no contact resists.
 pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
 }
 
-/// Like [`balance`], but with all solver settings.
+/// Like [`balance`], but the caller chooses all solver settings, not only the conditioning.
 pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_MANY)
 }
 
-/// Like [`balance_in`], but the solver stops after `MAX_ITERATIONS_FIRST_LOOK` iterations if the program has many
+/// Like [`balance_in`], but with plain conditioning the solver stops after 15 iterations if the program has many
 /// blocks.
 pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
     balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
@@ -129,7 +135,9 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     match solved.status {
         Status::Solved => {
             let effort = &mut found.effort;
-            // Steps 2 to 4: choose the optimum of least Σ force², or repair the optimum that the solver found.
+            // If the loads differ by many powers of ten, use the optimum that is accurate for light blocks, too.
+            // Otherwise choose the optimum of least Σ force² (steps 2 to 4), or repair the optimum that the solver
+            // found.
             if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
                 return balance;
             }
@@ -173,7 +181,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
 /// Computes the least force for few blocks whose loads differ by many powers of ten. The result is accurate relative to
 /// the load of each block.
 ///
-/// `None` if the loads are of similar size, if there are many blocks, or if the refinement fails.
+/// `None` if the loads are of similar size, if there are many blocks, if any balance is sufficient ([`Choice::Any`]),
+/// or if the refinement fails.
 fn balance_by_levels(
     program: &Program,
     whole: &Face,

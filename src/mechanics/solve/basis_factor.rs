@@ -1,14 +1,17 @@
 //! [`BasisFactor`]: a sparse LU factor of a square matrix whose columns are chosen among given columns.
 //!
-//! Gaussian elimination on the columns, position by position, where a position is a row of the matrix in an order with
-//! little fill-in:
+//! The factor is computed by Gaussian elimination on the columns, position by position. A position is the index of a
+//! row in an order with little fill-in. Steps at each position:
 //!
 //! 1. collect the columns whose first nonzero entry is at the position;
-//! 2. choose one of them as pivot: of the large entries, a preferred column, then the shortest;
-//! 3. subtract multiples of the pivot from the others, so that their first entries are further back.
+//! 2. choose a pivot among the columns whose entry at the position is large: a preferred column, or else the column
+//!    with the fewest entries;
+//! 3. subtract multiples of the pivot column from the other collected columns, which removes their entries at the
+//!    position.
 //!
-//! A column that becomes empty depends linearly on the chosen columns. A position without a pivot gets a unit column.
-//! Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 6 (threshold partial pivoting).
+//! A column whose entries are all eliminated depends linearly on the chosen columns. A position without a pivot gets a
+//! unit column. Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 6 (threshold partial
+//! pivoting).
 
 use crate::program::Column;
 
@@ -19,12 +22,12 @@ pub(super) type SparseColumn = Vec<(usize, f64)>;
 /// could lose one more digit; with 1, it would have more entries, and preferred columns would be refused.
 const PIVOT_RATIO: f64 = 0.1;
 
-/// Entries up to this are the rounding of columns that depend on earlier pivots. The entries of columns are near 1, and
-/// their rounding is about 1e-13. With a value of 1e-12, rounding could become a pivot; with 1e-8, columns of very
-/// short contacts would count as dependent.
+/// Smaller entries are taken for rounding errors of columns that depend linearly on earlier pivots. The entries of
+/// columns are near 1, and their rounding errors are about 1e-13. With a value of 1e-12, a rounding error could become
+/// a pivot; with 1e-8, columns of very short contacts would count as dependent.
 const PIVOT_TOL: f64 = 1e-10;
 
-/// What fills the pivot of a position.
+/// The column that is the pivot at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Pivot {
     /// The given column with this index.
@@ -42,14 +45,14 @@ pub(super) struct BasisFactor {
     upper: Vec<SparseColumn>,
     /// The subtractions in their order: (position of the changed column, position of the pivot, multiple).
     steps: Vec<(usize, usize, f64)>,
-    /// The columns that were replaced since the factorization: the position, and the new column in terms of the columns
-    /// before it (product form of the inverse, Dantzig and Orchard-Hays 1954).
+    /// The columns that were replaced since the factorization: the position, and the replaced column as a combination
+    /// of the columns after the replacement (product form of the inverse, Dantzig and Orchard-Hays 1954).
     replacements: Vec<(usize, SparseColumn)>,
 }
 
 impl BasisFactor {
-    /// Chooses columns for the given number of positions, and factors the matrix of the chosen columns. Columns with a
-    /// smaller `rank` are preferred.
+    /// Chooses one column for each of `positions` positions, and factors the matrix of the chosen columns. `rank` takes
+    /// the index of a column; columns with a smaller rank are preferred.
     pub fn new(
         mut columns: Vec<SparseColumn>,
         positions: usize,
@@ -66,7 +69,7 @@ impl BasisFactor {
         let mut steps: Vec<(usize, usize, f64)> = Vec::new();
         let mut difference = SparseColumn::new();
         for position in 0..positions {
-            // Step 1: the candidates. Step 2: the pivot.
+            // Step 1: collect the candidates. Step 2: choose the pivot. Without a pivot, use a unit column.
             let candidates = std::mem::take(&mut beginning_at[position]);
             let Some(pivot) = choose(&candidates, &columns, &rank) else {
                 for k in candidates {
@@ -94,7 +97,7 @@ impl BasisFactor {
             factor.pivots.push(Pivot::Column(pivot));
             factor.upper.push(pivot_column);
         }
-        // Only the changes of chosen columns are needed.
+        // Keep only the subtractions that changed a chosen column.
         let chosen = steps
             .into_iter()
             .map(|(k, by, multiple)| (position_of[k], by, multiple));
@@ -102,8 +105,8 @@ impl BasisFactor {
         factor
     }
 
-    /// Replaces the column at a position. `solution` is the solution of B·x = new column. Returns the number of columns
-    /// that were replaced since the factorization.
+    /// Replaces the column at a position. `solution` is the solution of B·x = new column. Returns the number of
+    /// replacements since the factorization.
     pub fn replace(&mut self, position: usize, solution: &[f64]) -> usize {
         let pivot = solution[position];
         let entries = solution.iter().enumerate().filter(|(_, v)| **v != 0.0);
@@ -150,8 +153,8 @@ impl BasisFactor {
     }
 }
 
-/// Chooses the pivot among columns whose first entries are at the same position; `None` if all these entries are
-/// rounding.
+/// Chooses the pivot among columns whose first entries are at the same position; `None` if all these entries are so
+/// small that they count as rounding errors.
 fn choose(
     candidates: &[usize],
     columns: &[SparseColumn],
@@ -188,8 +191,8 @@ fn subtract(
     }
 }
 
-/// Returns the position of each row in an order of elimination with little fill-in (approximate minimum degree,
-/// Amestoy, Davis and Duff 1996). `None` if no order is found.
+/// Returns the position of each row of `columns` in an order of elimination with little fill-in (approximate minimum
+/// degree, Amestoy, Davis and Duff 1996). The three rows of a block stay together. `None` if no order is found.
 pub(super) fn elimination_order(columns: &[Column], blocks: usize) -> Option<Vec<usize>> {
     // The neighbours of each block: the blocks that share a column with it, itself included.
     let mut neighbours: Vec<Vec<i32>> = (0..blocks).map(|k| vec![k as i32]).collect();
@@ -216,7 +219,8 @@ pub(super) fn elimination_order(columns: &[Column], blocks: usize) -> Option<Vec
     Some(position)
 }
 
-/// Returns the coefficients of a column, in the order of elimination.
+/// Returns the coefficients of a column as (position, value), sorted by position. `position` contains the position of
+/// each row in the order of elimination.
 pub(super) fn placed(column: &Column, position: &[usize]) -> SparseColumn {
     let entries = column.entries().map(|(row, value)| (position[row], value));
     let mut entries: SparseColumn = entries.collect();

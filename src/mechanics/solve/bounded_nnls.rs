@@ -1,22 +1,25 @@
 //! [`BoundedNnls`]: solves the least-squares problem with bounds, min ½|A·x − loads|² s.t. 0 ≤ x ≤ limit.
 //!
-//! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts are forces that balance
-//! it. Otherwise −r is a motion that no admissible force opposes and along which the loads do work. The reason: at
-//! the nearest point of a cone, Aᵀr ≤ 0 and loadsᵀr = |r|² (Moreau's two polar cones). The right-hand side `loads` is
-//! the negative of the load vector. Forces have no cost, so the method finds any forces that balance, not those of
-//! least sum. The result is only a candidate: the proof checks it.
+//! The residual r = loads − A·x decides whether the structure stands. If r = 0, the amounts x are forces that balance
+//! the loads. Otherwise −r is a motion that no contact resists, and along which the loads do more work than robots at
+//! their limits absorb. The reason: A·x is the admissible resultant nearest to the loads. Without limits, Aᵀr ≤ 0 and
+//! loadsᵀr = |r|² therefore hold (Moreau's two polar cones). The right-hand side `loads` is the negative of the load
+//! vector. Forces have no cost, so the method finds any forces that balance, not those of least sum. The result is only
+//! a candidate: the proof checks it.
 //!
 //! The method is the active-set method NNLS of [LawsonHanson74](crate::doc::references), chapter 23, extended by
 //! upper bounds. Steps:
 //!
-//! 1. gradient Aᵀr: columns at a bound whose gradient points inwards are candidates;
-//! 2. candidates enter the passive set;
-//! 3. least squares on the passive set, by the Cholesky factor of its Gram matrix, which is kept up to date;
-//! 4. if an amount would leave its bounds, a ratio test: move until an amount reaches its bound, remove that column,
-//!    repeat 3;
+//! 1. compute the gradient Aᵀr: columns at a bound whose gradient points to the inside of the bounds are candidates;
+//! 2. move candidates into the passive set, which contains the columns between their bounds;
+//! 3. solve the least-squares problem on the passive set, by the Cholesky factor of its Gram matrix, which is updated
+//!    when a column enters or leaves;
+//! 4. if an amount would leave its bounds (ratio test), move only until the first amount reaches its bound, remove that
+//!    column from the passive set, and repeat step 3;
 //! 5. if there are no candidates, the amounts are the optimum.
 //!
-//! The passive set is a warm start for a changed program: its factor depends neither on the loads nor on other columns.
+//! For a changed program, the search starts from the former passive set: its factor depends neither on the loads nor on
+//! other columns.
 
 mod search;
 
@@ -32,23 +35,23 @@ use crate::program::{Column, Force, Program, columns};
 /// rounding would make columns enter; if it were 1e-10, small contributions that the proof needs would be missed.
 const DUAL_TOL: f64 = 1e-11;
 
-/// A residual below this fraction of the loads counts as 0.
+/// A residual |r| up to this fraction of the largest load counts as 0.
 ///
 /// It is far below what a proof requires (1e-7) and above the rounding in the amounts of a few hundred bodies. If it
 /// were ten times smaller, that rounding would make columns enter and leave without end.
 const RESIDUAL_TOL: f64 = 1e-12;
 
-/// A gradient per unit of |column| below this fraction of the largest load is rounding.
+/// A gradient, divided by |column|, below this fraction of the largest load counts as rounding.
 const GRADIENT_FLOOR: f64 = 1e-13;
 
-/// A column depends linearly on the passive columns if its part orthogonal to them has at most this fraction of its
-/// squared length.
+/// A column counts as linearly dependent on the passive columns if the squared length of its part orthogonal to them is
+/// at most this fraction of its own squared length.
 ///
 /// At this fraction the new pivot still has about five digits. If it were ten times larger, needed columns that are
 /// nearly parallel to others would be refused; if it were ten times smaller, the factor would lose one more digit.
 const DEPENDENCE_TOL: f64 = 1e-11;
 
-/// The passive set may change at most this many times the number of columns.
+/// In one search, the passive set may change about this many times the number of columns.
 const MAX_PIVOTS_PER_COLUMN: usize = 4;
 
 /// The passive set of a program, and the amounts found with it.
@@ -64,8 +67,8 @@ pub struct BoundedNnls {
     at_limit: Vec<usize>,
 }
 
-/// Returns the columns (unit forces) of a program, without redundant ones. At a contact with friction, the pure normal
-/// force is redundant: it is a sum of the two rays of the friction cone.
+/// Returns the columns (unit forces) of a program, without redundant columns. At a contact with friction, the pure
+/// normal force is redundant: it is a sum of the two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
         Force::Ray {
@@ -161,7 +164,7 @@ impl BoundedNnls {
         amounts
     }
 
-    /// Returns the indices of the columns with an amount above 0: the passive columns and the columns at their limits.
+    /// Returns the indices of the columns in use: the passive columns and the columns at their limits.
     pub fn used_columns(&self) -> impl Iterator<Item = usize> + '_ {
         self.passive.iter().chain(&self.at_limit).copied()
     }
@@ -283,8 +286,8 @@ impl BoundedNnls {
         residual
     }
 
-    /// Adds column `k` to the passive set. Returns false, and adds nothing, if it depends linearly on the columns in
-    /// the set.
+    /// Adds column `k` to the passive set. Returns false, and adds nothing, if the column depends linearly on the
+    /// columns in the set.
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
         // Append the column's row to the Cholesky factor of the Gram matrix.
         let new = &columns[k];

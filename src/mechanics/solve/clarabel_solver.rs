@@ -1,7 +1,7 @@
 //! Solves a program with the conic solver clarabel.
 //!
-//! clarabel is a primal-dual interior-point method on the homogeneous embedding ([Goulart24](crate::doc::references)).
-//! These settings differ from its defaults:
+//! clarabel implements a primal-dual interior-point method on the homogeneous embedding
+//! ([Goulart24](crate::doc::references)). These settings differ from its defaults:
 //!
 //! - `direct_solve_method` is `qdldl`. The automatic choice for large programs is faer, which takes 13.1 s instead of
 //!   4.6 s at 10⁴ blocks;

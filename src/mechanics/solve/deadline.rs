@@ -5,14 +5,14 @@ use std::cell::Cell;
 use crate::clock::Instant;
 
 thread_local! {
-    /// The time after which solvers on this thread stop.
+    /// The time after which solvers on this thread stop; `None` if there is no time limit.
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// While this guard exists, all solvers on this thread stop at its deadline.
+/// While this guard exists, all solvers on this thread stop at the deadline that was given to [`DeadlineGuard::new`].
 ///
-/// A deadline belongs to a run of the program, not to one linear program. A thread-local value saves an argument in
-/// every function that solves one.
+/// The deadline applies to all optimisation programs that a thread solves, one after another. It is a thread-local
+/// value, so that it need not be an argument of every function that solves one of them.
 #[derive(Debug)]
 pub(crate) struct DeadlineGuard {
     former: Option<Instant>,

@@ -6,8 +6,8 @@
 //! kinematic:  max loadsᵀy − Σ limit·multiplier    s.t.  columnᵀy − multiplier ≤ cost
 //! ```
 //!
-//! y are the velocities, three for each block; each limited column has one multiplier. Both forms have the same
-//! solution, [`Dual`]. Reference: [Livesley78](crate::doc::references).
+//! y are the velocities, three for each block. Each column with a limit has one multiplier, which is ≥ 0. A [`Dual`]
+//! contains the solution of both forms. Reference: [Livesley78](crate::doc::references).
 
 use super::amounts::Effort;
 use super::answer::{Answer, Status};
@@ -18,7 +18,7 @@ use crate::program::{Column, QuadraticProgram, force_primal, kinematic_dual};
 /// The solution of a linear program and of its kinematic dual.
 #[derive(Clone, Debug)]
 pub struct Dual {
-    /// The status of the kinematic form. If it is `Unbounded`, `y` is the negative of a motion that no contact opposes.
+    /// The status of the kinematic form. If it is `Unbounded`, −y is a motion that no contact resists.
     pub status: Status,
     /// Virtual velocities, three for each block. The motion along which the loads do work is −y.
     pub y: Vec<f64>,
@@ -26,8 +26,8 @@ pub struct Dual {
     pub amounts: Vec<f64>,
     /// The slack of each column, its reduced cost: cost − columnᵀy (plus its multiplier) ≥ 0.
     pub slack: Vec<f64>,
-    /// The multiplier of each column's limit: by how much the cost falls per unit of additional limit. It is 0 for a
-    /// column without a limit.
+    /// The multiplier of each column's limit: by how much the least cost falls if the limit is raised, per unit. It is
+    /// 0 for a column without a limit.
     pub multipliers: Vec<f64>,
     /// The objective at the optimum, which is the least cost.
     pub objective: f64,

@@ -12,19 +12,21 @@ use crate::program::{Column, product};
 /// grows with the cube of the rows.
 const MAX_ROWS: usize = 120;
 
-/// The smallest pivot. With a smaller one the columns count as linearly dependent, and the balance as not unique.
+/// The smallest allowed pivot. If a pivot is smaller, the columns count as linearly dependent, and the balance as not
+/// unique.
 ///
 /// The entries are near 1. If this value were ten times smaller, the amounts could lose one more digit; if it were ten
 /// times larger, columns of short contacts would be refused.
 const PIVOT_TOL: f64 = 1e-7;
 
-/// Residuals and negative amounts up to this fraction of the largest load are rounding. It equals the solver's
+/// Residuals and negative amounts up to this fraction of the largest load count as rounding. It equals the solver's
 /// tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
 
 /// The tolerance for residuals and negative amounts in the least-squares problem, as a fraction of the largest load.
 ///
-/// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if it fails.
+/// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if the check
+/// fails.
 const STRICT_TOL: f64 = 1e-12;
 
 /// Computes the amounts of the columns that balance the loads, if they are unique, by Gaussian elimination with partial
@@ -95,12 +97,12 @@ fn eliminate(table: &mut [f64], rows: usize, n: usize) -> Option<()> {
 }
 
 /// Computes the amounts ≥ 0 of least Σ force² that balance the loads, by an active-set method. `None` if a few rounds
-/// of the method do not find them, or if it does not apply.
+/// of the method do not find them, if the method does not apply, or if there are more than 120 rows.
 ///
-/// The method applies only if Σ force² has no products of two columns, as with pure normal forces. Let p_j be Σ
-/// force² for one unit of column g_j, and y the multipliers of the balance. The optimum (Karush, Kuhn and Tucker) has
-/// λ_j = g_jᵀy / p_j for the columns in use and g_jᵀy ≤ 0 for the dropped columns. Each round solves for y and drops
-/// the columns with negative amounts.
+/// The method applies only if Σ force² contains no products of the amounts of two columns, as with pure normal forces.
+/// Let λ_j be the amount of column g_j, p_j its Σ force² for an amount of 1, and y the multipliers of the balance. At
+/// the optimum (Karush, Kuhn and Tucker), λ_j = g_jᵀy / p_j for the columns in use and g_jᵀy ≤ 0 for the dropped
+/// columns. Each round solves for y and drops the columns with negative amounts.
 pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f64>> {
     let rows = loads.len();
     let mix = |pair: &[Column]| product(&pair[0].force, &pair[1].force).is_some_and(|p| p != 0.0);
@@ -169,7 +171,7 @@ fn proved_optimum(
     (is_optimal && is_admissible && is_balanced).then_some(kept)
 }
 
-/// A pivot up to this fraction of the largest diagonal entry counts as 0: no column in use acts along its row. The
+/// A pivot up to this fraction of the largest diagonal entry counts as 0: its row depends linearly on earlier rows. The
 /// entries are sums of products, whose rounding is about 10⁻¹⁵.
 const SEMIDEFINITE_PIVOT_TOL: f64 = 1e-11;
 
@@ -196,7 +198,7 @@ fn solve_semidefinite(mut a: Vec<f64>, b: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Replaces the lower triangle of a semidefinite matrix by its Cholesky factor. Returns, for each column, whether it
-/// has a pivot. Columns without a pivot are set to 0.
+/// has a pivot. Columns without a pivot are set to 0 from the diagonal down.
 fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
     let max_diagonal = (0..n).map(|i| a[i * n + i]).fold(0.0, f64::max);
     let mut has_pivot = vec![false; n];
@@ -206,8 +208,8 @@ fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
             d -= a[j * n + k] * a[j * n + k];
         }
         if d <= SEMIDEFINITE_PIVOT_TOL * max_diagonal {
-            // No column in use acts along this row. If the loads need a force there, the later check of the balance
-            // fails.
+            // In the columns in use, this row depends linearly on earlier rows. If the loads need more than that, the
+            // later check of the balance fails.
             for i in j..n {
                 a[i * n + j] = 0.0;
             }

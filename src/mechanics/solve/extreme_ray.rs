@@ -1,15 +1,15 @@
 //! [`extreme_ray`]: moves from any motion in the cone of admissible motions to an extreme ray of the cone.
 //!
-//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is
-//! not such a sum, so it has as few hinges and slips as possible. All numbers are dimensionless. Rows and motions
-//! have a length of about 1.
+//! The cone is {y : rᵢ·y ≥ 0 for all rows rᵢ}. A motion inside it is a sum of elementary motions. An extreme ray is not
+//! such a sum, so it has as few hinges and slips as possible. A row is tight if rᵢ·y = 0; otherwise it is open, and
+//! rᵢ·y is its opening. All numbers are dimensionless. Rows and motions have a length of about 1.
 //!
-//! The method is purification, the crossover of linear programming to a vertex (Megiddo 1991). All moves keep the power
-//! b·y and every tight row, so they lie in the null space of these rows. Steps:
+//! The method is purification, the crossover of linear programming to a vertex (Megiddo 1991). No move changes the
+//! power b·y or the value of a tight row, so all moves lie in the null space of b and the tight rows. Steps:
 //!
-//! 1. direction: the projection onto the null space along which Σ openings shrinks fastest;
-//! 2. ratio test: move until the next row becomes tight;
-//! 3. remove the new tight rows from the null space; repeat until it is empty.
+//! 1. choose the direction in the null space along which Σ openings decreases fastest;
+//! 2. move in this direction until the next row becomes tight (ratio test);
+//! 3. restrict the null space to the directions that also keep the new tight rows; repeat until no direction is left.
 
 /// A sparse row or objective: (index, value) entries.
 pub(crate) type Row = Vec<(usize, f64)>;
@@ -20,14 +20,15 @@ pub(crate) type Row = Vec<(usize, f64)>;
 /// solver's error would count as an opening.
 const TIGHT_TOL: f64 = 1e-7;
 
-/// A projection onto the null space shorter than this counts as 0: the row depends on rows that were removed before.
+/// The projection of a row onto the null space counts as 0 if it is shorter than this: the row then depends linearly on
+/// rows that were removed before.
 ///
 /// Rows have a length of about 1. The limit is far above the rounding of the basis, about 1e-14. Two rows that differ
 /// by an angle above it count as independent.
 const DEPENDENCE_TOL: f64 = 1e-8;
 
-/// Returns a motion on an extreme ray of the cone {y : row·y ≥ 0 for all rows}. Its power is that of `start` scaled to
-/// length 1.
+/// Returns a motion on an extreme ray of the cone {y : row·y ≥ 0 for all rows}. `power` contains the coefficients b of
+/// the power b·y. The returned motion has the same power as `start` after `start` is scaled to length 1.
 ///
 /// `None` if the power of `start` is not positive. `start` may lie slightly outside the cone: rows that it violates by
 /// a solver's error count as tight.
@@ -81,8 +82,8 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
     Some(y)
 }
 
-/// Returns the null space of the vector `power` and of all rows that are tight at `y`, and a list of the open rows: those
-/// that are not tight.
+/// Returns the null space of the vector `power` and of all rows that are tight at `y`, and a list of the rows that are
+/// open (not tight).
 fn tight_rows_removed<'r>(
     rows: &'r [Row],
     power: &[(usize, f64)],

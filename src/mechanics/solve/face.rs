@@ -1,8 +1,8 @@
 //! [`Face`]: the set of all optima of a linear program, and the balance of least Σ force² on it.
 //!
 //! An interior-point method ends in the relative interior of the face of optima, where the solution is strictly
-//! complementary. A column therefore belongs to the face exactly if its amount exceeds its slack (Goldman and Tucker
-//! 1956).
+//! complementary. A column therefore belongs to the face exactly if its amount exceeds its slack, which is its reduced
+//! cost (Goldman and Tucker 1956).
 
 use super::amounts::{Amounts, Effort};
 use super::answer::Status;
@@ -11,13 +11,14 @@ use super::exact;
 use super::settings::SolverSettings;
 use crate::program::{Column, Program, least_squares};
 
-/// A face of the polyhedron of balances. It is described by the columns whose amounts may vary on the face, and by
-/// the columns that are at their limits everywhere on the face.
+/// A face of the polyhedron of all balances (admissible forces that balance the loads). It is described by the columns
+/// whose amounts may vary on the face, and by the columns that are at their limits everywhere on the face. All other
+/// columns are 0.
 #[derive(Clone)]
 pub(super) struct Face {
     /// The loads that `columns` must balance: the given loads minus the forces of the columns at their limits.
     pub loads: Vec<f64>,
-    /// The columns between their bounds.
+    /// The columns whose amounts may vary between their bounds.
     pub columns: Vec<Column>,
     /// An amount for each of `columns`.
     pub amounts: Vec<f64>,
@@ -124,10 +125,10 @@ impl Face {
     }
 }
 
-/// Computes the amounts ≥ 0 of least Σ force² that balance the loads. `None` if the solver finds none.
+/// Computes the amounts ≥ 0 of least Σ force² that balance the loads. `None` if the solver finds no such amounts.
 ///
-/// If the balance is unique, or [`exact`] can prove its optimum, elimination finds it to machine precision. Otherwise a
-/// quadratic program is solved.
+/// If the balance is unique, or if [`exact`] can prove that its result is the optimum, elimination computes it to
+/// machine precision. Otherwise a quadratic program is solved.
 pub(super) fn least_squares_amounts(
     loads: &[f64],
     columns: &[Column],

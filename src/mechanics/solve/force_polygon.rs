@@ -10,7 +10,7 @@
 //! 2. Rotate n anticlockwise until n·g = 0 for some column. F is then farthest along the whole edge that begins at F,
 //!    and the multipliers of the basis for this n are the motion beyond the edge.
 //! 3. Move along the edge: increase the amount of this column until another amount reaches a bound.
-//! 4. Repeat until n has turned by 360°.
+//! 4. Repeat until n has turned by 360°, or until an edge is unbounded. In the second case, also walk clockwise.
 //!
 //! The results are candidates. The caller proves each force and each motion.
 
@@ -32,30 +32,32 @@ pub struct ForcePolygon {
     /// The corners, anticlockwise, and with each corner an edge that begins or ends there. If the polygon is unbounded,
     /// the edges of the first and the last corner are unbounded.
     pub corners: Vec<PolygonCorner>,
-    /// If the polygon is unbounded: forces that contain a force far along the first edge, and far along the last edge.
+    /// If the polygon is unbounded: two balances. The force of the grip is far along the first edge in the first of
+    /// them, and far along the last edge in the second.
     pub far: Option<[Amounts; 2]>,
 }
 
 /// A corner of the polygon, and one of its two edges.
 #[derive(Clone, Debug)]
 pub struct PolygonCorner {
-    /// Forces that balance the loads and contain the force of the corner, in program units.
+    /// Forces that balance the loads, in program units. The force of the grip is the corner.
     pub forces: Amounts,
     /// The outward unit normal of the edge.
     pub normal: Vector,
-    /// The motion beyond the edge: three velocities for each block. The grip point has the velocity `normal`.
+    /// The motion of the blocks if the force of the grip is beyond the edge: three velocities for each block. The grip
+    /// point has the velocity `normal`.
     pub motion: Vec<f64>,
 }
 
-/// The angles of the first direction that are tried, radians, until the polygon has a farthest force. The first points
-/// upwards, because most blocks can carry any force that presses them down. The angles are normals of edges only by
-/// chance, unlike the axes. They are 60° apart, so one of them suits every polygon that is unbounded in a range of
-/// directions of at most 120°.
+/// The angles, in radians, that are tried in turn for the first direction, until the polygon has a farthest force in
+/// this direction. The first angle points upwards, because most blocks can carry any force that presses them down. The
+/// angles are normals of edges only by chance, unlike the axes. They are 60° apart, so one of them suits every polygon
+/// that is unbounded in a range of directions of at most 120°.
 const FIRST_ANGLES: [f64; 6] = [1.747, 0.7, 2.794, -0.347, -2.442, -1.395];
 
-/// Changes of F up to this per unit of an amount are rounding. Most changes are near 1, and their rounding is about
-/// 1e-13. With 1e-11, rounding could choose a column; with 1e-7, edges of columns with little influence would be
-/// missed.
+/// Changes of the force F up to this, per unit of an amount, count as rounding. Most changes are near 1, and their
+/// rounding is about 1e-13. With 1e-11, rounding could choose a column; with 1e-7, edges of columns with little
+/// influence would be missed.
 const MIN_CHANGE: f64 = 1e-9;
 
 /// Normals that differ by at most this angle, in radians, belong to one edge. The error of a corner is at most this
@@ -67,8 +69,8 @@ const SAME_ANGLE: f64 = 1e-9;
 const SAME_FORCE: f64 = 1e-9;
 
 /// The walk has at most this many moves for each row of the program. A wall of 250 bricks needs up to 8. With a tenth
-/// of this value, walls would be computed the slow way; with ten times this value, a walk that does not end would take
-/// long.
+/// of this value, walls would need the slower method, one program for each direction; with ten times this value, a walk
+/// that does not end would take long.
 const MAX_MOVES_PER_ROW: usize = 20;
 
 /// Which way the walk goes around the polygon.
@@ -112,6 +114,7 @@ pub fn force_polygon(program: &Program, grip: usize) -> Option<ForcePolygon> {
 }
 
 /// Finds a farthest force by an interior-point method, and a basis with as many columns of this optimum as possible.
+/// `None` if there is no farthest force in any direction that is tried, or if no suitable basis is found.
 fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
     let load = match largest(&program.loads) {
         0.0 => 1.0,
@@ -210,7 +213,8 @@ fn unknowns(columns: &[Column], optimum: &Dual, position: &[usize]) -> Vec<Unkno
     columns.iter().enumerate().filter_map(unknown).collect()
 }
 
-/// A basis whose force is the farthest in a direction: the present corner of the polygon.
+/// The state of the walk around the polygon: a basis whose force of the grip is the farthest in the direction `normal`,
+/// and thus the present corner.
 #[derive(Clone)]
 struct Walk<'a> {
     program: &'a Program,
@@ -230,6 +234,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Moves every amount outside the basis to a bound (crossover to a vertex, [Megiddo91](crate::doc::references)).
+    /// `None` if the walk must end.
     fn reach_vertex(&mut self) -> Option<()> {
         for k in 0..self.forces.len() {
             let variable = &self.simplex.variables[k];
@@ -248,8 +253,8 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// Moves to a farthest force in the present direction: the primal simplex method. The interior-point method is
-    /// accurate to about nine digits, so few moves remain.
+    /// Moves to a farthest force in the present direction, by the primal simplex method. The start from the
+    /// interior-point method is accurate to about nine digits, so few moves are needed. `None` if the walk must end.
     fn reach_farthest(&mut self) -> Option<()> {
         loop {
             let changes = self.changes();
@@ -263,7 +268,7 @@ impl Walk<'_> {
     }
 
     /// Walks around the polygon once, or to an unbounded edge. Returns the corners with the edges along which the walk
-    /// left them, and the forces far along the unbounded edge.
+    /// left them, and, if an edge is unbounded, forces far along it. `None` if the walk fails.
     fn around(&mut self, way: Turn) -> Option<(Vec<PolygonCorner>, Option<Amounts>)> {
         let mut corners: Vec<PolygonCorner> = Vec::new();
         let (mut turned, mut last_turned) = (0.0, f64::NEG_INFINITY);
@@ -296,7 +301,7 @@ impl Walk<'_> {
     }
 
     /// Returns the next edge: the angle to its normal, in radians, and the column that changes along it. `None` if no
-    /// column changes the force.
+    /// column changes the force, or if the angle would be more than 180°.
     fn next_edge(&self, way: Turn) -> Option<(f64, Change)> {
         let tangent = quarter_turn(self.normal) * way.sign();
         let turns = self.changes().into_iter().map(|change| {
@@ -344,8 +349,8 @@ impl Walk<'_> {
         (0..self.forces.len()).filter_map(change).collect()
     }
 
-    /// Changes an amount outside the basis as far as possible. `None` if the walk must end: after too many moves, after
-    /// the deadline, or because of rounding.
+    /// Changes an amount outside the basis until this amount or a basic amount reaches a bound. `None` if the walk must
+    /// end: after too many moves, after the deadline, or because of rounding.
     fn move_amount(&mut self, change: &Change) -> Option<Move> {
         self.moves_left = self.moves_left.checked_sub(1)?;
         let moved = self.simplex.move_amount(change.variable, change.sign)?;
@@ -388,8 +393,8 @@ impl Walk<'_> {
 /// How the force of the grip changes with the amount of a column outside the basis.
 struct Change {
     variable: usize,
-    /// 1 if the amount can only increase, −1 if it can only decrease.
+    /// 1 if the amount can increase, −1 if it is at its upper bound and can only decrease.
     sign: f64,
-    /// The change of the force per unit.
+    /// The change of the force per unit of the amount, with the direction of `sign`.
     force: Vector,
 }

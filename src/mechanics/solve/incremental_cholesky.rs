@@ -1,11 +1,11 @@
 //! [`IncrementalCholesky`]: a Cholesky factor that is updated when a row and column is added to the matrix or removed
 //! from it.
 //!
-//! Update and downdate of a factor (Golub and Van Loan, Matrix Computations, section 6.5): a row is appended by
-//! one forward substitution and removed by Givens rotations. Rows are stored from their first nonzero entry (skyline
-//! storage). In the Gram matrix of forces, two forces have a nonzero product only if they act on a common block. If
-//! the columns are ordered by blocks, the work of a change grows with the width of the structure, not with the number
-//! of blocks.
+//! A row is appended by one forward substitution and removed by Givens rotations (update and downdate of a factor,
+//! Golub and Van Loan, Matrix Computations, section 6.5). Rows are stored from their first nonzero entry (skyline
+//! storage). In the Gram matrix of forces, two forces have a nonzero product only if they act on a common block. If the
+//! columns are ordered by blocks, the work of a change grows with the width of the structure, not with the number of
+//! blocks.
 
 /// The lower triangular factor L of the matrix L·Lᵀ.
 #[derive(Clone, Debug, Default)]
@@ -49,8 +49,8 @@ impl IncrementalCholesky {
         }
     }
 
-    /// Appends a row and column to the matrix: `products` are its entries with the former rows, `square` is its
-    /// diagonal entry.
+    /// Appends a row and column to the matrix: `products` are the entries of the new row before the diagonal, `square`
+    /// is its diagonal entry.
     ///
     /// Returns false, and appends nothing, if the new pivot is at most `min_pivot`.
     pub fn append(&mut self, mut products: Vec<f64>, square: f64, min_pivot: f64) -> bool {

@@ -1,5 +1,5 @@
-//! Iterative refinement of force amounts: scales the residual to size 1, solves for a correction that removes it, and
-//! adds this correction to the amounts.
+//! Corrects the forces of a solver, so that they balance the loads more accurately. The residual (the part of the loads
+//! that is not balanced) is scaled to size 1, and a correction that removes it is computed and added.
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
@@ -10,13 +10,13 @@ use crate::program::{Column, Correction, least_norm, least_squares};
 /// rounds reach the precision of f64.
 const MAX_ROUNDS: usize = 2;
 
-/// A residual up to this fraction of the largest load is rounding, and is not refined further.
+/// A residual up to this fraction of the largest load counts as rounding, and is not reduced further.
 const ROUNDING_TOL: f64 = 1e-14;
 
-/// Adds to the amounts the change of least Σ change² that removes their residual. It solves one linear system.
+/// Adds to the amounts the change of least Σ change² that removes their residual. This takes one linear system.
 ///
-/// An amount that would become negative is set to 0, which may leave a residual. If the system is not solved, the
-/// amounts are returned unchanged.
+/// An amount that would become negative is set to 0, which may leave a residual. Upper limits are not observed. If the
+/// solver finds no solution, the amounts are returned unchanged.
 pub(super) fn balance_by_least_change(
     loads: &[f64],
     columns: &[Column],
@@ -38,7 +38,8 @@ pub(super) fn balance_by_least_change(
     better.map(|(a, d)| (a + size * d).max(0.0)).collect()
 }
 
-/// Refines amounts until they balance the loads to rounding, or until a round does not reduce the residual.
+/// Refines amounts in at most two rounds. It stops earlier if they balance the loads up to rounding, or if a round does
+/// not reduce the residual.
 ///
 /// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and adds about nine correct
 /// digits. Without refinement, the imbalance of a very light block under a very heavy block is hidden by the rounding

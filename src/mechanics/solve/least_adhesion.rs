@@ -2,15 +2,15 @@
 //! stand. Further objectives, in this order: least force, and fewest points with adhesion.
 //!
 //! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number. Each stage
-//! keeps only the columns on the face of optima of the previous stage. Its objective can therefore not worsen the
-//! previous one. Stages:
+//! keeps only the columns on the face of optima of the previous stage. A stage therefore cannot worsen the objective of
+//! an earlier stage. Stages:
 //!
 //! 1. least Σ adhesion, where admissible forces cost nothing;
 //! 2. least Σ force, on the face of stage 1;
-//! 3. fewest points: an interior-point method spreads adhesion over all optimal points, so each round raises the cost
-//!    of columns with small amounts (reweighted ℓ₁, Candès, Wakin and Boyd 2008). The cost depends only on amounts,
-//!    not on the order of the file: a tie between mirror images stays a tie, and the figure of a mirrored scene is
-//!    the mirrored figure;
+//! 3. fewest points with adhesion: an interior-point method spreads adhesion over all points that an optimum may use.
+//!    Each round of this stage therefore raises the cost of columns with small amounts (reweighted ℓ₁, Candès, Wakin
+//!    and Boyd 2008). The cost depends only on amounts, not on the order of blocks in the file. A symmetric structure
+//!    therefore keeps symmetric forces, and the figure of a mirrored scene is the mirrored figure;
 //! 4. least Σ force² on the remaining columns, which is unique.
 
 use super::limit::columns_in;
@@ -31,13 +31,14 @@ const MAX_ROUNDS: usize = 4;
 /// of the total time.
 const MAX_ROUNDS_MANY: usize = 1;
 
-/// Costs 1/β of admissible forces relative to adhesion, tried in turn if stage 1 ends without a result at cost 0.
+/// Costs of admissible forces in stage 1, where adhesion costs 1 (1/β in Vallat (2023)). They are tried in turn if
+/// stage 1 ends without a result when these forces cost nothing.
 ///
-/// If wedged blocks can press each other without limit, the dual of stage 1 has no interior, and the solver may end
-/// without a result. With a positive cost the dual has an interior.
+/// If blocks are wedged, the forces between them can be arbitrarily large. The dual of stage 1 then has no interior,
+/// and the solver may end without a result. With a positive cost the dual has an interior.
 const FORCE_COSTS: [f64; 2] = [1e-6, 1e-4];
 
-/// Stage 3 drops adhesion at a point below this fraction of the largest adhesion.
+/// Stage 3 drops the adhesion at a point if it is below this fraction of the largest adhesion at a point.
 ///
 /// The second value is tried if the first drops adhesion that is needed, for example to carry a light load.
 const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
@@ -48,12 +49,14 @@ const DROP_TOL: [f64; 2] = [1e-5, 1e-9];
 /// At 10⁻⁹ adhesion that is only the solver's rounding is kept too, so the result has up to 40 % more points.
 const DROP_TOL_MANY: [f64; 2] = [1e-6, 1e-9];
 
-/// Whether a program has few or many blocks. This decides how it is scaled and solved.
+/// Whether a program has few or many blocks, which decides how the program is scaled and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Size {
-    /// Few blocks: loads are not scaled, and the optimum is refined to all digits.
+    /// Few blocks: loads are not scaled, and the tolerances are strict. A stage that ends without a result is solved
+    /// again with full conditioning.
     Few,
-    /// Many blocks: loads are scaled to a largest of 1, with tolerances that walls near their limit can meet.
+    /// Many blocks: loads are scaled to a largest load of 1. The tolerances are wider, so that walls near their limit
+    /// can meet them.
     Many,
 }
 
@@ -69,8 +72,8 @@ impl Size {
     }
 }
 
-/// With many blocks, stages 2 to 4 are skipped if the sum of the basic columns' slacks exceeds this multiple of the
-/// tolerance for sums of adhesion.
+/// With many blocks, stages 2 to 4 are skipped if stage 1 does not separate basic columns clearly from the others: the
+/// sum of the slacks of basic columns exceeds this multiple of the tolerance for sums of adhesion.
 ///
 /// If each of these columns carried the largest load, the sum of adhesion would grow by the sum of their slacks. In 46
 /// walls of 200 to 2 000 bricks, stage 2 had a valid answer up to a multiple of 0.11 and none from 0.96.
@@ -78,7 +81,7 @@ const MAX_BASIC_SLACK: f64 = 0.5;
 
 /// The stopping rule of stage 1 for many blocks: a finer tolerance, with which basic columns are clearly distinct.
 ///
-/// Without it, the face of optima of a wall of 2 000 bricks, rotated by 40°, contained no balance in stage 2.
+/// Without this rule, the face of optima of a wall of 2 000 bricks, rotated by 40°, contained no balance in stage 2.
 const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
     tolerance_factor: 1e-2,
     max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY,
@@ -93,8 +96,9 @@ const ACTIVE_MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
 /// Two sums of adhesion count as equal if their relative difference is at most this.
 ///
-/// It is the solver's tolerance of 1e-9 for sums of a few tens of terms. If it were ten times smaller, valid later
-/// stages would be rejected; if it were ten times larger, stage 2 could accept more adhesion to reduce the force.
+/// It corresponds to the solver's tolerance of 1e-9 for each of a few tens of terms. If it were ten times smaller,
+/// valid later stages would be rejected; if it were ten times larger, stage 2 could accept more adhesion to reduce the
+/// force.
 const SUM_TOL: f64 = 3e-8;
 
 /// [`SUM_TOL`] for many blocks, where the sum that the solver returns is itself less accurate.
@@ -105,7 +109,7 @@ pub fn least_adhesion(program: &Program, conditioning: Conditioning) -> LeastAdh
     least_adhesion_in(program, conditioning.into())
 }
 
-/// Like [`least_adhesion`], but with all solver settings.
+/// Like [`least_adhesion`], but the caller chooses all solver settings, not only the conditioning.
 ///
 /// With many blocks the program is scaled to a largest load of 1. With loads of 300, six attempts to solve a wall of
 /// 410 bricks slightly beyond its limit each ended without a result after a hundred iterations; with loads of 1 it is
@@ -167,8 +171,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     }
 }
 
-/// Returns the result for a stage 1 that found no balance. The result contains a motion if the dual of stage 1 is
-/// unbounded.
+/// Returns the result if stage 1 found no balance. The result contains a motion if the dual of stage 1 is unbounded.
 fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort) -> LeastAdhesion {
     let none = Amounts::zero(program);
     let fallen = first.status == Status::Unbounded;
@@ -182,7 +185,8 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: computes the least Σ adhesion. Returns the optimum, and whether admissible forces had a small cost in it.
+/// Stage 1: computes the least Σ adhesion. Returns the optimum, and true if admissible forces had a small cost in its
+/// program.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -265,8 +269,8 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 
 /// Stages 2 to 4: chooses one balance among all balances of least adhesion.
 ///
-/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others. The least force
-/// decreases by a tenth while the adhesion increases by only a millionth. In this case, the balance of stage 1 is
+/// For many blocks near the limit of stability, basic columns cannot be distinguished from the others: the least force
+/// may decrease by a tenth if the adhesion increases by only a millionth. In this case, the balance of stage 1 is
 /// returned. It has the least adhesion, but not the least force.
 fn later_stages(
     whole: &Face,
@@ -300,8 +304,8 @@ fn later_stages(
     else {
         return from_first_stage();
     };
-    // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance needs. The least squares
-    // then need full conditioning: with plain conditioning they end without a result.
+    // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance would have. The
+    // least-squares problem then needs full conditioning: with plain conditioning it ends without a result.
     let squares = match size {
         Size::Many => SolverSettings {
             conditioning: Conditioning::Full,
@@ -356,8 +360,9 @@ fn least_force_face(
 
 /// Solves the kinematic dual of stage 2 or 3.
 ///
-/// With many blocks, a stage that ends without a result also does so with full conditioning, after two to four times as
-/// long. It is therefore not solved again; the caller keeps the result of the previous stage.
+/// With many blocks, a stage that ends without a result with plain conditioning would do the same with full
+/// conditioning, after two to four times as long. It is therefore not solved again; the caller keeps the result of the
+/// previous stage.
 fn solve_stage(
     face: &Face,
     size: Size,
@@ -400,8 +405,8 @@ fn concentrate(
         {
             break;
         }
-        // Reweighting: the cost of a column is about 1/amount. It is at most a thousand times the cost of the column
-        // with the largest amount.
+        // Reweighting: the cost of a column is nearly proportional to 1/amount. It is at most a thousand times the cost
+        // of the column with the largest amount.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
             if column.force.is_adhesion() {
@@ -411,8 +416,8 @@ fn concentrate(
         let solved = solve_stage(&face, size, settings, effort, |c| {
             if c.force.is_adhesion() { c.cost } else { 0.0 }
         });
-        // These columns cannot balance the loads. The least-squares problem of stage 4 would take ten times
-        // as long to show this.
+        // If the dual is unbounded, these columns cannot balance the loads. The least-squares problem of stage 4 would
+        // take ten times as long to show this.
         if size == Size::Many && solved.status == Status::Unbounded {
             return None;
         }

@@ -1,14 +1,15 @@
-//! Stages 2 to 4 of the least adhesion, for loads that differ by more powers of ten than a solver has digits.
+//! Computes the least adhesion accurately if the loads differ by more powers of ten than a solver has correct digits.
 //!
-//! The stages are those of [`super::least_adhesion`], but each is solved in refinement levels ([`super::level`]). The
-//! adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A column leaves the face of
-//! optima if its amount is exactly 0; no threshold relative to the largest force is used.
+//! The stages are those of [`super::least_adhesion`], but the optimum of each stage is refined level by level
+//! ([`super::level`]). Even the adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A
+//! column leaves the face of optima if its amount is exactly 0; no threshold relative to the largest force is used.
 
 use super::level::{WIDE_LOAD_RATIO, block_loads, lightest, refined_optimum, with_least_squares};
 use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
 use crate::program::Column;
 
-/// A least sum of adhesion below this fraction of the largest load needs a refined optimum.
+/// If the least sum of adhesion is below this fraction of the largest load, the optimum is refined until forces of the
+/// size of this sum are accurate.
 const SMALL_ADHESION: f64 = 1e-3;
 
 /// A least sum of adhesion below this fraction of the largest load counts as 0: it is the rounding of the loads.
@@ -16,14 +17,14 @@ const SMALL_ADHESION: f64 = 1e-3;
 /// A push on a heavy stone without friction needs adhesion, even if the push is far below the solver's tolerance.
 const ZERO_ADHESION: f64 = 1e-15;
 
-/// [`ZERO_ADHESION`] for many blocks, where a refinement takes long: the solver's tolerance.
+/// [`ZERO_ADHESION`] for many blocks, where a refinement takes long. It is a tenth of the solver's tolerance.
 const ZERO_ADHESION_MANY: f64 = 1e-10;
 
-/// Sums of adhesion that differ by less than this fraction are the same: a hundredth of the error that a result may
-/// have.
+/// Sums of adhesion whose relative difference is at most this count as equal. It is a hundredth of the error that a
+/// result may have.
 const SUM_TOL: f64 = 1e-8;
 
-/// A refined sum of adhesion below this multiple of the smallest accurate force is refined again.
+/// If the refined sum of adhesion is below this multiple of the smallest accurate force, the optimum is refined again.
 const REFINE_AGAIN_RATIO: f64 = 1e-2;
 
 /// The largest number of rounds of stage 3.
@@ -52,9 +53,10 @@ fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool)
 
 /// Returns the refined optimum of stage 1, and the size of the smallest forces that are accurate in it.
 ///
-/// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is
-/// the optimum of stage 1; `has_many_blocks` says whether the program has many blocks. Before the refinement, a small
-/// sum of adhesion is noise. If the refined sum is far smaller, the optimum is refined again.
+/// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is the optimum
+/// of stage 1; `has_many_blocks` says whether the program has many blocks. The unrefined sum of adhesion may consist of
+/// the solver's error. If the refined sum is far smaller than the smallest accurate force, the optimum is refined
+/// again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
@@ -76,7 +78,8 @@ pub(super) fn precise_optimum(
     }
 }
 
-/// Chooses one balance among all balances of least adhesion: least force, then fewest points with adhesion.
+/// Chooses one balance among all balances of least adhesion: the least force first, then the fewest points with
+/// adhesion, then the least Σ force².
 ///
 /// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
 pub(super) fn least_force_optimum(
@@ -118,8 +121,8 @@ fn optimum(
 
 /// Stage 3: reduces the face to few points with adhesion.
 ///
-/// In each round, the cost of an adhesion column increases if its amount is small. The amount is compared with the
-/// smaller load of the bodies that the column acts on.
+/// In each round, the cost of an adhesion column increases if its amount is small. The amount is measured relative to
+/// the smaller load of the two bodies on which the column acts.
 fn concentrate(
     mut face: Face,
     force_size: f64,

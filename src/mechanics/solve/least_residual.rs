@@ -1,14 +1,16 @@
-//! Two linear programs for components near the limit of stability, where the program of least force fails: any
-//! balance, and least residual.
+//! Two linear programs for components near the limit of stability, where the program of least force fails. One finds
+//! any forces that balance the loads, the other finds forces with the least residual.
 //!
 //! Near that limit the program of least force ends without a result: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:
 //!
-//! - *any balance*, in static form and without a cost. For a wall of 410 bricks, 10⁻⁵ of the load on either side of its
-//!   limit, it takes about 30 iterations; least force takes 200 and fails.
-//! - *least residual*, the least Σ |loads − Σ force|. If it is 0, the forces balance the loads. Otherwise the
-//!   velocities are the motion of largest power within −1 ≤ y ≤ 1. It has an optimum on both sides of the limit, and
-//!   its size shows whether the result is within the tolerance of the proofs.
+//! - *any balance*: admissible forces that balance the loads, by the static form without a cost. For a wall of 410
+//!   bricks, 10⁻⁵ of the load on either side of its limit, the solver takes about 30 iterations. With the program of
+//!   least force, it takes 200 and fails.
+//! - *least residual*: admissible forces with the least Σ |loads − Σ force|. If this sum is 0, the forces balance the
+//!   loads. Otherwise the velocities are the motion of largest power of the loads, with velocities between −1 and 1.
+//!   The program has an optimum on both sides of the limit. The size of the residual shows whether the forces balance
+//!   within the tolerance of the proofs.
 
 use super::dual::amounts_of_rows;
 use super::limit::columns_in;
@@ -19,15 +21,16 @@ use super::{
 };
 use crate::program::{Column, Program, least_residual_dual};
 
-/// Forces and a motion. One of them can be proved: the forces if they balance, otherwise the motion.
+/// Forces and a motion. A proof may accept one of them: the forces if they balance the loads, otherwise the motion.
 #[derive(Clone, Debug)]
 pub struct Residual {
     /// The admissible forces.
     pub forces: Amounts,
-    /// The motion along which the loads do work: three velocities per block. All are 0 if the forces balance.
+    /// The motion along which the loads do work, if the forces do not balance them: three velocities per block.
+    /// [`any_balance`] returns velocities of 0 if it finds forces.
     pub motion: Vec<f64>,
-    /// Whether the result is reliable: the forces balance, the motion's power is well above the tolerance of the
-    /// proofs, or the residual is the least.
+    /// True if the forces balance the loads, if the loads' power along the motion is well above the tolerance of the
+    /// proofs, or if the residual is the least possible.
     pub is_reliable: bool,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,

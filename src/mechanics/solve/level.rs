@@ -1,20 +1,20 @@
 //! Refines the optimum of a linear program until it is accurate relative to the load of each body.
 //!
-//! An interior-point method balances every body to about 10⁻⁹ of the heaviest load. For a body that is a billion
-//! times lighter, this residual is as large as the load. Iterative refinement of linear programs
-//! ([GleixnerSteffyWolter16](crate::doc::references)) solves the program again for its residual, level by level. Each
-//! level has the size of the residual of the previous level:
+//! An interior-point method balances every body to about 10⁻⁹ of the heaviest load. For a body that is a billion times
+//! lighter, this residual is as large as its own load. Iterative refinement of linear programs
+//! ([GleixnerSteffyWolter16](crate::doc::references)) solves the program again for its residual, level by level. The
+//! loads of each level have the size of the residual of the previous level:
 //!
 //! 1. Residual: loads − Σ amount·column is summed with twice the digits. Its largest entry is ρ.
-//! 2. Classification: a column is *basic* if its amount is far above ρ and its slack nearly 0. A change of size ρ
-//!    cannot bring it to a bound, so its change may have either sign and has no cost. Every other column starts again
-//!    from a bound, with its reduced cost.
+//! 2. Classification: a column is *basic* if its amount is far above ρ and far from its limit, and its slack is nearly
+//!    0. A change of size ρ cannot bring its amount to a bound, so the change may have either sign and has no cost. The
+//!    amount of every other column starts again from a bound, with its reduced cost.
 //! 3. Correction: the program of the changes is scaled to loads of 1 and solved. Its solution corrects the amounts, its
 //!    multipliers correct the velocities.
-//! 4. Clean-up: a column whose slack exceeds its amount is set exactly to its bound.
+//! 4. Clean-up: if the slack of a column exceeds its amount, the amount is set exactly to its bound.
 //!
-//! The velocities of a light body are not accurate until a level has the size of its load. Each level adds about six
-//! correct digits.
+//! The velocities of a light body are not accurate until the loads of a level have the size of its load. Each level
+//! adds about six correct digits.
 
 use super::{
     Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
@@ -23,19 +23,20 @@ use super::{
 use crate::geometry::CompensatedSum;
 use crate::program::{Column, QuadraticProgram};
 
-/// The loads need refinement by levels if the lightest is below this fraction of the heaviest.
+/// The optimum needs refinement by levels if the lightest load is below this fraction of the heaviest.
 pub(super) const WIDE_LOAD_RATIO: f64 = 1e-3;
 
 /// The largest number of levels. Loads that span twelve powers of ten need four.
 const MAX_LEVELS: usize = 8;
 
-/// The amount of a basic column, and its distance from its limit, exceed this multiple of ρ.
+/// The amount of a basic column, and the distance of the amount from its limit, exceed this multiple of the residual ρ.
 ///
 /// A change may be many times ρ, as the thrust of an arch is many times its load. The factor keeps such a change within
 /// the bounds.
 const BASIC_AMOUNT_RATIO: f64 = 1e3;
 
-/// The slack of a basic column is at most this. A unit of force costs about 1, and the solver's tolerance is 10⁻⁹.
+/// The slack of a basic column is at most this in absolute value. For comparison: a unit of force costs about 1, and
+/// the solver's tolerance is 10⁻⁹.
 const BASIC_SLACK: f64 = 1e-6;
 
 /// Forces this many times smaller than the loads of a level are still accurate at that level.
@@ -47,10 +48,11 @@ const BALANCE_TOL: f64 = 1e-10;
 /// The residual of a body is also at most this fraction of the smallest forces that must be accurate.
 const SMALL_FORCE_TOL: f64 = 1e-8;
 
-/// A residual up to this fraction of Σ |force| on the body is rounding and always allowed.
+/// A residual up to this fraction of Σ |force| on the body counts as rounding and is always allowed.
 const ROUNDING_TOL: f64 = 64.0 * f64::EPSILON;
 
-/// A limit above this multiple of the loads of a level cannot be reached at that level, so its row is omitted.
+/// A limit above this multiple of the loads of a level cannot be reached at that level, so the program of that level
+/// has no row for it.
 const LOOSE_LIMIT: f64 = 1e6;
 
 /// A column whose limit is below this multiple of the loads of a level is kept fixed at that level.
@@ -64,7 +66,8 @@ pub(super) fn block_loads(loads: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the load of the lightest body, where bodies without a load do not count. Infinite if no body has a load.
+/// Returns the smallest nonzero load of a body, or infinity if no body has a load. The size of a load is defined in
+/// [`block_loads`].
 pub(super) fn lightest(loads: &[f64]) -> f64 {
     let positive = block_loads(loads).into_iter().filter(|load| *load > 0.0);
     positive.fold(f64::INFINITY, f64::min)
@@ -108,8 +111,8 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
     sums.into_iter().map(CompensatedSum::value).collect()
 }
 
-/// Refines an optimum until forces of size `force_size` are accurate. `None` if a level fails, or if 8 levels are not
-/// enough.
+/// Refines an optimum until forces of size `force_size` are accurate. `None` if the solver finds no optimum at a level,
+/// or if eight levels are not enough.
 ///
 /// The resulting amounts balance every body. Every column has an amount of exactly 0 or a slack of exactly 0.
 pub(super) fn refined_optimum(
@@ -134,8 +137,8 @@ pub(super) fn refined_optimum(
     None
 }
 
-/// Returns a face with the amounts of least Σ force² on it. If these do not balance every body, the face is returned
-/// unchanged.
+/// Returns a face with the amounts of least Σ force² on it. If no amounts are found, or if they do not balance every
+/// body, the face is returned unchanged.
 pub(super) fn with_least_squares(
     face: Face,
     force_size: f64,
@@ -164,11 +167,11 @@ enum ColumnStatus {
     Upper,
     /// Its amount may increase or decrease.
     Basic,
-    /// Its amount stays the same: the limit is negligible at this level.
+    /// Its amount stays the same, because its limit is negligible compared with the loads of this level.
     Fixed,
 }
 
-/// One level: the program of the changes, scaled to loads of 1.
+/// One level: the program of the changes of the amounts, scaled to a largest load of 1.
 struct Level {
     statuses: Vec<ColumnStatus>,
     /// The loads that the changes must balance, scaled to a largest entry of 1.
@@ -196,7 +199,7 @@ impl Level {
         };
         let (mut statuses, initial): (Vec<ColumnStatus>, Vec<f64>) =
             (0..columns.len()).map(classify).unzip();
-        // The loads of this level are the residual of these initial amounts.
+        // The loads of this level are the part of the loads that these initial amounts do not balance.
         let remaining = residual(loads, columns, &initial);
         let scale = largest(&remaining);
         if scale == 0.0 || !scale.is_finite() {
@@ -273,7 +276,7 @@ impl Level {
         for (y, multiplier) in at.y.iter_mut().zip(&answer.z) {
             *y -= multiplier;
         }
-        // Step 4: a column leaves its bound only if its change exceeds its reduced cost.
+        // Step 4: an amount leaves its bound only if its change exceeds the reduced cost of the column.
         for (k, (column, status)) in columns.iter().zip(&self.statuses).enumerate() {
             let reduced = costs[k] - column.dot(&at.y);
             let change = answer.x[k];

@@ -1,10 +1,10 @@
-//! Limit analysis: computes the largest load factor, the load factor nearest to 0, or the least force or torque limit
-//! of a robot with which the loads can be balanced. Each is the optimum of one linear program.
+//! Limit analysis: computes the largest load factor, the load factor nearest to 0, or the least limit of a robot's
+//! force or torque with which the loads can be balanced. Each value is the optimum of one linear program.
 //!
 //! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
-//! kinematic theorem. It has one row more than the program of least force, directionᵀy ≥ 1, and λ is the multiplier
-//! of this row. The velocities are the collapse mechanism at the limit. The least sufficient limit of a robot is the
-//! least amount of the limited component if all other forces have no cost. Reference:
+//! kinematic theorem. Compared with the dual of the program of least force, the dual has one more row, directionᵀy ≥ 1,
+//! and λ is the multiplier of this row. The velocities are the collapse mechanism at the limit. The least sufficient
+//! limit of a robot's component is the least amount of this component, if no other force has a cost. Reference:
 //! [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
@@ -22,13 +22,13 @@ pub enum Limit {
     At(f64),
     /// No value allows a balance.
     Infeasible,
-    /// Every value allows a balance: the load factor may grow without limit.
+    /// The load factor may grow without limit.
     Unbounded,
-    /// The solver ended without a result.
+    /// The solver ended without a result, so nothing is known about the value.
     Unsolved,
 }
 
-/// The forces and the motion at the extreme value.
+/// The extreme value of a load factor or of a robot's limit, with the forces and the motion at this value.
 #[derive(Clone, Debug)]
 pub struct ExtremeValue {
     /// The extreme value.
@@ -36,8 +36,8 @@ pub struct ExtremeValue {
     /// Forces that balance the loads at the extreme value; `None` if `limit` is not [`Limit::At`].
     pub forces: Option<Amounts>,
     /// Three velocities for each block. With [`Limit::At`], they are the collapse mechanism just beyond the extreme
-    /// value. With [`Limit::Infeasible`], they are a motion along which the loads do work for every load factor;
-    /// `None` if it was not computed.
+    /// value. With [`Limit::Infeasible`], they are a motion along which the loads do work for every load factor. `None`
+    /// in all other cases, and if no such motion was computed.
     pub motion: Option<Vec<f64>>,
 }
 
@@ -55,14 +55,14 @@ impl From<Limit> for ExtremeValue {
 /// without a result.
 const MANY_BLOCKS: usize = 200;
 
-/// The right-hand side of directionᵀy ≥ 1 for many blocks: it scales the velocities.
+/// The right-hand side of the row directionᵀy ≥ 1 for many blocks, instead of 1. It scales the velocities.
 ///
 /// With 1, the velocities of a wall of 915 bricks are about 0.001. Its limit then takes 97 iterations with full
 /// conditioning and is accurate to 10⁻⁶. With 1 000, the limit takes 38 iterations with plain conditioning and is
 /// accurate to 10⁻⁷.
 const WORK_OF_MANY_BLOCKS: f64 = 1e3;
 
-/// The tolerances that are tried in turn until the solver ends with a status.
+/// The tolerances that are tried in turn until the solver ends with a result.
 const TOLERANCES: [f64; 3] = [TOLERANCE, 10.0 * TOLERANCE, 100.0 * TOLERANCE];
 
 /// Finds the largest λ ≥ 0 for which admissible forces balance `program.loads + λ·direction`.
@@ -96,7 +96,8 @@ impl Extremum {
         }
     }
 
-    /// Computes λ from the multipliers of the last rows of the program; `None` if there are too few multipliers.
+    /// Computes λ from the multipliers of the last rows of the program; `None` if the solver returned too few
+    /// multipliers.
     fn factor(self, multipliers: &[f64]) -> Option<f64> {
         match (self, multipliers) {
             (Extremum::Largest, [.., up]) => Some(up.max(0.0)),
@@ -120,7 +121,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
         let work_rows = problem.bound.iter_mut().rev().take(extremum.rows());
         work_rows.for_each(|b| *b *= WORK_OF_MANY_BLOCKS);
     }
-    // Try the tolerances in turn until the solver ends with a status.
+    // Try the tolerances in turn until the solver ends with a result.
     for (tolerance, conditioning) in attempts(program) {
         let answer = solve(&problem, tolerance, conditioning);
         match (answer.status, extremum.factor(&answer.z)) {
@@ -178,7 +179,8 @@ impl ScaledLoads {
         })
     }
 
-    /// Returns the columns of the program without redundant ones, with limits in the unit of the scaled loads.
+    /// Returns the columns of the program without redundant columns ([`ReducedColumns`]), with limits in the unit of
+    /// the scaled loads.
     pub(super) fn columns(&self, program: &Program) -> Vec<Column> {
         ReducedColumns::new(&columns_in(program, self.load_size)).columns
     }
@@ -217,7 +219,7 @@ impl ScaledLoads {
 }
 
 /// Returns the tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain
-/// conditioning is first.
+/// conditioning is tried first, and the finest tolerance is not tried.
 pub(super) fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
@@ -260,7 +262,7 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
         |c| f64::from(u8::from(is_own(&c.force))),
     );
     match solved.status {
-        // The objective also contains the costs of other limits, so add up the amounts of this component instead.
+        // The least limit is the amount of this component, added up over its positive and its negative direction.
         Status::Solved => {
             let amounts = rebalanced(&free.loads, &columns, solved.amounts.clone());
             let owned = columns.iter().zip(&solved.amounts);

@@ -1,7 +1,7 @@
 //! [`LimitState`]: the largest load factor, and the mechanism and the amount of every column at this factor.
 //!
-//! [`largest_factor`](super::largest_factor) returns only the forces of contacts. To find out whether forces and
-//! mechanism are unique, the amount and the slack of every column are needed.
+//! [`largest_factor`](super::largest_factor) adds up the columns to the forces of contacts and grips. To find out
+//! whether forces and mechanism are unique, the amount of every single column is needed.
 
 use super::limit::{ScaledLoads, attempts, columns_in};
 use super::reduced_columns::ReducedColumns;
@@ -13,11 +13,12 @@ use crate::program::{Column, Program, load_factor_dual};
 pub struct LimitState {
     /// The largest factor.
     pub factor: f64,
-    /// The columns that were used: those of the program without redundant ones.
+    /// The columns of the program without the redundant pure normal forces (see `reduced_columns`).
     pub columns: Vec<Column>,
     /// The amount of each column at the limit, in program units, at least 0.
     pub amounts: Vec<f64>,
-    /// The collapse mechanism: three velocities for each block. The direction of the loads has power 1 along it.
+    /// The collapse mechanism: three velocities for each block. Along it, the additional load of a factor of 1 has
+    /// power 1.
     pub motion: Vec<f64>,
 }
 

@@ -1,20 +1,20 @@
-//! Solves the linear and quadratic programs of an assembly: for the least force if it stands, for the least adhesion if
-//! it falls.
+//! Solves the linear and quadratic programs of a structure: for the least force if the structure stands, and for the
+//! least adhesion if it falls.
 //!
-//! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts:
-//! [`crate::proof`] checks the forces and the motion and decides. Of several optima, the one of least Σ force² is
-//! chosen by default ([`Choice::Unique`]).
+//! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts: a verdict needs
+//! forces or a motion that [`crate::proof`] has checked. Of several optima, the optimum of least Σ force² is chosen by
+//! default ([`Choice::Unique`]).
 //!
 //! | files | what they do |
 //! |---|---|
 //! | `solver`, `clarabel_solver`, `normal`, `settings`, `answer`, `deadline` | solve one quadratic program |
-//! | `dual`, `face`, `amounts` | a linear program in terms of columns, and the face of its optima |
+//! | `dual`, `face`, `amounts`, `reduced_columns` | the linear program of forces, its dual, and the set of its optima |
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `limit_state`, `support`, `tangent` | the programs of limit analysis |
-//! | `force_polygon`, `simplex`, `basis_factor` | all forces of one grip, as a polygon, by a simplex method |
-//! | `level`, `least_adhesion_levels` | refine their optima if loads differ by many powers of ten |
+//! | `force_polygon`, `simplex`, `basis_factor` | compute all forces that one grip may exert, as a polygon |
+//! | `level`, `least_adhesion_levels` | refine optima of these programs if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
 //! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
-//! | `wedge` | checks whether forces build up from rest |
+//! | `wedge` | checks whether the loads alone produce the forces that balance them |
 
 mod adhesion_result;
 mod amounts;

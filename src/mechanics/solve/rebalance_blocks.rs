@@ -1,13 +1,13 @@
 //! Changes the forces of a solver slightly until every block is balanced relative to the forces on that block.
 //!
-//! A solver balances every block to a billionth of the heaviest load. For a wall as a whole, this is accurate. For
-//! a pebble in the wall, however, the error can exceed its weight. Two programs correct the forces by iterative
-//! refinement:
+//! A solver balances every block to a billionth of the heaviest load. For a wall as a whole, this is accurate. For a
+//! pebble in the wall, however, the error can exceed the weight of the pebble. Two programs correct the forces by
+//! iterative refinement:
 //!
-//! - [`rebalance_relative`]: the residual of each block is measured relative to the forces on it, and the change of
+//! - [`rebalance_relative`] measures the residual of each block relative to the forces on the block, and the change of
 //!   each ray of a friction cone relative to its amount. The least change is the solution of a linear system.
-//! - [`rebalance_absolute`]: the least change that keeps every amount admissible, a quadratic program. It is used for
-//!   a part of a structure that is scaled separately. The forces on this part from outside do not change.
+//! - [`rebalance_absolute`] computes the least change that keeps every amount admissible, by a quadratic program. It is
+//!   used for a part of a structure that is scaled separately. The forces on this part from outside do not change.
 //!
 //! Residuals are small differences of large forces, so they are summed with twice the digits of f64. Reference: Higham,
 //! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
@@ -28,21 +28,21 @@ const MAX_ROUNDS: usize = 4;
 /// digits.
 const IMBALANCE_WEIGHT: f64 = 1e8;
 
-/// A relative residual up to this is rounding.
+/// A residual up to this, relative to the forces on a block, counts as rounding.
 const ROUNDING_TOL: f64 = 1e-14;
 
 /// A round must gain this number of decimal digits in total, or it is rejected. It corresponds to halving one block's
 /// residual.
 const MIN_DIGITS_GAINED: f64 = 0.3;
 
-/// Amounts above this multiple of the residual get no lower bound in the program, since the change cannot make them
-/// negative.
+/// In a round, an amount may decrease by at most its own value or this multiple of the residual, whichever is smaller.
 ///
-/// The second value is tried if the first fails. On a support whose width is a millionth of a block, forces must change
-/// by a million times the residual to balance its moment.
+/// The second value is tried if no balance is found with the first value. On a support whose width is a millionth of a
+/// block, forces must change by a million times the residual to balance its moment.
 const UNBOUNDED_RATIOS: [f64; 2] = [1e4, 1e8];
 
-/// Returns the residual loads − Σ force of a program, one number for each row, and Σ |force| on each block.
+/// Returns the residual loads − Σ force of a program, one number for each row, and Σ |force| on each block, including
+/// its load.
 fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>) {
     // The sums begin with the loads; each force is then subtracted in the three rows of its block.
     let mut sums: Vec<CompensatedSum> = vec![CompensatedSum::default(); program.loads.len()];
@@ -85,8 +85,8 @@ fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>)
     (sums.into_iter().map(CompensatedSum::value).collect(), total)
 }
 
-/// Divides given forces into amounts of the program's columns. If possible, every ray of a friction cone gets an amount
-/// above 0.
+/// Divides given forces into amounts of the columns `list`. Every ray of the friction cone of a contact with pressure
+/// gets an amount above 0, unless the friction is at its limit.
 ///
 /// A contact force (N, T) with s = |T|/(μN) is divided into three parts: (1 − s)/2 of N along the normal, (1 + 3s)/4
 /// along the ray on the side of T, and (1 − s)/4 along the other ray.
@@ -272,8 +272,8 @@ fn balanced_digits(residual: &[f64], scales: &[f64]) -> f64 {
         .sum()
 }
 
-/// Changes given forces by as little as possible until they balance every block to rounding. `None` if no change
-/// improves the balance.
+/// Changes given forces by as little as possible, in up to four rounds, until they balance every block up to rounding.
+/// `None` if no change improves the balance.
 pub fn rebalance_absolute(
     program: &Program,
     amounts: &Amounts,
@@ -295,7 +295,7 @@ pub fn rebalance_absolute(
 /// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None` if it
 /// finds no such forces.
 ///
-/// Only amounts below `ratio` times the residual get a lower bound.
+/// No amount decreases by more than its own value or `ratio` times the residual (see [`UNBOUNDED_RATIOS`]).
 fn correct_once(
     program: &Program,
     list: &[Column],

@@ -1,9 +1,9 @@
 //! [`ReducedColumns`]: the columns of a program, without the pure normal forces that are sums of two rays of a
 //! friction cone.
 //!
-//! If admissible forces have no cost, a pure normal force is redundant. It is (1 + μ)/2 times the sum of the two rays
-//! of its friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Without the redundant columns, the dual has a
-//! third fewer rows.
+//! If admissible forces have no cost, the pure normal force n̂ is redundant. It is (1 + μ)/2 times the sum of the two
+//! rays of its friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Without the redundant columns, the dual has
+//! a third fewer rows.
 
 use super::Dual;
 use crate::program::{Column, Force};
@@ -27,7 +27,8 @@ impl ReducedColumns {
         }
     }
 
-    /// Returns the amounts of all columns; 0 for the omitted columns.
+    /// Returns a list with an entry for each of `all` columns: the given amounts for the remaining columns, 0 for the
+    /// omitted columns.
     pub fn expand_amounts(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, original) in amounts.iter().zip(&self.original_indices) {
@@ -36,8 +37,8 @@ impl ReducedColumns {
         full
     }
 
-    /// Converts an optimum for the remaining columns to an optimum for all columns. Half of the common amount of the
-    /// two rays of a cone becomes a pure normal force.
+    /// Converts an optimum for the remaining columns to an optimum for all columns. Where both rays of a cone have an
+    /// amount, half of the smaller amount of each ray becomes a pure normal force.
     pub fn expand_optimum(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
             amounts: self.expand_amounts(all, &solved.amounts),

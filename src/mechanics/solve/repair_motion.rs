@@ -1,13 +1,12 @@
 //! Removes a solver's error from a motion. In the corrected motion, every contact opens or stays closed, up to rounding
-//! errors. The proof subtracts any violation that remains.
+//! errors. If violations remain, the proof subtracts their effect.
 //!
 //! A motion from an interior-point method violates contacts by about a billionth of its speed. Contact forces of a
-//! billion times the loads could then oppose it. The method is iterative refinement: each round scales the violations
+//! billion times the loads could then resist it. The method is iterative refinement: each round scales the violations
 //! to size 1 and finds the shortest change that removes them, by a quadratic program. Each round adds about nine
-//! correct digits. If nothing is wedged, all contacts can open at once, and the change opens each by
-//! [`EXTRA_OPENING`], so that rounding closes none. Otherwise, contacts that cannot open stay closed up to rounding
-//! errors. Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative
-//! refinement).
+//! correct digits. If nothing is wedged, all contacts can open at once, and the change opens each by [`EXTRA_OPENING`],
+//! so that rounding closes none. Otherwise, contacts that cannot open stay closed up to rounding errors. Reference:
+//! Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
 use crate::program::{Column, Force, Program, columns, least_change};
@@ -22,7 +21,8 @@ const EXTRA_OPENING: f64 = 1e-12;
 /// close.
 const NEARLY_CLOSED: f64 = 1e3;
 
-/// If contacts cannot open, a round may leave this fraction of the worst violation. The program then has an interior.
+/// If not all contacts can open, a round may leave this fraction of the worst violation. Without this tolerance, the
+/// program of the round would have no interior.
 const MAX_REMAINING_SHARE: f64 = 1e-4;
 
 /// The solver's tolerance for a change, as a fraction of the violation that may remain.
@@ -33,19 +33,20 @@ const TOLERANCE_SHARE: f64 = 1e-2;
 /// The coarsest tolerance with which a change is solved.
 const MAX_TOLERANCE: f64 = 1e-3;
 
-/// Violations up to this are the rounding of velocities.
+/// Violations up to this count as rounding errors of velocities.
 const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// The largest number of rounds.
 const MAX_ROUNDS: usize = 5;
 
-/// A grip whose limit exceeds this multiple of the heaviest load is treated as having no limit.
+/// A grip component whose limit exceeds this multiple of the largest load is treated as having no limit, so the motion
+/// must not move it.
 const NON_BINDING_RATIO: f64 = 1e4;
 
-/// Returns a motion that no contact opposes, near a given motion. `None` if no such motion is found.
+/// Returns a motion near a given motion that no contact resists. `None` if no such motion is found.
 ///
 /// The largest velocity of the given motion must be about 1. Some motions are impossible without violations, such as
-/// the motion of a flat wedge into its notch. The corrected motion then has almost no power.
+/// the motion of a flat wedge into its notch. The loads then have almost no power along the corrected motion.
 pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> Option<Vec<f64>> {
     let firm = NON_BINDING_RATIO * program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
@@ -63,7 +64,7 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
 }
 
 /// Changes a motion until every contact opens at a speed of at least `extra` and the grip components in `held` do not
-/// move. `None` if no such motion is found.
+/// move. With `extra` = 0, small violations may remain. `None` if no such motion is found.
 fn open_contacts(
     motion: &[f64],
     held: &[Column],

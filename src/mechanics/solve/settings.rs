@@ -2,7 +2,7 @@
 
 use crate::clock::Instant;
 
-/// The default tolerance of feasibility and duality gap, relative to the data of the program.
+/// The default tolerance of infeasibility and duality gap, relative to the data of the program.
 ///
 /// It is the largest tolerance with which every frame measured in [`doc::accuracy`](crate::doc::accuracy) is decided.
 pub const TOLERANCE: f64 = 1e-9;
@@ -10,7 +10,7 @@ pub const TOLERANCE: f64 = 1e-9;
 /// The largest number of iterations for one program.
 pub const MAX_ITERATIONS: usize = 100;
 
-/// The settings of a solver: tolerance, conditioning, and whether the forces must be unique.
+/// The settings of a solver: tolerance, stopping rule, conditioning, and the choice among several optima.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolverSettings {
     /// The tolerance of feasibility and duality gap.
@@ -20,18 +20,19 @@ pub struct SolverSettings {
     pub crossover: Option<CrossoverTolerance>,
     /// How the linear systems are conditioned.
     pub conditioning: Conditioning,
-    /// Which of several balances of the same cost to return.
+    /// Which balance to return if several balances have the same cost.
     pub choice: Choice,
 }
 
 /// The stopping rule of the solver on the normal equations if basic columns must be distinguished from all others.
 ///
 /// If the optimum is strictly complementary, two to eleven iterations beyond the tolerance bring the slack of basic
-/// columns close to 0. If it is not, as in walls near their limit, no number of iterations does; stopping early then
-/// saves about ten iterations.
+/// columns close to 0. If the optimum is not strictly complementary, as in walls near their limit, more iterations do
+/// not help. The method then stops early, which saves about ten iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossoverTolerance {
-    /// The method stops at this fraction of the tolerance, if it reaches it.
+    /// The method aims at this fraction of the tolerance. If it cannot reach this fraction, the tolerance itself is
+    /// sufficient.
     pub tolerance_factor: f64,
     /// Basic columns are distinguished well enough if the sum of their slacks, relative to the cost, is at most this.
     pub max_slack: f64,
@@ -48,16 +49,17 @@ pub(super) struct StoppingCriteria {
     pub crossover: Option<CrossoverTolerance>,
     /// The largest number of iterations.
     pub iterations: usize,
-    /// The time at which the method stops without a result.
+    /// The time after which the method stops, with a result only if `tolerance` is already reached. `None` if there is
+    /// no time limit.
     pub deadline: Option<Instant>,
 }
 
 /// Which of several balances of the same cost a solver returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// Any of them: the one at which the interior-point method ends. This is sufficient for a verdict.
+    /// Any balance of least cost: the one at which the interior-point method ends. This is sufficient for a verdict.
     Any,
-    /// The one of least Σ force², which does not depend on the order of the blocks in the file.
+    /// The balance of least Σ force², which does not depend on the order of the blocks in the file.
     Unique,
 }
 
@@ -76,8 +78,9 @@ impl From<Conditioning> for SolverSettings {
 /// How the solver conditions its linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Conditioning {
-    /// No equilibration and no iterative refinement: two thirds of the time of `Full`. It is suitable for most
-    /// programs, whose numbers are all near 1, and safe because every answer is checked by a proof.
+    /// No equilibration (scaling of rows and columns) and no iterative refinement. It takes two thirds of the time of
+    /// `Full`. It is suitable for most programs, whose numbers are all near 1. It is safe, because a proof checks every
+    /// answer.
     Plain,
     /// The defaults of the solver clarabel: equilibration and iterative refinement.
     Full,

@@ -1,9 +1,9 @@
 //! [`Simplex`]: a basis of a linear program of forces, and the moves of the primal simplex method.
 //!
-//! The program: Σ amount·column = loads, with a lower and an upper bound for each amount. A *basis* has one column for
-//! each row. The amounts of all other columns are fixed, usually at a bound, and the rows determine the amounts of the
-//! basic columns. A move changes the amount of one other column until a basic amount reaches a bound; the two columns
-//! then change places. The ratio test is that of [Harris73](crate::doc::references).
+//! The constraints of the program are Σ amount·column = loads, with a lower and an upper bound for each amount. A
+//! *basis* has one column for each row. The amounts of all other columns are fixed, usually at a bound, and the rows
+//! determine the amounts of the basic columns. A move changes the amount of one other column until a basic amount
+//! reaches a bound; the two columns then change places. The ratio test is that of [Harris73](crate::doc::references).
 
 use super::basis_factor::{BasisFactor, Pivot, SparseColumn};
 
@@ -29,8 +29,9 @@ pub(super) enum Move {
     Endless,
 }
 
-/// A column with a smaller coefficient cannot leave the basis. The coefficients are near 1 and their rounding is about
-/// 1e-13. With 1e-11, the new basis could be close to singular; with 1e-7, small forces of long chains would be missed.
+/// A basic column whose amount changes by less than this, per unit of the entering column, cannot leave the basis. The
+/// coefficients are near 1 and their rounding is about 1e-13. With 1e-11, the new basis could be close to singular;
+/// with 1e-7, small forces of long chains would be missed.
 const MIN_PIVOT: f64 = 1e-9;
 
 /// An amount may be beyond its bound by this. The largest load is 1. The proof accepts errors of 1e-7 of the forces on
@@ -38,12 +39,13 @@ const MIN_PIVOT: f64 = 1e-9;
 /// violation.
 const BOUND_TOL: f64 = 1e-11;
 
-/// The basis is factored again after this many moves. With more, solutions take longer and rounding accumulates; with
-/// fewer, factors take most of the time.
+/// The basis is factored again after this many moves. With more moves, solutions take longer and rounding errors
+/// accumulate; with fewer, factorizations take most of the time.
 const MAX_REPLACEMENTS: usize = 16;
 
-/// The basis is also factored again if the leaving column has less than this fraction of the largest coefficient,
-/// because the replacement then multiplies rounding by its inverse.
+/// The basis is also factored again if the pivot of a move is small: the change of the leaving amount, per unit of the
+/// entering column, is below this fraction of the largest change. Otherwise, the division by this pivot would amplify
+/// rounding errors.
 const SMALL_PIVOT: f64 = 1e-3;
 
 /// A basis of a program, its factor, and the amounts of all columns.
@@ -54,7 +56,7 @@ pub(super) struct Simplex {
     loads: Vec<f64>,
     /// The basic variable at each position of the factor.
     basis: Vec<usize>,
-    /// The position of each variable in the basis; `None` for the others.
+    /// The position of each variable in the basis; `None` for variables outside the basis.
     position: Vec<Option<usize>>,
     factor: BasisFactor,
 }
@@ -96,9 +98,9 @@ impl Simplex {
         self.position[variable].is_some()
     }
 
-    /// Returns the amount of a basic variable for one unit more in each row, as one number for each row: the
-    /// multipliers y of the rows, with columnᵀy = 1 for this variable and 0 for the other basic columns. 0 for other
-    /// variables.
+    /// Returns, for each row, by how much the amount of a basic variable changes per unit of load in this row. These
+    /// are the multipliers y of the rows, with columnᵀy = 1 for this variable and 0 for the other basic columns. All
+    /// are 0 for a variable outside the basis.
     pub fn multipliers(&self, variable: usize) -> Vec<f64> {
         let mut y = vec![0.0; self.loads.len()];
         if let Some(position) = self.position[variable] {
@@ -108,8 +110,8 @@ impl Simplex {
         y
     }
 
-    /// Increases (`sign` = 1) or decreases (`sign` = −1) the amount of a variable outside the basis until it reaches a
-    /// bound or a basic amount does. `None` if the new basis is singular.
+    /// Increases (`sign` = 1) or decreases (`sign` = −1) the amount of a variable outside the basis until this amount
+    /// or a basic amount reaches a bound. `None` if the new basis is singular.
     pub fn move_amount(&mut self, variable: usize, sign: f64) -> Option<Move> {
         let mut change = vec![0.0; self.loads.len()];
         for (row, value) in &self.variables[variable].column {
@@ -149,9 +151,9 @@ impl Simplex {
     }
 
     /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and the position
-    /// of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, it
-    /// takes the one with the largest change, because the new basis is then farthest from singular. `None` if no amount
-    /// reaches a bound.
+    /// of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, the
+    /// amount with the largest change is taken, because the new basis is then farthest from singular. `None` if no
+    /// amount reaches a bound.
     fn ratio_test(&self, change: &[f64], sign: f64) -> Option<(f64, usize)> {
         // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
         let approaching = change.iter().enumerate().filter_map(|(position, change)| {
@@ -176,8 +178,8 @@ impl Simplex {
         Some((distance / rate, position))
     }
 
-    /// Replaces the basic variable at a position. `change` is the new column in terms of the basic columns. `None` if
-    /// the new basis is singular.
+    /// Replaces the basic variable at a position by `variable`. `change` contains the coefficients of the new column as
+    /// a combination of the basic columns. `None` if the new basis is singular.
     fn replace(&mut self, position: usize, variable: usize, change: &[f64]) -> Option<()> {
         self.position[self.basis[position]] = None;
         self.basis[position] = variable;

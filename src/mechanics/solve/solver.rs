@@ -1,9 +1,11 @@
 //! The single entry point to the solvers: takes a [`QuadraticProgram`] and returns an [`Answer`].
 //!
-//! Linear programs of many blocks are first solved on the normal equations ([`super::normal`]), all others by
-//! clarabel. If a chain of blocks, such as an arch, ends there without a result, clarabel solves it at once. Other
-//! programs are solved by clarabel only if the caller tries again with full conditioning. Data with NaN are rejected
-//! here, because the solvers would report them as solved.
+//! With plain conditioning, the module [`super::normal`] solves the programs of many blocks; clarabel solves all
+//! others. Least-squares problems of many blocks go to `normal` with either conditioning. If a quadratic program, or
+//! the program of a chain of blocks such as an arch, ends in `normal` without a result, clarabel solves it at once. For
+//! any other program without a result, clarabel is used only if the caller tries again with full conditioning.
+//!
+//! Numbers that are NaN or infinite are rejected here, because the solvers would report such a program as solved.
 
 use super::answer::{Answer, is_finite};
 use super::clarabel_solver::by_clarabel;
@@ -35,8 +37,8 @@ pub fn solve_within(
     settings: SolverSettings,
     iterations: usize,
 ) -> Answer {
-    // Do not start after the deadline: the ordering and the first factorisation of a large program take as long as many
-    // iterations.
+    // Do not start after the deadline: before its first iteration, a large program needs an ordering and a
+    // factorisation, which take as long as many iterations.
     if is_late() {
         return Answer::without_status(problem);
     }

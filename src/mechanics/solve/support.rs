@@ -1,9 +1,9 @@
 //! Computes the largest force that a grip without limits can exert in a direction while all blocks stay balanced, by
 //! one linear program.
 //!
-//! max d·F s.t. Σ amount·column = loads, where F is the force of the grip and d the direction. The dual is kinematic:
-//! max loadsᵀy s.t. columnᵀy ≤ 0, and in the motion −y the grip point has the velocity d. The multipliers of the
-//! condition on the grip point are F. The motion −y is the mechanism by which the structure fails under a larger
+//! The program is max d·F s.t. Σ amount·column = loads, where F is the force of the grip and d the direction. The dual
+//! is kinematic: max loadsᵀy s.t. columnᵀy ≤ 0, and in the motion −y the grip point has the velocity d. The multipliers
+//! of the condition on the grip point are F. The motion −y is the mechanism by which the structure fails under a larger
 //! force.
 
 use super::dual::amounts_of_rows;
@@ -18,7 +18,7 @@ use crate::program::{Column, Force, Program, kinematic_dual};
 pub enum Support {
     /// The largest force is finite.
     At {
-        /// Forces that balance the loads and contain the largest force of the grip.
+        /// Forces that balance the loads, in program units. The force of the grip is the largest one in the direction.
         forces: Amounts,
         /// The mechanism: three velocities for each block, in units of the program.
         motion: Vec<f64>,
@@ -72,8 +72,8 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
     Support::Unsolved
 }
 
-/// Returns the costs with which the least cost is the farthest force of a grip in a direction: minus the component of
-/// each column of its force along this direction, and 0 for all other columns.
+/// Returns the cost of a column for the program whose optimum is the farthest force of a grip in a direction. For the
+/// force components of this grip, the cost is minus the component along the direction; for all other columns it is 0.
 pub(super) fn farthest_cost(grip: usize, direction: Vector) -> impl Fn(&Column) -> f64 {
     move |column| match column.force {
         Force::Grip {

@@ -1,12 +1,13 @@
-//! [`Tangent`]: the least residual of a program, and a linear estimate of how it changes with the contacts.
+//! [`Tangent`]: the least residual of a program, and a linear estimate of its change if friction or the application
+//! points of contacts change.
 //!
-//! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|. It is 0 if the structure stands and above
-//! 0 if it falls. A *sibling* of the program has another friction coefficient or other application points. To first
-//! order, the V of a sibling is V plus a difference of works. This difference is the work of the contact forces along
-//! y in this program, minus their work along y in the sibling. The forces are the normal forces with full friction.
-//! This estimate is linear in the friction coefficient and in the kernel, so its zero is the next value to try:
-//! Newton's method on V. Reference: Nocedal and Wright, Numerical Optimization, 2006, section 12.8 (multipliers and
-//! sensitivity).
+//! V = max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1 is the least Σ |residual|. It is 0 if the structure stands and above 0
+//! if it falls. A *sibling* of the program has another friction coefficient or other application points. To first
+//! order, the V of a sibling is V plus a difference of works. This difference is the work of the contact forces along y
+//! in this program, minus their work along y in the sibling. The contact forces consist of the normal forces of this
+//! program, with full friction. This estimate is linear in the friction coefficient and in the shift of the application
+//! points. Its zero is the next value to try: Newton's method on V. Reference: Nocedal and Wright, Numerical
+//! Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
 use super::dual::amounts_of_rows;
 use super::limit::{columns_in, rebalanced};
@@ -15,7 +16,8 @@ use super::{Amounts, Conditioning, Effort, Face, Status, largest, solve_with_ret
 use crate::geometry::{Vector, quarter_turn};
 use crate::program::{Column, Force, Program, least_residual_dual};
 
-/// The optimum of the program of least residual.
+/// The optimum of the program of least residual, from which [`Tangent::estimate_residual`] estimates the residual of
+/// other programs.
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// V: Σ |residual|, relative to the largest load.

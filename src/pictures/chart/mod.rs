@@ -3,9 +3,9 @@
 //!
 //! Only `plot` uses plotters. plotters rounds to whole pixels, and its labels can overlap. Therefore the picture is
 //! drawn ten times as large. Then the width and height of the SVG, but not its view box, are divided by ten. A
-//! logarithmic axis shorter than a decade would have no labels. Axes therefore cover at least two whole decades, except
-//! the horizontal axis of [`growth`]. Text is measured with the built-in font, so the fonts of the machine do not
-//! change a picture.
+//! logarithmic axis shorter than a decade would have no labels. Logarithmic axes therefore cover at least two whole
+//! decades, except the horizontal axis of [`growth`]. Text is measured with the built-in font, so the fonts of the
+//! machine do not change a picture.
 
 mod plot;
 
@@ -21,7 +21,7 @@ pub const INK: &str = "#2D2D32";
 /// The colour of grid lines.
 pub const GRID: &str = "#E1E1E4";
 
-/// A series of points that belong together, in the order of their line.
+/// A series of points of one colour, joined by a line in this order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// The name in the legend.
@@ -43,7 +43,7 @@ pub struct Point {
     pub wrong: bool,
 }
 
-/// A scatter on two logarithmic axes.
+/// A scatter plot on two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
     /// The title above the picture.
@@ -52,7 +52,7 @@ pub struct Scatter {
     pub x: String,
     /// The name of the vertical axis.
     pub y: String,
-    /// The points.
+    /// The points, as one or more series.
     pub series: Vec<Series>,
     /// The meaning of the crosses, for the legend.
     pub wrong: String,
@@ -110,7 +110,7 @@ pub fn scatter(chart: &Scatter) -> Result<String, ChartError> {
 
 /// Lines on two logarithmic axes, with the name of each line at its right end.
 ///
-/// Only names distinguish the lines. Important lines are dark and thick, all others are grey.
+/// Lines have no colours of their own: important lines are dark and thick, and all others are thin and grey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     /// The title above the picture.
@@ -166,7 +166,7 @@ pub struct Bars {
 }
 
 impl Bars {
-    /// Creates a histogram of the values, with about ten bars of equal width. The edges of the bars are round numbers
+    /// Creates a histogram of the values, with five to ten bars of equal width. The edges of the bars are round numbers
     /// from 0 to at least `most`, or to at least the largest value if `most` is `None`. There are no bars if this
     /// limit is not positive and finite. A value on the edge between two bars is counted in the upper bar. The last
     /// bar also counts all larger values.

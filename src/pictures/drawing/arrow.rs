@@ -57,7 +57,7 @@ pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
 
 /// Returns the outline of an arrow along a circle around `centre`. The arrow begins at the angle `start` and turns
 /// through the angle `sweep`. Angles are in radians. They are 0 to the right of the centre and increase anticlockwise
-/// on the page. The shaft is `width` pixels wide. The outline is empty if `sweep` is zero.
+/// on the page. The shaft is `width` pixels wide. The outline is empty if `sweep` is zero or `radius` is not positive.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();

@@ -107,7 +107,7 @@ fn coded(light: f64) -> u8 {
     } else {
         1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
     };
-    // `as` saturates.
+    // The conversion with `as` clamps the value to 0 to 255.
     (255.0 * v).round() as u8
 }
 

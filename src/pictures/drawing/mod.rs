@@ -48,7 +48,7 @@ impl PagePoint {
     }
 }
 
-/// An upright rectangle on the page.
+/// A rectangle on the page whose sides are parallel to the sides of the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageRect {
     /// Upper left corner.
@@ -149,7 +149,8 @@ impl Path {
         }
     }
 
-    /// Returns the same path with a line along its outline. The line is drawn over the fill.
+    /// Returns the same path with a line along its outline. The line is drawn over the fill, unless
+    /// [`Path::fill_last`] is true.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
         Path {
             stroke: Some(stroke),

@@ -46,7 +46,8 @@ impl Outline {
         }
     }
 
-    /// Creates an upright rectangle with rounded corners. `radius` is the radius of the corners in pixels.
+    /// Creates the outline of a rectangle with rounded corners. `radius` is the radius of the corners in pixels. It is
+    /// reduced to half the shorter side if it is larger.
     pub fn rounded(rect: PageRect, radius: f64) -> Outline {
         let r = radius.min(rect.width / 2.0).min(rect.height / 2.0);
         let corner = |x: f64, y: f64| rect.at.moved(x, y);
@@ -109,7 +110,8 @@ impl Outline {
     }
 }
 
-/// Control point distance of a quarter circle of radius 1: (4/3)·tan(π/8).
+/// The distance of each control point from the nearer end of a cubic curve that approximates a quarter circle of radius
+/// 1: (4/3)·tan(π/8).
 pub(crate) const QUARTER_CIRCLE_HANDLE: f64 = 0.552_284_749_830_793_4;
 
 #[cfg(test)]

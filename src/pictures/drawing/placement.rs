@@ -1,15 +1,16 @@
 //! [`place`] finds positions for labels. Labels lie inside the page, and they do not cover drawn shapes (the ink) or
 //! other labels.
 //!
-//! The method is greedy, with one round of exchanges at the end. See Christensen, Marks and Shieber, *An empirical
+//! The method is greedy, with a few rounds of exchanges at the end. See Christensen, Marks and Shieber, *An empirical
 //! study of algorithms for point-feature label placement* (ACM Transactions on Graphics 14, 1995).
 //!
 //! 1. Labels are placed in the order of the requests, the most important first.
 //! 2. Each label takes the first of its preferred positions that is clear of ink.
-//! 3. If no preferred position is clear, the label takes the position of least cost on concentric rings around its
-//!    anchor. The cost is the distance plus penalties. A label away from its anchor gets a leader line.
-//! 4. A label without a clear position is left out.
-//! 5. Labels whose leaders cross exchange their positions if that leaves fewer crossings
+//! 3. If none is clear, the label takes the first clear position of a second list, with a leader line.
+//! 4. If the second list has no clear position either, the label takes the position of least cost on concentric rings
+//!    around its anchor. The cost is the distance plus penalties. A label away from its anchor gets a leader line.
+//! 5. A label without a clear position is left out.
+//! 6. Labels whose leaders cross exchange their positions if that leaves fewer crossings
 //!    ([`untangle`](untangle::untangle)).
 
 mod ink;
@@ -21,28 +22,30 @@ use super::{PagePoint, PageRect};
 
 pub use self::ink::Ink;
 
-/// Largest number of rings that are tried around an anchor. The distance of two rings is half a label's height.
+/// Largest number of rings that are tried around an anchor. The distance of two rings is half the height of the label,
+/// but at least 3 pixels.
 const MAX_RINGS: usize = 60;
 /// Positions tried on each ring: every 15°.
 const POSITIONS_PER_RING: usize = 24;
 /// Clear space around a label, pixels. With less space, letters seem to touch lines. With much more space, crowded
 /// figures would lose labels.
 const LABEL_CLEARANCE: f64 = 1.5;
-/// A label gets a leader line if the distance of its nearest point from the first ring is larger than this, pixels.
+/// A label on a ring gets a leader line if all of it lies farther outside the first ring than this, pixels.
 const LEADER_DISTANCE: f64 = 6.0;
-/// Cost of a leader that crosses ink, pixels of distance. To avoid such a crossing, a label may be about one line
-/// height farther away.
+/// Cost of each piece of ink that a leader crosses, pixels of distance. To avoid such a crossing, a label may be about
+/// one line height farther away.
 const INK_CROSSING_COST: f64 = 14.0;
-/// Cost of a leader that crosses another label, pixels of distance. The cost is larger than any distance on a page,
-/// because the crossed label would look deleted.
+/// Cost of each other label that a leader crosses, pixels of distance. The cost is larger than usual distances,
+/// because the crossed label would look struck out.
 const LABEL_CROSSING_COST: f64 = 1000.0;
-/// Cost of a position that the caller avoids, pixels of distance.
+/// Cost of a position for which the function `avoid` of the caller is true, pixels of distance.
 const AVOIDED_COST: f64 = 110.0;
 /// Positions whose costs differ by less than this, pixels, are equally good. The first of them is taken, so that
 /// rounding errors do not decide.
 const COST_TIE_TOL: f64 = 1e-3;
-/// After this number of labels without a free position, further labels only get a preferred position or no position,
-/// because the page is probably full. A search around an anchor among thousands of arrows takes tens of milliseconds.
+/// After this number of labels without a free position, rings are no longer searched, because the page is probably
+/// full: further labels get a position that their request lists, or none. A search of the rings around an anchor takes
+/// tens of milliseconds if there are thousands of arrows.
 const MAX_MISSES: usize = 100;
 
 /// A label that needs a position.
@@ -61,14 +64,15 @@ pub struct LabelRequest {
     pub with_leader: Vec<PagePoint>,
     /// Additional clear space around a preferred position, pixels. Positions that have this space are tried first.
     pub padding: f64,
-    /// Largest distance of the label beyond the first ring, pixels; `None` for preferred positions only.
+    /// Largest distance of the label beyond the first ring, pixels. If it is `None`, no positions on rings are tried.
     pub max_distance: Option<f64>,
 }
 
 /// The position of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Whether `avoid` is true for this position or its leader crosses another label, and no better position was free.
+    /// Whether this position was only taken because no better position was free: `avoid` is true for it, or its leader
+    /// crosses another label.
     pub avoided: bool,
     /// The label's rectangle.
     pub rect: PageRect,
@@ -94,8 +98,8 @@ pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Op
 }
 
 /// Like [`place`], with a function `avoid` of the index of a request and a rectangle. A rectangle for which `avoid` is
-/// true is used only if no other free position is nearby, and then with a leader line. `avoid` does not apply to
-/// preferred positions.
+/// true is used only if no other free position is nearby, and then with a leader line. `avoid` does not apply to the
+/// positions that a request lists.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,
@@ -187,7 +191,7 @@ fn ring_position(
         for part in 0..POSITIONS_PER_RING {
             let angle = TAU * part as f64 / POSITIONS_PER_RING as f64;
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
-            // The nearest side of the label lies on the ring, so wide labels are as near to the anchor as narrow
+            // The nearest side of the label lies about on the ring, so wide labels are as near to the anchor as narrow
             // labels.
             let (x, y) = (
                 cos * radius + cos * width / 2.0,

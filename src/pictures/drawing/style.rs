@@ -18,11 +18,11 @@ const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
 ///
-/// The built-in themes are `thesis` (the default, with the colours of the thesis), `paper` (for print, also in grey),
-/// `colourblind` (after Okabe and Ito) and `dark`. The table shows the least distance of colours that can touch; a
-/// test checks the numbers. ΔE is CIEDE2000 ([`difference`](super::difference)). For `paper` it is the difference of
-/// lightness, as in a grey print. For `colourblind` it is the least value for full colour vision and the three
-/// deficiencies.
+/// The built-in themes are `thesis` (the default, with the colours of the thesis [Vallat23](crate::doc::references)),
+/// `paper` (for print, also in grey), `colourblind` (after Okabe and Ito) and `dark`. The table shows the least
+/// distance of colours that can touch; a test checks the numbers. ΔE is CIEDE2000
+/// ([`difference`](super::difference)). For `paper`, the distance is the difference of lightness, as in a grey print.
+/// For `colourblind`, it is the least value for full colour vision and the three deficiencies.
 ///
 /// | least distance | `thesis` ΔE | `paper` ΔL* | `colourblind` ΔE | `dark` ΔE |
 /// |---|---|---|---|---|
@@ -49,13 +49,13 @@ pub struct Theme {
     pub rule: Colour,
     /// The border of an arrow, which separates it from its background.
     pub casing: Colour,
-    /// Colours of the arrows of blocks 0, 1, 2 …; the list starts again after its end.
+    /// Colours of the arrows of blocks in turn. [`Theme::arrow`] returns the colour of a block.
     pub arrows: Vec<Colour>,
-    /// Colours of robots 0, 1, 2 …; the list starts again after its end.
+    /// Colours of robots in turn. [`Theme::robot`] returns the colour of a robot.
     pub robots: Vec<Colour>,
     /// Arrows of loads.
     pub load: Colour,
-    /// Failures.
+    /// Arrows and marks of failures and of missing forces.
     pub failure: Colour,
     /// The ground.
     pub ground: Colour,
@@ -63,9 +63,9 @@ pub struct Theme {
     pub block: Colour,
     /// Outlines of blocks.
     pub outline: Colour,
-    /// The motion of a structure that falls.
+    /// Blocks in their displaced positions, for example during a collapse, and marks of changes.
     pub motion: Colour,
-    /// The area in which a resultant is safe.
+    /// Kernels: the part of an interface in which a resultant is safe, and the forces that a block can carry.
     pub safe: Colour,
     /// Colours of amplitudes in equal steps, the smallest first.
     pub amplitudes: Vec<Colour>,
@@ -81,7 +81,7 @@ pub struct Theme {
     pub sizes: Sizes,
 }
 
-/// Widths of lines and arrows.
+/// Widths of lines and arrows. The unit length is the side of a lattice cell, or a typical size of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widths {
     /// Shaft of the arrow of a force, in unit lengths.
@@ -118,7 +118,7 @@ pub struct Sizes {
 }
 
 impl Widths {
-    /// The widths of the thesis.
+    /// The widths of the thesis [Vallat23](crate::doc::references).
     pub const DEFAULT: Widths = Widths {
         force: 0.05,
         robot: 0.07,
@@ -151,8 +151,8 @@ impl Sizes {
         ..Sizes::DEFAULT
     };
 
-    /// Returns the sizes of a narrow figure whose texts would otherwise need more space than its picture. Only usual
-    /// sizes become smaller; a size that a style file sets does not change.
+    /// Returns the sizes of a narrow figure whose texts would otherwise need more space than its picture. Only sizes
+    /// with their default value become smaller; another size, which a style file sets, does not change.
     pub(crate) fn compact(self) -> Sizes {
         let smaller = |of: fn(&Sizes) -> f64| {
             let is_usual = (of(&self) - of(&Sizes::DEFAULT)).abs() < f64::EPSILON;

@@ -6,9 +6,9 @@ use super::{Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Tex
 
 /// Font size of subscripts and superscripts, as a multiple of the symbol's font size.
 const SCRIPT_SCALE: f64 = 0.68;
-/// Distance of a subscript's baseline below the letter's, as a multiple of the font size.
+/// Distance of the baseline of a subscript below the baseline of its letter, as a multiple of the font size.
 const SUBSCRIPT_DROP: f64 = 0.24;
-/// Distance of a superscript's baseline above the letter's, as a multiple of the font size.
+/// Distance of the baseline of a superscript above the baseline of its letter, as a multiple of the font size.
 const SUPERSCRIPT_RISE: f64 = 0.42;
 /// Horizontal distance of a superscript from its letter, as a multiple of the font size. It leaves space for an arrow.
 const SUPERSCRIPT_GAP: f64 = 0.2;

@@ -12,7 +12,7 @@ use skrifa::raw::{FileRef, FontRef};
 use super::advance::advance;
 use super::{Colour, PagePoint};
 
-/// A built-in font. All text of figures uses these fonts.
+/// A built-in font. All text of figures uses these fonts, except for characters that they lack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
     /// Libertinus Serif.
@@ -89,7 +89,7 @@ impl Face {
     }
 }
 
-/// The point of a line of text that lies at its position.
+/// Which point of a line of text lies at [`Text::at`], the position of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Anchor {
     /// The left end.
@@ -241,7 +241,7 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
 }
 
 /// Breaks text into as few lines as possible. A line is at most `room` pixels wide, and text after line `most` is cut
-/// off. Text that is not cut off has lines of about the same length, so that the last line is not a single word.
+/// off. Text that is not cut off has lines of about the same length, so that the last line is rarely a single word.
 pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines = cut(wrap(words, face, size, room), most, face, size, room);
     let count = lines.len();

@@ -1,9 +1,9 @@
 //! [`write_whole`] writes files. Each file is written completely or not at all.
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
-//! step. Therefore no program ever reads an incomplete file, and a full disk leaves the old file unchanged. If the
-//! path is a link, its target is replaced; the new file has the same permissions. A device or a pipe is written to
-//! directly.
+//! step. Therefore no program ever reads an incomplete file, and a full disk leaves the old file unchanged. The new
+//! file gets the permissions of the old file. If the path is a link, the target of the link is replaced. A device or a
+//! pipe is written to directly.
 //!
 //! Temporary files are in a list as long as they exist. `abandon` deletes them before a signal ends the process.
 
@@ -29,7 +29,7 @@ pub enum Existing {
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
-    /// The error of the operating system.
+    /// The reason, mostly an error of the operating system.
     pub why: io::Error,
 }
 

@@ -1,7 +1,8 @@
 //! [`Fonts`]: the built-in fonts, and fonts that a user adds for other scripts.
 //!
-//! Fonts installed on the machine are never used, so the same drawing and the same font files give the same picture
-//! everywhere. A character that no font has is [replaced by its code point](Fonts::spelled).
+//! Text that drystone itself lays out never uses fonts that are installed on the machine, so the same drawing and the
+//! same font files give the same picture everywhere. [`Fonts::spelled`] replaces characters that no font has by their
+//! code points.
 
 use std::borrow::Cow;
 use std::sync::Arc;

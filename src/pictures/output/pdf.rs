@@ -1,4 +1,5 @@
-//! [`write()`] writes a drawing as a PDF page of the same size, with vector graphics and searchable text.
+//! [`write()`] writes a drawing as a PDF of one page, and [`write_sheets`] writes a PDF of several pages. Both use
+//! vector graphics and searchable text.
 //!
 //! The PDF is made from the SVG, as the PNG is, so all show the same picture. Only this file and its folder use
 //! krilla. The built-in fonts are embedded, reduced to the glyphs that are used. The file contains no date and no
@@ -288,7 +289,7 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
 type Tags = Vec<(Option<Role>, Node)>;
 
 /// Draws a drawing or chart on a page, and appends its tags for screen readers to `tags`. `scale` is in points per
-/// pixel.
+/// pixel. `known` contains the fonts that are already in the document; further fonts are added to it.
 fn inset(
     surface: &mut Surface<'_>,
     part: &Inset<'_>,

@@ -58,7 +58,7 @@ pub enum PngError {
     /// The picture would be too large or too small.
     #[error(
         "a picture of {width:.0} × {height:.0} pixels is out of range; each side must have 1 to {MAX_SIDE} pixels \
-         and both together at most {} million. Choose another width or scale",
+         and the picture at most {} million pixels. Choose another width or scale",
         MAX_PIXELS / 1_000_000
     )]
     Size {

@@ -13,8 +13,8 @@ mod outline;
 mod words;
 /// Rounds a number to ten significant digits.
 ///
-/// The positions of displaced blocks come from a solver, and their last digits differ between a browser and the
-/// program. The same scene must give the same picture in both.
+/// The scale and the origin of a figure can depend on the positions of displaced blocks, which a solver computes. The
+/// last digits of these positions differ between a browser and the program, but both must write the same picture.
 fn ten_digits(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }
@@ -154,7 +154,7 @@ enum Form<'f> {
     /// Like `Names`, without anything that is not visible.
     #[cfg(all(feature = "cli", feature = "png"))]
     Pixels,
-    /// Like `Names`; each line of text has its number as its id.
+    /// Like `Names`; each line of text has an id that contains its number: `t1`, `t2` …
     #[cfg(feature = "png")]
     Numbered,
     /// As text, in the fonts of this style sheet.

@@ -1,6 +1,7 @@
-//! [`write()`] writes a drawing as a TikZ picture for LaTeX documents. Its text is set in the fonts of the document.
+//! [`write()`] writes a drawing as a TikZ picture for LaTeX documents. LaTeX sets the text of the picture in the fonts
+//! of the document.
 //!
-//! It only needs the package `tikz`. Include the file with `\input`.
+//! The picture only needs the package `tikz`. Halos of text are left out. Include the file with `\input`.
 
 use std::fmt::Write as _;
 

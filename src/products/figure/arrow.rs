@@ -1,7 +1,7 @@
 //! [`Marks`]: the data of all arrows of a frame, in metres and newtons, before they are drawn.
 //!
-//! The length of an arrow from tail to tip is proportional to its force. Arrows too short to be visible are counted,
-//! but not drawn.
+//! The length of an arrow is proportional to its force; [`Head`] states whether the head counts towards this length.
+//! Arrows too short to be visible are counted, but not drawn.
 
 use super::words::{counted, listed, quantity};
 use crate::drawing::Colour;
@@ -25,15 +25,15 @@ pub enum ArrowKind {
     Friction(BodyId),
     /// A robot's force.
     Robot(RobotId),
-    /// One of the two vertical arrows that show the torque of a robot.
+    /// One of the two vertical arrows that show the torque of a robot, in the style of the thesis.
     RobotTorque(RobotId),
     /// A missing pull from this body: adhesion that the structure would need.
     MissingPull(BodyId),
     /// Missing friction from this body.
     MissingFriction(BodyId),
-    /// A force beyond a robot's limits.
+    /// A missing force of a robot: the part of the needed force that exceeds the robot's limits.
     MissingRobotForce(RobotId),
-    /// One of the two vertical arrows that show a torque beyond a robot's limit.
+    /// One of the two vertical arrows that show a torque beyond a robot's limit, in the style of the thesis.
     MissingTorque(RobotId),
 }
 
@@ -63,7 +63,7 @@ impl ArrowKind {
     }
 }
 
-/// An arrow shorter than this from tail to tip, pixels, is not visible.
+/// Least length from tail to tip of an arrow that is visible, pixels. Shorter arrows are not drawn.
 pub(crate) const MIN_VISIBLE_ARROW: f64 = 2.0;
 
 /// The position of an arrow's head.
@@ -139,20 +139,23 @@ pub struct TurnArrow {
     pub kind: TurnKind,
 }
 
-/// All arrows of a frame in drawing order: block by block, then robots, then failures.
+/// All arrows of a frame in drawing order: forces on the blocks, block by block, then forces of robots, then missing
+/// forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
     /// The arrows of forces.
     pub arrows: Vec<ForceArrow>,
     /// The arrows of torques.
     pub turns: Vec<TurnArrow>,
-    /// The force whose arrow is one unit length long, N; 0 if there are no forces.
+    /// The force whose arrow is one unit length long, N; 0 if there are no forces. The unit length is a typical size of
+    /// the blocks.
     pub newtons_per_unit: f64,
 }
 
 impl Marks {
     /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
-    /// all arrows are visible. `unit` is the unit length in metres; `scale` is in pixels per metre.
+    /// all arrows are visible. `unit` is the unit length in metres, and `scale` the scale of the picture in pixels per
+    /// metre. The note gives its numbers in `units`.
     pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
         let least = MIN_VISIBLE_ARROW / scale;
         let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
@@ -227,8 +230,9 @@ fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
 mod tests {
     use super::*;
 
-    /// A torque arrow of length L shows a torque of L times the newtons per unit length. With an arrow of just under the
-    /// least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit length.
+    /// A torque arrow of length L shows a torque of L times the newtons per unit length. With an arrow of just under
+    /// the least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit
+    /// length.
     #[test]
     fn the_note_on_hidden_torques_states_their_limit_in_newton_metres() {
         let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;

@@ -1,14 +1,14 @@
-//! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and its used
-//! friction.
+//! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and the used
+//! fraction of its friction.
 
 use crate::analysis::{Contact, FrameAnalysis};
 use crate::interface::ContactKind;
 use crate::scene::{BodyId, Scene};
 
 /// Forces below this fraction of the largest force may be numerical noise of the solver, unless they exceed
-/// [`WEIGHT_TOL`].
+/// [`WEIGHT_TOL`] times the weight of the block.
 const FORCE_TOL: f64 = 1e-6;
-/// Forces above this fraction of the block's weight are no noise, so that forces on very light blocks count too.
+/// Forces above this fraction of the weight of the lighter block count as real, however large the other forces are.
 const WEIGHT_TOL: f64 = 1e-3;
 
 /// The force of an interface.
@@ -16,15 +16,15 @@ const WEIGHT_TOL: f64 = 1e-3;
 pub(crate) struct Bearing {
     /// The normal force of the interface, N; larger than 0.
     pub pressed: f64,
-    /// The distance of the resultant from the middle of the interface, divided by half the length of the safe part.
-    /// `None` if the safe part is a point.
+    /// The distance of the resultant from the middle of the interface, divided by half the length of the safe part. The
+    /// safe part lies between the two application points. `None` if the safe part is only a point.
     pub eccentricity: Option<f64>,
-    /// The used fraction of the available friction; `None` if no friction is available.
+    /// The used fraction of the available friction; `None` if the friction coefficient is 0.
     pub friction: Option<f64>,
 }
 
-/// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. A
-/// contact without force is `None`.
+/// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. The
+/// entry is `None` for a contact whose normal force is 0 or [numerical noise](noise).
 pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
     let largest = frame_analysis

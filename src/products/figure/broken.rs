@@ -1,4 +1,5 @@
-//! [`broken`]: draws the outlines of an invalid scene, with marked and numbered problems and without forces.
+//! [`broken`]: draws the outlines of a scene file that may be invalid. Its problems are marked and numbered; forces are
+//! not drawn.
 
 mod picture;
 
@@ -11,7 +12,7 @@ use crate::drawing::{Camera, Drawing, Face, Group, PagePoint, PageRect, Text};
 use crate::interface::Interfaces;
 use crate::scene::{Problem, Sketch, Spot};
 
-/// Largest number of problems, and of gaps, that are marked and listed. All others are only counted.
+/// Largest number of problems that are marked and listed, and also of gaps. All others are only counted.
 const MAX_MARKED: usize = 30;
 /// Width of the page if the options set none, pixels.
 const DEFAULT_WIDTH: f64 = 900.0;
@@ -33,7 +34,8 @@ impl ListEntry {
         }
     }
 
-    /// Returns a last entry such as `And 3 more gaps.` if the list does not show all `count` entries; otherwise `None`.
+    /// Returns a final entry such as `And 3 more gaps.` if there are more than [`MAX_MARKED`] entries of this kind.
+    /// Otherwise returns `None`. `count` is the number of all of them, and `what` their name.
     fn unlisted(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(MAX_MARKED);
         (more > 0).then(|| ListEntry {
@@ -43,8 +45,10 @@ impl ListEntry {
     }
 }
 
-/// Draws the outlines of a scene file with its problems. Each problem has a number at its position and an entry in the
-/// list below. Gaps that are nearly contacts are marked too. Only the theme and the width of the options are used.
+/// Draws the outlines of a scene file with its problems. A problem with a known position has a numbered mark there, and
+/// each problem has an entry in the list below the picture. Narrow gaps between bodies that do not touch are marked and
+/// listed too. Only the first 30 problems and the first 30 gaps are shown. Only the theme and the width of the options
+/// are used.
 ///
 /// # Example
 /// ```
@@ -100,7 +104,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     }
 }
 
-/// Returns the title of the scene, followed by the number of its problems.
+/// Returns the title of the drawing: the title of the scene, followed by the number of its problems.
 fn title(sketch: &Sketch) -> String {
     let verdict = match sketch.problems.list.len() {
         0 => "no problem found".to_owned(),
@@ -113,8 +117,8 @@ fn title(sketch: &Sketch) -> String {
     }
 }
 
-/// Draws the list of problems and gaps, `room` pixels wide, from the height `y` (pixels) downwards. Also returns the y
-/// coordinate below its last line.
+/// Draws the list of problems and gaps, `room` pixels wide, downwards from the y coordinate `y` (pixels). Also returns
+/// the y coordinate below the last line of the list.
 fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Group, f64) {
     let theme = &options.theme;
     let size = theme.sizes.reason;
@@ -200,7 +204,8 @@ fn problem_in_words(problem: &Problem, is_marked: bool) -> String {
     format!("{line}{path}{}{note}.", problem.message)
 }
 
-/// Formats a positive number with two significant digits, and any other number as `0`.
+/// Formats a positive number with two significant digits, or as an integer from 100 on. Returns `0` for any other
+/// number.
 fn digits(x: f64) -> String {
     if !(x > 0.0) {
         return "0".into();

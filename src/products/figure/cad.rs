@@ -1,8 +1,8 @@
 //! [`dxf`]: writes a frame as a DXF drawing in metres, for CAD programs.
 //!
-//! The file has the version R12 (AC1009), which every CAD program reads: closed polylines, lines, points and text.
-//! Parts that do not belong to the structure lie on layers whose names begin with `guide`. `drystone import` ignores
-//! these layers, so that the drawing can be edited and imported again.
+//! The file has the version R12 (AC1009), which nearly all CAD programs read. It contains closed polylines, lines,
+//! points and text. Holes, names, the line of thrust and the mechanism lie on layers whose names begin with `guide`.
+//! `drystone import` ignores these layers, so that the drawing can be edited and imported again.
 
 use std::fmt::Write as _;
 
@@ -30,14 +30,14 @@ const ROBOT_LAYER: &str = "robots";
 const NAME_LAYER: &str = "guide names";
 const THRUST_LAYER: &str = "guide thrust line";
 const MECHANISM_LAYER: &str = "guide mechanism";
-/// The height of letters relative to the unit length of the scene.
+/// The height of letters, as a fraction of the unit length of the scene (a typical size of its blocks).
 const LETTER_SHARE: f64 = 0.15;
 
 /// Writes a frame as DXF. The drawing shows the ground, the blocks with their names, and the grip points of robots. If
 /// the frame stands, the drawing also shows the line of thrust; if the frame falls, the displaced blocks. Coordinates
 /// are in metres with y up.
 ///
-/// `frame` is the index of the frame, from 0. The text is empty if the frame does not exist.
+/// `frame` is the index of the frame, from 0. The result is empty if the frame does not exist.
 ///
 /// # Example
 /// ```
@@ -178,8 +178,8 @@ impl DxfWriter {
     }
 }
 
-/// Returns the text as one line of ASCII, because a line break would end the value. Any other character is written as
-/// `\U+XXXX`, which CAD programs show as the character.
+/// Returns the text as one line of ASCII, because a line break would end the value. Characters outside ASCII are
+/// written as `\U+XXXX`, and CAD programs then show the characters.
 fn ascii(text: &str) -> String {
     let mut line = String::new();
     for c in crate::text::line(text).chars() {

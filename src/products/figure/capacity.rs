@@ -1,9 +1,10 @@
 //! Draws the set of all forces that a block can carry, as a polygon at the loaded point. Small pictures show how the
 //! structure falls under forces just beyond the longest edges of the polygon.
 //!
-//! The tail of a force is at the loaded point. The block can carry the force if its tip lies in the polygon. A polygon
-//! that is small compared with its forces would look like a dot, so it is drawn next to the structure at a separate
-//! scale. Unbounded sets of forces are cut off at a circle, which is not drawn.
+//! The polygon is the set of the tips of all forces that the block can carry, if each force is drawn with its tail at
+//! the loaded point. A polygon that is small compared with its forces would look like a dot. In a figure with one
+//! frame, it is therefore drawn next to the structure at a separate scale. Unbounded sets of forces are cut off at a
+//! circle, which is not drawn.
 
 mod plan;
 
@@ -95,7 +96,7 @@ impl PanelContent for CarriedForces {
             entries.push(Entry::Symbol(dot_symbol, 10.0, "no force".into()));
         }
         if plans.iter().any(needs_force) {
-            let words = "example of such a force; without any, it falls";
+            let words = "example of a carried force; without one, the structure falls";
             entries.push(Entry::Symbol(force_symbol, 26.0, words.into()));
         }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
@@ -147,8 +148,9 @@ impl PanelContent for CarriedForces {
     }
 }
 
-/// Returns a note about the loads of the scene, which act in addition to the force that the figure varies. Their arrows
-/// are not drawn: a reader could compare their lengths with the polygon, which has its own scale.
+/// Returns a note about the loads of the scene, which act in addition to the force that the figure varies. Returns
+/// `None` if there are no loads. Their arrows are not drawn: a reader could compare their lengths with the polygon,
+/// which has its own scale.
 fn loads_note(scene: &Scene) -> Option<Entry> {
     let words = match scene.loads.len() {
         0 => return None,
@@ -278,8 +280,8 @@ fn before_stroke(theme: &Theme) -> Stroke {
     Stroke::new(theme.faint, 1.0).dashed([4.0, 3.0])
 }
 
-/// Draws a small picture of a mechanism, with the number of its edge and an arrow in the direction in which the loaded
-/// point begins to move.
+/// Draws a small picture of the mechanism beyond an edge of the polygon. The picture has the number of the edge, and an
+/// arrow in the direction in which the loaded point begins to move.
 fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut Ink) -> Group {
     let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
     let scene = &analysis.scene;
@@ -317,14 +319,14 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let fill = theme.page.mixed(theme.motion, DISPLACED_OPACITY);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     group = group.with(Path::filled(goes, fill).with_stroke(Stroke::new(edge, line.width)));
-    // This arrow has the direction of the force beyond the edge.
+    // The arrow has the direction of the outward normal of the edge, in which the loaded point begins to move.
     let own = moved.get(plan.capacity.block.0).and_then(Option::as_ref);
     let from = place(own.map_or(plan.point, |d| d.moved(plan.point)));
-    // A shorter arrow would have no visible shaft on a narrow page.
+    // An arrow shorter than 17 pixels would have no visible shaft on a narrow page.
     let length = (0.2 * shown.width.min(shown.height)).max(17.0);
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
-    // Write the number to the left of the picture, because a flat picture has no free corner.
+    // Write the number to the left of the picture, because a low and wide picture has no free corner.
     let at = PagePoint::new(
         shown.at.x - 1.0,
         shown.at.y + 0.5 * shown.height + 0.36 * theme.sizes.amount,

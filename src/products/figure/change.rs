@@ -8,12 +8,12 @@ use crate::analysis::Contact;
 use crate::geometry::Vector;
 use crate::scene::{BodyId, Scene};
 
-/// A force has changed if the difference exceeds this fraction of the larger of both forces. If forces are not
-/// unique, smaller differences can come from the solver.
+/// A force has changed if the difference exceeds this fraction of the larger of the two forces. If the forces of a
+/// frame are not unique, smaller differences can come from the solver.
 const CHANGE_TOL: f64 = 0.05;
 /// Two interfaces are at the same place if the distance of their middles is at most this fraction of their length.
 const SAME_PLACE_TOL: f64 = 1e-6;
-/// Forces below this fraction of the largest force are rounding errors of the solver.
+/// Forces up to this fraction of the largest force count as rounding errors of the solver.
 const NOISE_SHARE: f64 = 1e-6;
 
 /// The force of an interface that two frames have in common.
@@ -51,7 +51,8 @@ impl ForceChange<'_> {
 }
 
 /// Pairs the interfaces of two frames by the names of their bodies. Of several interfaces between two bodies, those at
-/// the same place belong together; the others are paired by their order. Each frame has its scene and its contacts.
+/// the same place belong together; the others are paired by their order. Interfaces of only one frame are left out. The
+/// argument has the scene and the contacts of the earlier frame, then those of the later frame.
 pub(crate) fn shared_forces<'a>([then, now]: [(&Scene, &'a [Contact]); 2]) -> Vec<ForceChange<'a>> {
     let mut before: BTreeMap<[String; 2], Vec<&'a Contact>> = BTreeMap::new();
     for contact in then.1 {

@@ -12,8 +12,9 @@ pub(crate) const FREEBODY: &str = "freebody";
 pub(crate) const FREEBODY_HELP: &str =
     "One block as a free body: all forces on it, with their names and a table of them";
 
-/// Finds the block for a free-body diagram by its name. Returns the last frame in which the block is placed, and the
-/// block. The name may be left out if the scene has only one block.
+/// Finds the block for a free-body diagram by its name. Returns the index of the last frame in which the block is
+/// placed, and the block. The name may be left out if the scene has only one block. The error is a message for the
+/// user.
 pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, BlockId), String> {
     let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
     let Some(name) = name else {

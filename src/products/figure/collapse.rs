@@ -14,7 +14,7 @@ const MAX_DESCRIBED_BODIES: usize = 3;
 /// Largest number of blocks of a body that are named.
 const MAX_NAMED_BLOCKS: usize = 4;
 /// If the speed due to rotation is at most this fraction of the speed of the body's fastest point, the text says that
-/// the body slides or falls.
+/// the body slides or falls. A grip point counts as at rest if its speed is below this fraction.
 const ROTATION_TOL: f64 = 0.02;
 
 /// Returns the text below the verdict in a figure of a mechanism: how the frame collapses, or why there is no
@@ -89,7 +89,7 @@ struct Sentences<'a> {
 }
 
 impl Sentences<'_> {
-    /// Describes the motion of one rigid body: `blocks 4 and 5 slide on block 3`.
+    /// Describes the motion of one rigid body, such as `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
         let scene = &self.analysis.scene;
         let names: Vec<String> = body

@@ -1,9 +1,9 @@
 //! Draws the differences between consecutive frames: blocks that were added or removed, and interfaces whose forces
 //! changed.
 //!
-//! Each frame is compared with the previous frame. Arrows have the same scale in all frames. An interface has a ring if
-//! its force changed by more than 5 % of the larger of both forces. The previous force is drawn in a faint colour below
-//! the present force.
+//! Each frame is compared with the previous frame. Arrows have the same scale in all frames. A ring marks an interface
+//! whose force changed by more than 5 % of the larger of the two forces. The previous force is drawn there in a faint
+//! colour below the present force.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks};
 use super::change::{ForceChange, bodies, count_in_words, noise, shared_forces};
@@ -22,7 +22,7 @@ use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Th
 use crate::geometry::{Bounds, Vector};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// The radius of the ring around a change in unit lengths, with its least and largest allowed radius in pixels.
+/// The radius of the ring that marks a change, in unit lengths, with its least and largest allowed radius in pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);
 /// Width of the outlines of blocks that are gone, pixels.
 const GONE_WIDTH: f64 = 1.6;
@@ -236,8 +236,8 @@ impl PanelContent for Comparison {
     }
 }
 
-/// Draws the previous force of a joint as a faint arrow on each of its blocks. `true_lines` are the arrows of the frame
-/// before they were moved off their lines of action.
+/// Draws the previous force of a joint as a faint arrow on each of its blocks. `true_lines` are the arrows of the
+/// present frame before they were moved off their lines of action.
 fn previous_arrows(pen: &Pen<'_>, change: &ForceChange<'_>, true_lines: &Marks) -> Vec<Item> {
     let (context, theme) = (pen.context, &pen.context.options.theme);
     let marks = &context.marks[pen.number];
@@ -260,7 +260,8 @@ fn previous_arrows(pen: &Pen<'_>, change: &ForceChange<'_>, true_lines: &Marks) 
 
 /// Returns the vector, in metres, by which the arrow of the force from body `from` on body `on` was moved off its line
 /// of action. The arrow of the previous force is moved by the same vector. `true_lines` are the arrows before they were
-/// moved, and `marks` are the arrows afterwards.
+/// moved, and `marks` are the arrows afterwards. If there are several such arrows, the one whose force is nearest to
+/// `force` is used. The vector is zero if there is none.
 fn aside(marks: &Marks, true_lines: &Marks, on: BodyId, from: BodyId, force: Vector) -> Vector {
     let between = |a: &&ForceArrow| a.on == on && a.kind == ArrowKind::Contact(from);
     let far = |a: &ForceArrow| (a.force - force).norm();

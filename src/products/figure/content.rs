@@ -1,8 +1,8 @@
-//! [`PanelContent`]: the trait that each kind of figure implements. [`FigureContext::new`] computes the data of a
-//! figure from its content.
+//! [`PanelContent`]: the trait that each kind of figure implements. [`FigureContext::new`] computes the data that all
+//! panels of a figure share.
 //!
-//! A kind of figure is a type without fields that implements the trait in a separate file; [`Kind`](super::Kind) lists
-//! all kinds. A good start for a new kind is a copy of the smallest kind, `kernel.rs`.
+//! A kind of figure is a type that implements the trait in a separate file, usually without fields;
+//! [`Kind`](super::Kind) lists all kinds. A good start for a new kind is a copy of `kernel.rs`, which is short.
 
 use core::cell::{Cell, OnceCell};
 
@@ -46,7 +46,8 @@ pub(crate) struct About {
     pub needs_elementary_mechanisms: bool,
     /// Whether the arrows of all panels have one scale, independent of the options.
     pub shares_arrow_scale: bool,
-    /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
+    /// Whether the colour of a block shows the quantity that the option `fill` selects, by default its amplitude (the
+    /// larger of its weight and its largest normal force). Otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
     /// Whether the forces on each block are drawn. Arrows on one line are then moved apart.
     pub draws_forces: bool,
@@ -60,7 +61,7 @@ pub(crate) struct About {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameSource<'a> {
     pub analysis: &'a Analysis,
-    /// The frame, from 0.
+    /// The index of the frame, from 0.
     pub frame: usize,
     pub options: &'a Options,
 }
@@ -180,7 +181,8 @@ impl<'a> FigureContext<'a> {
     }
 }
 
-/// Returns the arrows of each frame at the scale that the options select. Arrows that overlap are moved apart.
+/// Returns the arrows of each frame at the scale that the options select. Arrows that overlap are moved apart if the
+/// kind of figure draws the forces on each block, except in the style of the thesis.
 fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelContent) -> Vec<Marks> {
     let about = content.about();
     let source = |frame: usize| FrameSource {
@@ -234,12 +236,13 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     all
 }
 
-/// Least length of the longest arrow, pixels: in a single panel in a column of print (8.5 mm), and in other figures.
+/// Least length of the longest arrow, pixels: in a single panel in a column of print (where it is about 8.5 mm), and in
+/// other figures.
 const MIN_LONGEST_ARROW: (f64, f64) = (40.0, 34.0);
 /// Largest length of an arrow in unit lengths: in figures whose frames have at most `FEW_BLOCKS` blocks, and in all
 /// other figures.
 const MAX_ARROW_UNIT_LENGTHS: (f64, f64) = (3.0, 1.5);
-/// The same in a single panel in a column of print, where unit lengths are short.
+/// The same two lengths for a single panel in a column of print, where unit lengths are short on the page.
 const MAX_COLUMN_ARROW_UNIT_LENGTHS: (f64, f64) = (6.0, 3.5);
 const FEW_BLOCKS: usize = 40;
 /// Largest length of an arrow, as a fraction of the longer side of the shown part.
@@ -248,9 +251,9 @@ const MAX_ARROW_SHARE: f64 = 0.25;
 /// Least length of the longest arrow of a load, pixels.
 const MIN_LONGEST_LOAD_ARROW: f64 = 24.0;
 
-/// Returns two lengths. The first is the length of the longest arrow in unit lengths, at least 1. It is larger than 1 if
-/// a unit length is short on the page, so that small arrows keep a visible shaft. The second is the least length of the
-/// longest load arrow, in metres.
+/// Returns two lengths. The first is the length of the longest arrow in unit lengths, at least 1. It is larger than 1
+/// if a unit length is short on the page, so that small arrows keep a visible shaft. The second is the least length of
+/// the longest load arrow, in metres.
 fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let unit = unit(&analysis.scene, options.zoom);
     let bare = FigureContext::new(analysis, options, &NoArrows);

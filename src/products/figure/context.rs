@@ -1,5 +1,5 @@
-//! [`FigureContext`]: the data that all panels of a figure share, such as the unit length, the view, the colours and the
-//! arrows of each frame. The code in `content.rs` computes this data.
+//! [`FigureContext`]: the data that all panels of a figure share, such as the unit length, the view, the colours and
+//! the arrows of each frame. The code in `content.rs` computes this data.
 
 use core::cell::{Cell, OnceCell};
 
@@ -11,30 +11,31 @@ use super::view;
 use crate::analysis::{Analysis, ThrustStates};
 use crate::geometry::{Bounds, Point, Vector};
 
-/// In frames with more blocks than this, shapes of one colour are drawn as one path without names. Thousands of
+/// In frames with more blocks than this, shapes of one colour are drawn as one path without tooltips. Thousands of
 /// elements would make a file slow to open.
 pub(crate) const MANY_BLOCKS: usize = 1000;
 
-/// If a unit length is shorter than this on the page, pixels (2.2 mm), arrows are too small to read.
+/// If a unit length is shorter than this on the page, pixels (2.2 mm at 96 pixels per inch), arrows are too small to
+/// read.
 const MIN_UNIT_LENGTH: f64 = 8.4;
 /// If every frame has fewer blocks than this, the figure always has arrows. A note counts the arrows that are too
 /// short to be visible.
 const MIN_CROWD: usize = 40;
 
-/// If the fraction of visible arrows is smaller than this, colours show the forces and arrows are left out.
+/// If the fraction of visible arrows is smaller than this, the figure has no arrows, and only colours show the forces.
 const MIN_VISIBLE_SHARE: f64 = 0.2;
 
 /// The data that all panels of a figure share.
 pub(crate) struct FigureContext<'a> {
     pub analysis: &'a Analysis,
-    /// Whether the colour of a block shows its amplitude; otherwise blocks are plain.
+    /// Whether the colour of a block shows the quantity that the option `fill` selects; otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
     /// Whether lines are drawn across blocks. The letters of labels then have a border in the background colour.
     pub lines_cross_names: bool,
     pub options: &'a Options,
-    /// The unit length, metres.
+    /// The unit length (a typical size of a block), metres.
     pub unit: f64,
-    /// A box around everything that each frame shows, metres.
+    /// For each frame, a box around everything that the frame shows, metres.
     pub shown: Vec<Bounds>,
     /// A box around all boxes of `shown`, metres.
     pub view: Bounds,
@@ -43,15 +44,16 @@ pub(crate) struct FigureContext<'a> {
     pub marks: Vec<Marks>,
     /// The arrows of each frame before blocks are displaced.
     pub still: Vec<Marks>,
-    /// The paths of the blocks of each frame.
+    /// For each frame, the paths along which its blocks are displaced.
     pub courses: Vec<Course>,
     /// For each frame, the displacements of the blocks, indexed by block. Empty if no block is displaced.
     pub displaced: Vec<Vec<Option<Displacement>>>,
-    /// The line below the verdict of each frame.
+    /// The text below the verdict of each frame.
     pub statements: Vec<String>,
-    /// The extreme lines of thrust of all frames; computed when they are first needed.
+    /// The extreme thrust states of all frames; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
-    /// The number of labels drawn so far that have no free position, or only a position inside another block.
+    /// The sum of the penalties of badly placed labels so far. A label without a free position, or inside another
+    /// block, adds 1. An amount, or a name that the text mentions, adds 100 if it has no free position.
     pub cramped: Cell<usize>,
 }
 
@@ -100,8 +102,9 @@ impl<'a> FigureContext<'a> {
         self
     }
 
-    /// True if arrows are too small to read at this scale (pixels per metre). The figure then shows the forces by the
-    /// colours of the blocks.
+    /// True if arrows are too small to read at this scale (pixels per metre), so that only the colours of the blocks
+    /// show the forces. False if no frame has at least 40 blocks, if colours show no quantity, or in the style of the
+    /// thesis.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
         let has_plain_block = self
             .analysis
@@ -118,8 +121,8 @@ impl<'a> FigureContext<'a> {
             && !self.options.printed()
     }
 
-    /// True if fewer than 20 % of the arrows are long enough to be visible at this scale (pixels per metre). A figure
-    /// with only these arrows would be misleading.
+    /// True if fewer than 20 % of the arrows are long enough to be visible at this scale (pixels per metre). Arrows of
+    /// loads and missing forces do not count. A figure with so few of its arrows would be misleading.
     fn few_arrows_visible(&self, scale: f64) -> bool {
         let arrows = || self.marks.iter().flat_map(|m| &m.arrows);
         let carried = |a: &&ForceArrow| !a.kind.is_failure() && a.kind != ArrowKind::Load;

@@ -7,8 +7,9 @@
 //! 1. The displacement of the fastest point is the larger of [`MIN_DISPLACEMENT`] and [`MIN_DISPLACEMENT_SHARE`], so
 //!    that open hinges are visible.
 //! 2. No block turns by more than [`MAX_ROTATION`], because the velocities are only valid for small rotations.
-//! 3. [`linkage`] keeps hinges closed and sliding blocks on their joints along the whole path.
-//! 4. The motion ends before two blocks overlap, whether they touched at the beginning or not ([`clearance`]).
+//! 3. [`linkage`] keeps hinges closed and sliding blocks on their joints along the whole path, if this is possible.
+//! 4. The path is shortened until no block overlaps another body, whether they touched at the beginning or not
+//!    ([`clearance`]).
 
 mod clearance;
 mod group;
@@ -38,10 +39,10 @@ const TESTED_POSITIONS: u32 = 8;
 /// Largest number of reductions of the amplitude while blocks overlap, and the smallest factor of one reduction.
 const MAX_REDUCTIONS: u32 = 24;
 const MIN_REDUCTION_FACTOR: f64 = 0.6;
-/// Overlaps are not measured if more blocks move, because this would take longer than the drawing.
+/// If more blocks than this move, overlaps are not measured, because this would take longer than the drawing.
 const MAX_TESTED_BLOCKS: usize = 500;
 
-/// The path of every block of a frame from its original to its displaced position.
+/// The path of every moving block of a frame from its original to its displaced position.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Course {
     groups: Vec<GroupCourse>,
@@ -92,9 +93,9 @@ impl Course {
         displaced
     }
 
-    /// Returns a box, in metres, around the moving blocks, the force arrows and the points of torques at the start of the
-    /// path and at its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves. `marks` are the arrows
-    /// before the motion.
+    /// Returns a box, in metres, around the moving blocks, the force arrows and the points of torques at the start of
+    /// the path and at its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves. `marks` are the
+    /// arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=TESTED_POSITIONS)
             .map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
@@ -115,8 +116,8 @@ impl Course {
         each.reduce(Bounds::union)
     }
 
-    /// Shortens the paths of groups of blocks until no blocks overlap at any tested position. Does nothing if too many
-    /// blocks move.
+    /// Shortens the paths of groups of blocks, in at most [`MAX_REDUCTIONS`] steps, until no block overlaps another
+    /// body at any tested position. Does nothing if more than [`MAX_TESTED_BLOCKS`] blocks move.
     fn stop_before_overlaps(&mut self, analysis: &Analysis, frame: usize) {
         let moving: usize = self.groups.iter().map(|g| g.linkage.len()).sum();
         if moving > MAX_TESTED_BLOCKS {
@@ -149,8 +150,9 @@ impl Course {
         }
     }
 
-    /// Returns the first position along the path at which blocks overlap, and the pairs of blocks that overlap there.
-    /// The [`TESTED_POSITIONS`] tested positions are numbered from 1. Returns `None` if no blocks overlap at any of them.
+    /// Returns the first position along the path at which bodies overlap, and the pairs of bodies that overlap there.
+    /// The [`TESTED_POSITIONS`] tested positions are numbered from 1. Returns `None` if no bodies overlap at any of
+    /// them.
     fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
         (1..=TESTED_POSITIONS).find_map(|place| {
             let displaced = self.at(f64::from(place) / f64::from(TESTED_POSITIONS));
@@ -160,8 +162,8 @@ impl Course {
     }
 }
 
-/// Returns the arrows after the displacement of the blocks. The tip of an arrow follows the point of its block at which
-/// it was before. The direction of an arrow does not change.
+/// Returns the arrows after the displacement of the blocks. The tip of an arrow moves with the point of the block at
+/// which the tip was before. The direction of an arrow does not change.
 pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> Marks {
     let way = |on: BodyId, tip: Point| match on {
         BodyId::Block(id) => {

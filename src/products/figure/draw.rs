@@ -26,11 +26,12 @@ pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
 
 /// Draws the forces of an analysis. Each frame has a panel with its arrows, its caption and its verdict.
 ///
-/// An arrow has the colour of the block on which it acts. Missing forces are thick and red. The colours of blocks show
-/// amplitudes ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the same part of the scene at the
-/// same scale.
+/// An arrow has the colour of the block on which it acts. Missing forces are thick and red. Unless the options select
+/// another quantity, the colours of blocks show amplitudes: the larger of the weight and the largest normal force
+/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the scene at the same scale.
 ///
-/// Units: the page is in pixels at natural size, about 370 to 1100 wide unless `columns` needs more.
+/// Units: the page is in pixels at natural size. It is about 370 to 1100 wide, unless the options set a width or more
+/// columns than fit.
 ///
 /// # Example
 /// ```
@@ -111,7 +112,7 @@ pub fn panels_of(
 }
 
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
-/// page is at most `max_ratio` times its width, unless a single row is higher.
+/// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let analysis = shown(analysis, kind);
     strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)

@@ -1,9 +1,10 @@
 //! [`Fills`]: the colours of blocks, and the quantity that these colours show.
 //!
-//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The legend names the quantity, which is the
-//! same for all blocks. Only the rule of the thesis has two quantities. A block that a robot holds shows the used
-//! fraction of the robot's limits. Any other block shows its amplitude as a fraction of the smallest limit of all
-//! robots. If no robot has a limit, every block shows its amplitude as a fraction of the largest amplitude.
+//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The amplitude of a block is the larger of
+//! its weight and its largest normal force. The legend names the quantity, which is the same for all blocks. Only the
+//! rule of the thesis has two quantities. A block that a robot holds shows the used fraction of the robot's force
+//! limits. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If no robot has
+//! a force limit, every block shows its amplitude as a fraction of the largest amplitude.
 
 use super::option::Fill;
 use super::words::quantity;
@@ -27,7 +28,8 @@ pub(crate) enum FillScale {
     Plain,
 }
 
-/// The position on the colour scale, from 0 to 1, of each block in each frame. A position is called a share.
+/// The position on the colour scale of each block in each frame. A position is called a share. It is from 0 to 1; with
+/// the rule of the thesis it may exceed 1, and the block then has the last colour.
 #[derive(Clone, Debug)]
 pub(crate) struct Fills {
     /// The quantity that colours show, and its value at the end of the colour scale.
@@ -39,7 +41,7 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// Computes the share (0 to 1) that the colour of each block shows, for all frames. `rule` selects the quantity.
+    /// Computes the share that the colour of each block shows, for all frames. `rule` selects the quantity.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -68,7 +70,8 @@ impl Fills {
         }
     }
 
-    /// True if the colours differ enough to need a legend.
+    /// True if the figure needs a legend of colours: colours show a quantity, and the shares differ or are not all near
+    /// 0.
     pub fn vary(&self) -> bool {
         let all = || self.shares.iter().flatten().copied();
         let (least, most) = (
@@ -116,8 +119,8 @@ impl Fills {
         }
     }
 
-    /// Describes the value that the colour of a block shows, such as `colour: 12 N`. `share` is the position of the colour
-    /// on the scale, from 0 to 1. Empty if colours show no quantity.
+    /// Describes the value that the colour of a block shows, such as `colour: 12 N`. `share` is the position of the
+    /// colour on the scale, from 0 to 1. Empty if colours show no quantity.
     pub fn description(&self, share: f64) -> String {
         match self.scale {
             FillScale::Limit(limit) => format!(
@@ -200,7 +203,7 @@ fn share(amount: f64, limit: f64) -> f64 {
 }
 
 /// Returns the used fraction of the force limits of the robot that holds this block: the larger of |Fx| / limit and
-/// |Fy| / limit. Returns `None` if no robot holds the block, or if the force of the robot has no limits.
+/// |Fy| / limit. Returns `None` if no robot holds the block, or if the robot has no limit for its force.
 fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
     let robot = frame_analysis.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
@@ -229,6 +232,8 @@ fn largest(
     frame.placed.iter().map(|block| most[block.0]).collect()
 }
 
+/// Returns, for each placed block in placing order, the larger of its weight and the largest normal force on its
+/// interfaces, N.
 fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     let normals = largest(scene, frame, frame_analysis, |c| {
         c.normal_forces.iter().sum()
@@ -242,7 +247,7 @@ fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> V
 }
 
 /// Returns, for each placed block, the largest mean normal stress on its interfaces, N/m². The stress is normal force /
-/// (length × thickness). A corner has no area, so its stress counts as 0.
+/// (length × thickness). A corner contact has no area, so its stress counts as 0.
 fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
         let area = contact.interface.length() * scene.thickness;
@@ -251,6 +256,8 @@ fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec
     })
 }
 
+/// Returns, for each placed block, the largest used fraction of the available friction on its interfaces. It is 0
+/// without normal forces.
 fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
         let pressed: f64 = contact.normal_forces.iter().sum();

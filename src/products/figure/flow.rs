@@ -2,7 +2,8 @@
 //! the force.
 //!
 //! In each block, strands lead from the points where forces enter to the points where they leave; [`strands`] computes
-//! them. The bands of a force have the same width and direction on both sides of a joint.
+//! them. A strand is drawn as a band. At a joint, the bands on both sides have the same total width and the same
+//! direction.
 
 mod curve;
 mod key;
@@ -34,9 +35,9 @@ use crate::scene::Scene;
 
 /// The width of the band of the largest force in unit lengths, with its least and largest allowed width in pixels.
 const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
-/// Least width of a band, pixels; thinner bands are not visible.
+/// Least width of a band, pixels; a narrower band would not be visible.
 const MIN_BAND_WIDTH: f64 = 0.4;
-/// In frames with more blocks, all bands of one colour are drawn as one shape, and joints have no dots.
+/// In frames with more blocks than this, all bands of one colour are drawn as one shape, and joints have no dots.
 const MAX_SINGLE_STRANDS: usize = 150;
 
 /// Least length of the arrow of a missing force, as a fraction of the length of the longest arrow of a load. A shorter
@@ -89,8 +90,8 @@ impl PanelContent for ForceFlow {
     }
 }
 
-/// Returns the largest magnitude of a load or missing force in a frame, N. A torque is divided by the unit length and
-/// counts as a force.
+/// Returns the largest magnitude of a load or missing force in a frame, N. A torque counts as a force of torque / unit
+/// length.
 fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
     let placed = &scene.frames[frame].placed;
@@ -266,7 +267,7 @@ impl<'a> Picture<'a> {
         group
     }
 
-    /// Returns the outline of the band of a strand. Adds its axis to the ink, so that no label covers the band.
+    /// Returns the outline of the band of a strand. Adds the band to the ink, so that no label covers it.
     fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
         let camera = self.pen.camera;
         let width = |newtons: &f64| camera.metres((newtons * self.scale).max(MIN_BAND_WIDTH));
@@ -294,8 +295,8 @@ impl<'a> Picture<'a> {
         ribbon::ribbon(&axis, &widths, camera)
     }
 
-    /// Draws a dot at the point of action of the resultant of each joint. A joint at its limit has a special mark
-    /// instead.
+    /// Draws a dot at the point of action of the resultant of each joint with a force. A joint at its limit has a
+    /// special mark instead, and so has a robot at its limit. In a frame with many blocks, nothing is drawn.
     fn dots(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("resultants");
         if self.many() {

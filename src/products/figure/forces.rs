@@ -12,14 +12,15 @@ use super::verdict;
 use crate::drawing::Group;
 use crate::geometry::Bounds;
 
-/// The figure of forces; each panel has its own scale of arrows.
+/// The figure of forces. The options decide whether each panel has its own scale of arrows.
 pub(crate) const FORCES: Forces = Forces {
     name: "forces",
     help: "Every force, and every missing force, as an arrow on the block on which it acts",
     shares_arrow_scale: false,
 };
 
-/// The forces in the steps of a construction. All panels have the same scale, so that steps can be compared.
+/// The forces in the steps of a construction. The arrows of all panels have the same scale, so that steps can be
+/// compared.
 pub(crate) const BUILD: Forces = Forces {
     name: "build",
     help: "The steps of a construction, with one scale of arrows for all steps; --animate shows the steps one after the other",
@@ -28,7 +29,7 @@ pub(crate) const BUILD: Forces = Forces {
 
 /// The note on missing forces in the legend.
 const INCLUDED: &str = "arrows and fills include the missing forces";
-/// The same if the arrows of missing forces have a larger scale.
+/// The same note for a figure in which the arrows of missing forces have a larger scale.
 const INCLUDED_LARGER: &str = "arrows and fills include the missing forces, which are drawn larger";
 
 /// True if the arrows of missing forces are drawn at a larger scale than other arrows.

@@ -1,7 +1,7 @@
 //! [`segments`]: computes the line of thrust as straight segments, block by block.
 //!
-//! A segment lies on the true line of action of a force. In a block between two bodies the line of thrust is a funicular
-//! polygon. Its construction, in [`BlockForces::funicular`]:
+//! Where possible, a segment lies on the true line of action of a force. In a block between two bodies the line of
+//! thrust is a funicular polygon. Its construction, in [`BlockForces::funicular`]:
 //!
 //! 1. It starts at the first joint, along the line of action of that joint's force.
 //! 2. Where it meets the line of action of a load or of the weight, it continues along the resultant of both forces.
@@ -9,10 +9,10 @@
 //!    joint's force.
 //!
 //! The polygon is only drawn if all its vertices and segments lie in or near the block. The order of the loads is not
-//! known, so all orders are tried, and finally the resultant of all loads. No order works if three bodies press on
-//! the block, if forces are parallel on different lines, or if the forces do not balance. The path is then schematic:
-//! a straight line between the two joints, or a straight line from every joint and load to a common point. The line
-//! of thrust therefore has no gaps.
+//! known, so all orders are tried, and finally the resultant of all loads. There is no such polygon if more than two
+//! bodies press on the block, if forces are parallel on different lines, or if the forces do not balance. The path is
+//! then schematic: a straight line between the two joints, or a straight line from every joint and load to a common
+//! point. The line of thrust therefore has no gaps.
 
 use super::bearing::{self, bearings};
 use crate::analysis::FrameAnalysis;
@@ -30,7 +30,8 @@ const NEARLY_INSIDE: f64 = 0.06;
 /// Up to this number of loads on a block, every order of the loads and the weight is tried: at most 4! orders. If the
 /// block has more loads, only their sum is used.
 const MAX_ORDERED_LOADS: usize = 3;
-/// A schematic line has one width if the larger of its two forces is at most this multiple of the smaller one.
+/// A schematic path between two forces is a single straight line if the larger force is at most this multiple of the
+/// smaller force.
 const SIMILAR_RATIO: f64 = 4.0;
 
 /// The origin of a force.
@@ -42,7 +43,7 @@ pub(crate) enum ForceOrigin {
     Robot(RobotId),
     /// The load with this index in the scene.
     Load(usize),
-    /// The resultant of a joint's force and the loads that the line has met so far.
+    /// The weight of the block, or the resultant of a joint's force and the loads that the line has met so far.
     Resultant,
 }
 
@@ -53,11 +54,11 @@ pub(crate) struct ThrustSegment {
     pub on: BlockId,
     /// The origin of the force.
     pub origin: ForceOrigin,
-    /// The point at which the segment begins.
+    /// The point at which the segment begins, metres.
     pub from: Point,
-    /// The point at which the segment ends.
+    /// The point at which the segment ends, metres.
     pub to: Point,
-    /// The force that acts along it, N.
+    /// The force that the segment shows, N. It acts along the segment unless the segment is schematic.
     pub force: Vector,
     /// True if the segment lies on a line of action; false if it is schematic.
     pub through: bool,
@@ -190,8 +191,8 @@ impl BlockForces<'_> {
     }
 
     /// Returns the funicular polygon of a block on which one or two forces of other bodies or robots act. Returns
-    /// `None` for any other number of such forces, if the forces do not balance, or if no funicular polygon lies inside
-    /// the block.
+    /// `None` for any other number of such forces, if the forces do not balance, or if no funicular polygon lies in or
+    /// near the block.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
         let (first, last) = match self.pressing {
             [one] => (one, None),
@@ -241,7 +242,7 @@ impl BlockForces<'_> {
 
     /// Returns the funicular polygon from the joint `first` to the joint `last`, or to the last load if `last` is
     /// `None`. The polygon meets the lines of action of `loads` in their order. Returns `None` if the polygon misses
-    /// `last` or leaves the block.
+    /// `last`, leaves the block or turns back.
     fn funicular(
         &self,
         first: &LineOfAction,
@@ -320,9 +321,9 @@ impl BlockForces<'_> {
         })
     }
 
-    /// Returns a schematic path for a block without a funicular polygon. If two forces of similar size act on the block,
-    /// the path is the straight line between them, as wide as the larger force. Otherwise a straight line leads from each force to a common point. The weight is
-    /// not shown.
+    /// Returns a schematic path for a block without a funicular polygon. If two forces of similar size act on the
+    /// block besides its weight, the path is the straight line between them, as wide as the larger force. Otherwise a
+    /// straight line leads from each force to a common point. The weight is not shown.
     fn schematic(&self) -> Vec<ThrustSegment> {
         let all = self.pressing.iter().chain(self.loads);
         let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);

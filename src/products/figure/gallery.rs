@@ -26,9 +26,9 @@ pub struct Plate {
 enum Subject {
     /// The free-body diagram of a block of a scene: the scene and the name of the block.
     Freebody(&'static str, &'static str),
-    /// The ring of colours.
+    /// The wheel of the colours of arrows.
     Ring,
-    /// The sheet of shapes.
+    /// The overview of the predefined shapes of lattice cells.
     Shapes,
     /// The forces of a scene.
     Forces(&'static str),
@@ -122,7 +122,7 @@ const PLATES: [(&str, Subject); 10] = [
 /// consider.
 ///
 /// Arrows are drawn as in the thesis: normal and friction forces have separate arrows, and the arrow of the largest
-/// single unknown is one unit length long.
+/// weight, load or single unknown force is one unit length long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
     PLATES
         .iter()

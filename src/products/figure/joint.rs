@@ -1,5 +1,5 @@
 //! [`Joint`]: the relative motion of two bodies at an interface in a mechanism. The joint is a hinge if only one end of
-//! the interface stays in contact, and a slip if the interface slides.
+//! the interface stays in contact and does not slide. It is a slip if the interface slides.
 //!
 //! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
 //! with exactly this speed slips with friction. A contact that opens faster is free.
@@ -20,9 +20,9 @@ pub(crate) struct Joint {
     /// The application point of a hinge. This point stays in contact, the other application point opens, and nothing
     /// slides.
     pub hinge: Option<Point>,
-    /// The application point that slides, if only one of both points stays in contact.
+    /// The application point that slides; `None` if the joint does not slide, or if both points stay in contact.
     pub touch: Option<Point>,
-    /// The middle of the part that stays in contact.
+    /// The point `touch`, or the middle of the interface if `touch` is `None`.
     pub at: Point,
     /// Speed of the first body relative to the second along (−n_y, n_x). It is 0 if the joint does not slide or loses
     /// contact.

@@ -37,8 +37,9 @@ fn have_same_names(a: &Contact, b: &Contact) -> bool {
     pairs.all(|(a, b)| same(a, b))
 }
 
-/// Returns the side of `at` among the middles of several joints, measured in the direction in which they differ most.
-/// Returns `None` if there is only one joint, or if all are at one place.
+/// Returns the side of the joint with the middle `at` among several joints with the middles `middles`: `left` or
+/// `right`, or `lower` or `upper` if the joints differ more in height. A joint between two others is `between the
+/// others`. Returns `None` if there is only one joint, or if all are at one place.
 fn side(middles: &[Point], at: Point) -> Option<&'static str> {
     let bounds = Bounds::from_points(middles.iter().copied())?;
     let (across, position, [first, last]) = match bounds.width() >= bounds.height() {

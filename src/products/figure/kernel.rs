@@ -1,4 +1,5 @@
-//! Draws the safe part (kernel) of each interface, and a mark at the position of the resultant in it.
+//! Draws the safe part (kernel) of each interface, in which its resultant must act, and a mark at the position of the
+//! resultant.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;

@@ -43,14 +43,14 @@ pub enum Kind {
     Build,
     /// The external forces on the structure, and their force polygon.
     Polygon,
-    /// The structure in its present position, and with dashed lines how it falls just beyond its margin. Gravity is
-    /// turned, a horizontal load is added, or the loads grow.
+    /// The structure in its present position, and dashed outlines that show how it falls just beyond a margin: with
+    /// gravity turned, with a horizontal load added, or with larger loads.
     Margin,
     /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its
     /// longest edges.
     Capacity,
-    /// An arrow at each corner that shows in which direction to move it to make a margin larger, with the ten most
-    /// effective changes numbered and listed.
+    /// An arrow at each corner that shows in which direction to move the corner to make a margin larger. Up to ten of
+    /// the most effective changes are numbered and listed.
     Sensitivity,
     /// The changes of blocks and forces from one frame to the next. The arrows of all panels have the same scale.
     Compare,
@@ -107,15 +107,15 @@ impl Kind {
     }
 
     /// Returns the optional margins: a figure of this analysis shows them if they have been computed. Returns `None` if
-    /// the figure never shows margins.
+    /// there are no optional margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
-    /// Analyses a scene, and also computes what a figure of this kind shows: margins, the sensitivity of a margin, and
-    /// the forces that a block can carry. If `analysis_options` names no margin or no block, the default of the scene is
-    /// used.
+    /// Analyses a scene, and also computes the results that a figure of this kind shows: margins, the sensitivity of a
+    /// margin, or the forces that a block can carry. If `analysis_options` names no margin or no block, the default of
+    /// the scene is used.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
         let mut analysis_options = *analysis_options;
@@ -135,8 +135,9 @@ impl Kind {
         }
     }
 
-    /// True if the analysis lacks results that a figure of this kind shows, or has them for another margin or
-    /// block than `analysis_options` names.
+    /// True if the analysis lacks results that a figure of this kind needs, or has the sensitivity of another margin
+    /// than `analysis_options` names. If `analysis_options` requests the forces that a block can carry, and the figure
+    /// needs them, the result is always true.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options) -> bool {
         let frames = &analysis.frames;

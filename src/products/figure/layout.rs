@@ -9,23 +9,23 @@ pub(crate) const MAX_MARGIN: f64 = 36.0;
 /// Largest gap between columns in pixels, and as a fraction of the page width. The fraction matters only if the
 /// options set the page width.
 const MAX_GAP: (f64, f64) = (44.0, 0.05);
-/// Largest width of a row of panels, pixels.
+/// Largest width of a row of panels if the options set no page width, pixels.
 const MAX_ROW_WIDTH: f64 = 1028.0;
 /// Least width of a panel, so that captions have space, pixels.
 const MIN_PANEL_WIDTH: f64 = 240.0;
-/// Least width of a panel if there are many panels, pixels. With wider panels the figure would be longer than a page.
+/// Least width of a panel if there are many panels, pixels. With wider panels the figure would be higher than a page.
 const MIN_NARROW_PANEL_WIDTH: f64 = 120.0;
 /// Largest number of columns, unless the options set another number.
 const MAX_COLUMNS: usize = 8;
 /// Largest ratio of height to width of all panels of a page together, so that title and legend fit on the page.
 const MAX_PAGE_RATIO: f64 = 1.2;
-/// Largest ratio of height to width in a column of print.
+/// Largest ratio of height to width of all panels together in a column of print.
 const MAX_COLUMN_RATIO: f64 = 2.2;
 /// Height of the verdict and its text below a panel, pixels.
 const VERDICT_HEIGHT: f64 = 64.0;
-/// Longest unit length in a strip, pixels.
+/// Largest length of a unit length (a typical size of a block) on the page, pixels.
 const MAX_UNIT_LENGTH: f64 = 72.0;
-/// Shortest unit length, pixels, if fewer columns can achieve it.
+/// Least length of a unit length on the page, pixels, if a smaller number of columns can achieve it.
 const MIN_UNIT_LENGTH: f64 = 30.0;
 
 /// The part of a figure that has to fit on a page.
@@ -37,7 +37,7 @@ enum Fit {
     Rows,
 }
 
-/// The positions of panels.
+/// The arrangement of the panels of a figure: columns, widths and scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
     /// Margin around the figure, pixels.
@@ -78,7 +78,8 @@ impl Layout {
         }
     }
 
-    /// Returns lower bounds for the width and the height of the page, in pixels.
+    /// Returns lower bounds for the width and the height of the page, in pixels: the size of all pictures without
+    /// texts.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {
         let frames: Vec<usize> = (0..context.marks.len()).collect();
         let rows = frames.chunks(self.columns.max(1));
@@ -143,9 +144,9 @@ impl Row<'_> {
         ((self.across - (columns - 1) as f64 * self.gap) / columns as f64).max(1.0)
     }
 
-    /// Chooses the number of columns: the largest number up to 3 for which the panels are not too small. If the figure
-    /// is then too high for a page, chooses the smallest larger number for which it fits, or the number with the least
-    /// height if none fits.
+    /// Chooses the number of columns: the largest number up to 3 (for four panels, up to 2) for which the panels are
+    /// not too small. If the figure is then too high for a page, chooses the smallest larger number for which it fits,
+    /// or the number with the least height if none fits.
     fn columns(&self, fit: Fit) -> usize {
         let (count, across) = (self.count, self.across);
         // If the rows may be distributed over several pages, panels may have a small scale, but they must not be

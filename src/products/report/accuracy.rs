@@ -1,7 +1,7 @@
-//! Writes an accuracy study as a page, a table or a picture.
+//! Writes an accuracy study as an HTML page, a CSV table, a Markdown table or an SVG picture.
 //!
-//! All forms come from one [`Study`]. They state the version of drystone, but no date. [`result::accuracy_json`]
-//! writes the same study as JSON.
+//! All forms come from one [`Study`]. No form states a date, and all except the Markdown table state the version of
+//! drystone. [`result::accuracy_json`] writes the same study as JSON.
 //!
 //! [`result::accuracy_json`]: crate::result::accuracy_json
 
@@ -20,10 +20,11 @@ use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
 use crate::text;
 use crate::wording::verdict::plain;
 
-/// Smaller errors are drawn at this value and written as 0. They are rounding errors, because the unit roundoff of
-/// f64 is 1.1e-16.
+/// Relative errors below this value are drawn at this value and written as 0. They are rounding errors, because the
+/// unit roundoff of f64 is 1.1e-16.
 const MIN_SHOWN_ERROR: f64 = 1e-16;
-/// Larger errors, and runs without an error, are drawn at this value.
+/// Relative errors above this value are drawn at this value. So are methods with wrong verdicts and without a known
+/// error.
 const MAX_SHOWN_ERROR: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../../assets/accuracy.css");
@@ -61,8 +62,8 @@ fn colour(method: Method) -> [u8; 3] {
     }
 }
 
-/// Draws a chart of time against error, as SVG. It has a line for each method, the Pareto front, and red crosses for
-/// wrong verdicts.
+/// Draws a chart as SVG, with the time on the x axis and the error on the y axis. It has a line for each method, the
+/// Pareto front, and red crosses for wrong verdicts.
 ///
 /// # Errors
 /// If the chart cannot be drawn.
@@ -107,7 +108,7 @@ pub fn svg(study: &Study) -> Result<String, ChartError> {
     })
 }
 
-/// Formats a relative error: `1.2e-9`, `0` below [`MIN_SHOWN_ERROR`], or `–` if there is none.
+/// Formats a relative error: `1.2e-9`, `0` below [`MIN_SHOWN_ERROR`], or `–` for `None`.
 fn small(value: Option<f64>) -> String {
     value.map_or("–".into(), |v| match v {
         v if v < MIN_SHOWN_ERROR => "0".into(),

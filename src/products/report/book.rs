@@ -1,4 +1,4 @@
-//! [`illustrate`]: an mdBook preprocessor that draws the scenes in the chapters of a book.
+//! [`illustrate`]: an mdBook preprocessor, which draws the scenes in the chapters of a book.
 //!
 //! A fenced code block with the language `drystone` contains a scene, or names a scene file with `file=…`. The
 //! preprocessor replaces the block by a figure with a caption. Options follow the word `drystone`, as `name=value` or
@@ -7,11 +7,11 @@
 //! | option | meaning |
 //! |---|---|
 //! | `file=scene.json` | the scene file; its path is relative to the file of the chapter |
-//! | `kind=mechanism` | the kind of figure: `freebody`, or the name of a [`Kind`], such as `forces` |
-//! | `block=a` | the id of the block in a free-body diagram |
+//! | `kind=mechanism` | the kind of figure: `freebody`, or the name of a [`Kind`]; without this option, `forces` |
+//! | `block=a` | the id of the block in a free-body diagram; not needed if the scene has only one block |
 //! | `theme=dark` | the theme of the figure |
 //! | `width=600` | the width of the figure in pixels |
-//! | `amounts` | every arrow has a label with its force |
+//! | `amounts` | the arrows have labels with their magnitudes, in frames with at most 60 blocks |
 //! | `nocaption` | no caption below the figure |
 
 use std::fs;
@@ -27,7 +27,7 @@ use crate::output::svg;
 use crate::scene::{BlockId, Scene};
 use crate::text;
 
-/// The first word after the fence of a code block that drystone draws.
+/// The language of the code blocks that drystone draws: the first word after the opening fence.
 const FENCE_WORD: &str = "drystone";
 
 /// All problems found in a book, one message each.
@@ -75,7 +75,8 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     }
 }
 
-/// Draws the scenes in a chapter and in its sub-chapters. `source` is the folder of the chapter files.
+/// Draws the scenes in a chapter and in its sub-chapters. `source` is the folder of the chapter files. Adds a message
+/// to `problems` for each scene that cannot be drawn.
 fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     let path = chapter["source_path"].as_str().or(chapter["path"].as_str());
     let path = source.join(path.unwrap_or("draft.md"));
@@ -91,8 +92,8 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     }
 }
 
-/// Returns the text of a chapter with a figure in place of each code block of the language `drystone`. Adds a
-/// message to `problems` for each code block that cannot be drawn.
+/// Returns the text of a chapter with a figure in place of each code block of the language `drystone`. `path` is the
+/// file of the chapter. Adds a message to `problems` for each code block that cannot be drawn.
 fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
     let mut drawn = String::new();
     let mut done = 0;
@@ -132,8 +133,9 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
     drawn
 }
 
-/// Returns the indentation of a code block that begins at byte `start`: the spaces and `>` before each of its lines.
-/// Without this indentation, the figure would leave the list or quotation that contains the code block.
+/// Returns the indentation of a code block that begins at byte `start`: the text before its opening fence, in which
+/// spaces replace all characters except `>`. Without this indentation, the figure would leave the list or quotation
+/// that contains the code block.
 fn margin(content: &str, start: usize) -> String {
     let line = content[..start].rfind('\n').map_or(0, |end| end + 1);
     let kept = |c: char| if c == '>' { c } else { ' ' };
@@ -188,8 +190,8 @@ impl FigureRequest {
     }
 }
 
-/// Returns the HTML figure for a code block. `words` are its options, `body` is its content, and `chapter` is the
-/// file of the chapter.
+/// Returns the HTML figure for a code block, or the reason why it cannot be drawn. `words` are the options of the code
+/// block, `body` is its content, and `chapter` is the file of the chapter.
 fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let request = FigureRequest::read(words)?;
     let text = match &request.file {

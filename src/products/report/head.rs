@@ -1,4 +1,5 @@
-//! [`Head`]: the part of a report above its scenes. This file also has functions that all writers share.
+//! [`Head`]: the part of a report above its scenes. This file also has the errors of the report writers and functions
+//! that the writers share.
 
 use super::entry::Row;
 use crate::analysis::Verdict;
@@ -24,13 +25,14 @@ pub(super) struct Head<'r> {
     pub rows: Vec<&'r Row>,
     /// Whether each scene is a comparison of two scenes.
     pub compares: bool,
-    /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
+    /// Whether the page has dark colours (`true`) or light colours; `None` to follow the colours of the reader's
+    /// system.
     pub dark: Option<bool>,
-    /// The script that makes the figures interactive.
+    /// The script that makes the figures interactive; `None` for a report without interactive figures.
     pub interactive: Option<&'r str>,
 }
 
-/// An explanation of “stands” for the first page of a report.
+/// An explanation of the word “stands” in HTML and PDF reports.
 pub(super) const STANDS_MEANING: &str = "“Stands” means that a balance of forces exists for rigid blocks at rest, laid dry (no mortar, no cohesion). A balance \
      that exists only by wedging counts. Motion in time is not considered: no impact, no earthquake.";
 
@@ -39,7 +41,7 @@ pub(super) const STANDS_MEANING: &str = "“Stands” means that a balance of fo
 pub struct Refused {
     /// The path as given by the user.
     pub name: String,
-    /// The problems of the scene. A file that cannot be read has one problem without a position.
+    /// The problems of the file. A file that cannot be read has one problem without a position.
     pub problems: Vec<Problem>,
 }
 
@@ -81,7 +83,8 @@ impl From<OutlineError> for ReportError {
     }
 }
 
-/// Converts a title to a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters.
+/// Converts a title to a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters. Returns
+/// `scene` if no character of the title is left.
 pub(super) fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {
@@ -102,7 +105,7 @@ pub(super) fn slug(title: &str) -> String {
     }
 }
 
-/// Returns the mark of a verdict: `✓`, `✗` or `?`.
+/// Returns the mark of a verdict: `✓` for stable, `✗` for unstable, `?` for undecided.
 pub(super) fn sign(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "✓",

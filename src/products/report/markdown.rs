@@ -13,7 +13,8 @@ use crate::wording::verdict::plain;
 /// The number of characters of a bar.
 const BAR_CHARACTERS: usize = 24;
 
-/// Returns the name of the folder with the figures of a report. The folder is next to the report.
+/// Returns the name of the folder with the figures of a report. The folder is next to the report file. `stem` is the
+/// name of the report file without its extension.
 fn folder(stem: &str) -> String {
     format!("{}-figures", slug(stem))
 }
@@ -46,8 +47,8 @@ fn push(out: &mut String, line: &str) {
     let _ = writeln!(out, "{line}");
 }
 
-/// Writes the text for a scene, and the files of its figures. `number` counts from 1. The name of the folder begins
-/// with `stem`.
+/// Returns the text for a scene, and the files of its figures. `number` is the number of the scene, from 1. `stem` is
+/// the name of the report file without its extension.
 pub(super) fn section(
     entry: &Entry,
     number: usize,
@@ -96,7 +97,7 @@ fn code(words: &str) -> String {
 struct Writer {
     out: String,
     files: Vec<OutputFile>,
-    /// The prefix of the file names of the figures.
+    /// The prefix of the paths of the figure files: the folder, and the beginning of the file names.
     place: String,
 }
 
@@ -184,8 +185,8 @@ impl Writer {
     }
 }
 
-/// Draws a margin as a row of characters, with full blocks for the values at which the structure stands. The present
-/// value is a disc if it is certainly one of these values, and a cross otherwise.
+/// Draws a margin as a row of characters. The character `█` covers the values at which the structure stands. The
+/// current value is a disc if the structure is known to stand there, and a cross otherwise.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
@@ -221,7 +222,7 @@ fn table(out: &mut String, grid: &Grid) {
     if grid.lines.is_empty() {
         return;
     }
-    // Columns with pictures are left out, because a Markdown table contains only text.
+    // Leave out columns with small pictures, because these pictures are not written as files.
     let pictured = |column: &usize| {
         let mut cells = grid.lines.iter().filter_map(|l| l.cells.get(*column));
         cells.any(|c| c.picture.is_some())

@@ -1,7 +1,9 @@
-//! Reports for people: many scenes on one page (`page`), scenes in an mdBook (`book`), and the study of `accuracy`.
+//! Writes reports for people: a report on one or more scenes (`page`), figures in the chapters of an mdBook (`book`),
+//! and accuracy studies (`accuracy`).
 //!
-//! The module `entry` collects the text, numbers and drawings of one scene. The modules `html`, `markdown` and `print`
-//! write them in three formats. The module [`result`](crate::result) writes results as JSON for programs.
+//! For `page`, the module `entry` collects the text, numbers and drawings of one scene. The modules `html`, `markdown`
+//! and `print` write them as HTML, Markdown and PDF. The module [`result`](crate::result) writes results as JSON for
+//! programs.
 
 #[cfg(feature = "report")]
 pub mod accuracy;

@@ -1,8 +1,8 @@
-//! [`Report`]: a report on many scenes, in one of five forms.
+//! [`Report`]: a report on one or more scenes, in one of five forms: HTML, split HTML, Markdown, PDF or JSON.
 //!
 //! Each scene becomes an [`Entry`], which is written at once as a [`Piece`] in the requested form. The entry, its
-//! figures and its analysis are then dropped. A report on a thousand scenes therefore needs only the memory of its
-//! own text, and several threads can write the pieces in any order.
+//! figures and its analysis can then be dropped. A report on a thousand scenes therefore needs little more memory than
+//! its own text, and several threads can write the pieces in any order.
 
 pub use super::head::{OutputFile, Refused, ReportError};
 
@@ -20,7 +20,7 @@ pub enum Form {
     Html,
     /// An HTML index, and an HTML page for each scene.
     Split,
-    /// Markdown, with the figures in files next to it.
+    /// A Markdown file, with the figures in a folder next to it.
     Markdown,
     /// A PDF for print.
     Pdf,
@@ -44,7 +44,7 @@ enum PieceContent {
     Sheets(Vec<print::Page>),
 }
 
-/// A report on many scenes.
+/// A report on one or more scenes.
 #[derive(Debug)]
 pub struct Report {
     /// The title of the report.
@@ -57,16 +57,18 @@ pub struct Report {
     pub notes: Vec<String>,
     /// Whether each piece compares two scenes.
     pub compares: bool,
-    /// Whether the page is dark (`true`) or light; `None` to follow the reader's system.
+    /// Whether HTML pages have dark colours (`true`) or light colours; `None` to follow the colours of the reader's
+    /// system.
     pub dark: Option<bool>,
-    /// The script that makes the figures of [`Form::Html`] interactive: the file `interactive.js` that
-    /// `examples/playground/build.sh` makes. It is inserted without escaping.
+    /// The script that makes the figures of HTML pages interactive: the text of the file `interactive.js`, which
+    /// `examples/playground/build.sh` makes. It is inserted without escaping. `None` for figures that are not
+    /// interactive.
     pub interactive: Option<String>,
 }
 
 impl Piece {
-    /// Writes the part of a report for one scene. `number` counts from 1. The names of figure files begin with
-    /// `stem`.
+    /// Writes the part of a report for one scene. `number` is the number of the scene, from 1. `stem` is the name of
+    /// the report file without its extension. The folder with the figures of a Markdown report is named after it.
     ///
     /// # Errors
     /// If the text of a figure cannot be laid out.
@@ -131,7 +133,7 @@ impl Report {
     }
 
     /// Returns a summary: `12 scenes: 9 stand, 2 fall, 1 is undecided; 1 file is not a valid scene`. For comparisons,
-    /// it counts the verdicts that changed and the verdicts of the second scenes.
+    /// the summary counts the verdicts that changed, and the verdicts of the second scenes.
     pub fn summary(&self) -> String {
         let counts = self.counts();
         let what = if self.compares { "comparison" } else { "scene" };
@@ -185,8 +187,8 @@ impl Report {
         }
     }
 
-    /// Writes the files of the report; the main file comes first. `stem` is the name of the main file without its
-    /// extension; the pages of [`Form::Split`] have fixed names.
+    /// Returns the files of the report, the main file first. `form` must be the form of all pieces. `stem` is the name
+    /// of the main file without its extension. [`Form::Split`] does not use `stem`.
     ///
     /// # Errors
     /// If a PDF cannot be written.
@@ -239,7 +241,7 @@ impl Report {
 }
 
 impl PieceContent {
-    /// Returns the text of an HTML, Markdown or JSON piece; empty for PDF pages.
+    /// Returns the text of an HTML, Markdown or JSON piece, or an empty text for PDF pages.
     fn text(&self) -> &str {
         match self {
             PieceContent::Text(text) | PieceContent::Files(text, _) => text,

@@ -10,8 +10,8 @@
 //! | not set | 1 | the references |
 //! | set | any | nothing |
 //!
-//! Each test locks the folder of its references. Tests of one process and tests of several processes, as nextest runs
-//! them, can therefore run at the same time.
+//! Each test locks the folders of its references. Tests can therefore run at the same time, in one process or, as with
+//! nextest, in several processes.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -44,7 +44,8 @@ macro_rules! assert_scene {
     };
 }
 
-/// Fails if any scene in a folder or its subfolders differs from its references, or if a reference has no scene.
+/// Fails if any scene in a folder or its subfolders differs from its references, or if a reference is orphaned (its
+/// scene does not exist, or the settings do not include it).
 ///
 /// The path is relative to the folder of your crate.
 ///
@@ -88,7 +89,7 @@ macro_rules! assert_figure {
 /// Implements [`assert_scene!`](crate::assert_scene). `path` is the scene file, relative to `crate_folder`.
 ///
 /// # Panics
-/// If a reference does not match, or if the scene does not exist or is not valid.
+/// If a reference does not match, if the scene does not exist, or if the scene or the settings are not valid.
 #[track_caller]
 pub fn scene(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
@@ -99,7 +100,7 @@ pub fn scene(crate_folder: &Path, path: &Path) {
 /// `crate_folder`.
 ///
 /// # Panics
-/// If a reference does not match or has no scene, if a scene is not valid, or if there is no scene.
+/// If a reference does not match or is orphaned, if a scene or the settings are not valid, or if there is no scene.
 #[track_caller]
 pub fn scenes(crate_folder: &Path, path: &Path) {
     let place = place(crate_folder, path);
@@ -109,7 +110,8 @@ pub fn scenes(crate_folder: &Path, path: &Path) {
 /// Implements [`assert_figure!`](crate::assert_figure). `name` is the file name of the references without extension.
 ///
 /// # Panics
-/// If a reference does not match, or if the name leads out of the folder of references.
+/// If a reference does not match, if the settings are not valid, or if the name is empty or leads out of the folder of
+/// references.
 #[track_caller]
 pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let inside = name.components().all(|c| matches!(c, Component::Normal(_)));

@@ -4,8 +4,8 @@ use super::discovery::shown;
 use super::outcome::{CheckOutcome, Snapshot};
 use crate::text::{github, github_property, xml};
 
-/// Writes the findings as JUnit XML. It has one test case for each snapshot, each reference without a scene, and each
-/// scene on which the program failed. The XML contains no times, so that equal findings give equal bytes.
+/// Writes the findings as JUnit XML. It has one test case for each snapshot, each orphaned reference, and each scene on
+/// which the program failed. The XML contains no times, so that equal findings give equal bytes.
 pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();
     for snapshot in &report.snapshots {
@@ -42,8 +42,8 @@ fn case(name: &str, lines: &[String]) -> String {
 }
 
 /// Returns the findings as GitHub annotations, such as `::error file=scenes/arch.json,title=…::…`. There is one
-/// annotation for each snapshot that does not match, each reference without a scene, and each scene on which the
-/// program failed. GitHub shows them at their files only if the paths start at the root of the repository.
+/// annotation for each snapshot that does not match, each orphaned reference, and each scene on which the program
+/// failed. GitHub shows an annotation at its file only if the path of the file starts at the root of the repository.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let others = report.others();

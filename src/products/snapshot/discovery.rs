@@ -1,4 +1,5 @@
-//! [`discover`]: finds scenes in folders, the paths of their references, and references without a scene.
+//! [`discover`]: finds the scenes in folders and lists the paths of their references. Also finds orphaned references:
+//! references whose scene does not exist, or which the settings do not include.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -49,38 +50,40 @@ pub enum DiscoveryError {
 pub struct Job {
     /// The path of the scene file.
     pub path: PathBuf,
-    /// The name of the scene in messages: its path without the extension, with `/` between folders.
+    /// The name of the scene in messages: the path of its references without their extensions, with `/` between
+    /// folders. It is the path of the scene file without `.json`, unless a settings file lists the scene.
     pub name: String,
     /// The scene.
     pub scene: Arc<Scene>,
-    /// The settings for the folder of the scene.
+    /// The settings for the folder of the references.
     pub settings: Arc<Settings>,
-    /// The references of the scene, in the order of the layers.
+    /// The references of the scene: first the facts, then SVG and pictures for each kind of figure.
     pub parts: Vec<Part>,
 }
 
-/// The scenes to check, and orphaned references.
+/// The result of [`discover`]: the scenes to check, and orphaned references.
 #[derive(Debug, Default)]
 pub struct Discovered {
-    /// The scenes, sorted by name.
+    /// The scenes, sorted by the paths of their files.
     pub jobs: Vec<Job>,
-    /// References whose scene does not exist or whose layer is not in the settings any more, each with the reason and
-    /// remedy.
+    /// References whose scene does not exist or which the settings do not include, each with the reason and the remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program failed because of an error in the program.
+    /// Scenes that could not be read because of an error in the program, each with a description of the error.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
-/// Finds all scenes in the given folders and scene files, and all orphaned references: those without a scene, or not
-/// included in the settings.
+/// Finds all scenes in the given folders and scene files. Also finds all orphaned references: references without a
+/// scene, and references that the settings do not include.
 ///
-/// A scene is a `.json` file with the key `"drystone"`. A file that is not valid JSON counts as a damaged scene, and
-/// is reported, if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`. Hidden folders and
-/// caches are skipped. The filter `only` selects scenes in one of three ways:
+/// In a folder, a scene is a `.json` file that contains `"drystone"` or already has a reference. A file that is not
+/// valid JSON counts as a damaged scene, and is reported, if it is empty, is not UTF-8, or contains `drystone`,
+/// `blocks` or `polygon`. Hidden files, hidden folders and caches are skipped. The filter `only` selects scenes in one
+/// of three ways:
 ///
-/// 1. If it equals the name of a scene, it selects only this scene, so that accepting `arch` does not accept `arch2`.
-/// 2. If it contains `*`, it is a pattern for the name.
-/// 3. Otherwise it selects all scenes whose name contains it.
+/// 1. If the filter equals the name of a scene, it selects only this scene. Accepting `arch` thus does not accept
+///    `arch2`.
+/// 2. Otherwise, if the filter contains `*`, it is a pattern for the name.
+/// 3. Otherwise the filter selects all scenes whose name contains it.
 ///
 /// # Errors
 /// All errors in scenes and settings, files that cannot be read, and scenes that would share a reference.
@@ -137,7 +140,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
     })
 }
 
-/// Writes a path with `/` between folders, on every operating system.
+/// Returns a path as text, with `/` between folders on every operating system and without `./` at the beginning.
 pub(super) fn shown(path: &Path) -> String {
     let shown = path.to_string_lossy().replace('\\', "/");
     shown.strip_prefix("./").unwrap_or(&shown).to_owned()
@@ -146,12 +149,12 @@ pub(super) fn shown(path: &Path) -> String {
 /// The files and the errors that a search has found so far.
 #[derive(Default)]
 struct SnapshotSearch {
-    /// Possible scenes: the path of each, and the base path of its references.
+    /// Possible scenes. Each has the path of its file, and the path of its references without their extensions.
     candidates: Vec<(PathBuf, PathBuf)>,
-    /// Possible references.
+    /// The paths of files that may be references.
     others: Vec<PathBuf>,
     /// Settings that have already been read, by file. The key `None` is for the default settings. The value `None` is
-    /// for a file that is not valid.
+    /// for a file that cannot be read or is not valid.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
     errors: Vec<DiscoveryError>,
 }
@@ -175,8 +178,8 @@ impl SnapshotSearch {
         });
     }
 
-    /// Collects the scenes and possible references of a folder and its subfolders. Skips hidden files, `node_modules`
-    /// and folders with a `CACHEDIR.TAG`.
+    /// Collects the possible scenes and references of a folder and its subfolders. Skips hidden files, hidden folders,
+    /// `node_modules` and folders with a file `CACHEDIR.TAG`.
     fn add_folder(&mut self, folder: &Path) {
         let entries: Result<Vec<_>, _> = fs::read_dir(folder).and_then(Iterator::collect);
         let mut entries: Vec<fs::DirEntry> = match entries {
@@ -239,8 +242,8 @@ impl SnapshotSearch {
         self.candidates.push((path, base));
     }
 
-    /// Returns the settings for a folder; `None` if the settings file cannot be read or is not valid. Adds its errors
-    /// to `errors`.
+    /// Returns the settings for a folder; `None` if the settings file cannot be read or is not valid. Adds the errors
+    /// of this file to `errors`.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
@@ -294,7 +297,7 @@ impl SnapshotSearch {
     }
 
     /// Returns the bytes of a scene file; `None` if the file is not a drystone scene, the settings ignore it, or it
-    /// cannot be read.
+    /// cannot be read. `base` is the path of its references without their extensions, and `parts` are these references.
     fn scene_bytes(
         &mut self,
         path: &Path,

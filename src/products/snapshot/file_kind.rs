@@ -32,7 +32,8 @@ pub(super) fn looks_like_scene(bytes: &[u8]) -> bool {
     }
 }
 
-/// True if the first 4 KiB of a file contain a mark that identifies it as a reference of a scene.
+/// True if the first 4 KiB of a file contain a mark that identifies the file as a reference of a scene. False if the
+/// file cannot be read.
 pub(super) fn has_reference_mark(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));

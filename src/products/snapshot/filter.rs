@@ -2,15 +2,15 @@
 
 use super::setting::matches_pattern;
 
-/// The filter of `--only`.
+/// The filter of `--only`. It selects scenes and references by their names.
 pub(super) enum Filter<'f> {
-    /// All names.
+    /// Selects all names.
     All,
-    /// The scene with this name, and its references.
+    /// Selects the scene with this name, and its references.
     Exactly(&'f str),
-    /// Names that match a pattern with `*`.
+    /// Selects names that match this pattern, in which `*` stands for any text.
     Pattern(&'f str),
-    /// Names that contain this text.
+    /// Selects names that contain this text.
     Containing(&'f str),
 }
 
@@ -33,7 +33,7 @@ impl<'f> Filter<'f> {
     pub(super) fn selects(&self, name: &str) -> bool {
         match self {
             Filter::All => true,
-            // The name may be that of a reference: it then begins with the name of the scene and a dot.
+            // The name may also be the name of a reference, which is the name of its scene, a dot and more.
             Filter::Exactly(scene) => name
                 .strip_prefix(scene)
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),

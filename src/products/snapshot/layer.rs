@@ -1,6 +1,6 @@
 //! [`Layer`]: the three layers in which a snapshot is compared with its references: facts, SVG and pixels.
 
-/// A layer of the comparison.
+/// A form in which a result is stored and compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Layer {
@@ -13,7 +13,8 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// All layers, in the order in which they are compared.
+    /// All layers, from the results to the picture. A difference in one layer usually explains those in later
+    /// layers.
     pub const ALL: [Layer; 3] = [Layer::Facts, Layer::Svg, Layer::Pixels];
 
     /// Returns the name of the layer in settings and reports.

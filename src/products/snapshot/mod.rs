@@ -1,9 +1,9 @@
 //! Snapshot tests for scenes and their pictures.
 //!
-//! The facts of a scene (verdict and forces), its SVG and its pixels are stored next to it as reference files. A
-//! check computes them again and describes every difference in words. [`doc::snapshot`](crate::doc::snapshot) is the
-//! user guide: `drystone snapshot DIR` on the command line, [`assert_scene!`], [`assert_scenes!`] and
-//! [`assert_figure!`] in tests.
+//! The facts of a scene (verdict and forces), its SVG and its pixels are stored in reference files next to the scene
+//! file. A check computes them again and describes every difference in words. Users run checks with
+//! `drystone snapshot DIR` on the command line, or with [`assert_scene!`], [`assert_scenes!`] and [`assert_figure!`] in
+//! tests; [`doc::snapshot`](crate::doc::snapshot) is the user guide.
 //!
 //! | module | result | input |
 //! |---|---|---|

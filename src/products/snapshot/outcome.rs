@@ -46,19 +46,20 @@ pub enum State {
 /// A reference that does not match.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// The layer.
+    /// The layer of the reference.
     pub layer: Layer,
     /// The path of the reference.
     pub file: PathBuf,
     /// The reason why the reference does not match.
     pub state: State,
-    /// The changes in words: first those of the scene itself, then their effects, most important first.
+    /// The changes, or another reason, in words. Changes of facts begin with changes of the scene itself; changes of
+    /// results follow, the most important first.
     pub words: Vec<String>,
     /// The new content of the reference; empty if there is none.
     pub fresh: Vec<u8>,
-    /// The present content of the reference; `None` if it is missing.
+    /// The present content of the reference file; `None` if the file does not exist, cannot be read or is too large.
     pub expected: Option<Vec<u8>>,
-    /// A PNG that shows the differing pixels; `None` unless two pictures were compared.
+    /// A PNG that shows the differing pixels; `None` unless two pictures were compared and differ.
     pub difference: Option<Vec<u8>>,
 }
 
@@ -69,7 +70,7 @@ pub struct Snapshot {
     pub name: String,
     /// The path of the scene; `None` for a figure from a test.
     pub scene: Option<PathBuf>,
-    /// The paths of all references.
+    /// The paths of all its references.
     pub references: Vec<PathBuf>,
     /// The references that do not match.
     pub findings: Vec<Finding>,
@@ -78,11 +79,12 @@ pub struct Snapshot {
 /// The result of a check.
 #[derive(Clone, Debug, Default)]
 pub struct CheckOutcome {
-    /// All scenes, sorted by name.
+    /// All checked scenes or figures. Scenes are sorted by the paths of their files.
     pub snapshots: Vec<Snapshot>,
-    /// References without a scene, each with the reason and the remedy.
+    /// Orphaned references, whose scene does not exist or which the settings do not include. Each has the reason and
+    /// the remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes on which the program failed because of an error in the program.
+    /// Scenes that could not be checked because of an error in the program, each with a description of the error.
     pub faults: Vec<(PathBuf, SceneError)>,
 }
 
@@ -145,8 +147,8 @@ impl Snapshot {
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
     }
 
-    /// Writes the new contents next to the references or replaces the references. Deletes `.new.*` and `.diff.png`
-    /// files that are out of date.
+    /// Writes the new contents next to the references, or in place of the references, as `acceptance` states. Deletes
+    /// `.new.*` and `.diff.png` files that are out of date.
     ///
     /// # Errors
     /// The file that could not be written. In this case the references of this snapshot are unchanged.
@@ -178,16 +180,15 @@ impl Snapshot {
 }
 
 impl CheckOutcome {
-    /// True if all references match, every reference has a scene, and the program did not fail on any scene.
+    /// True if all references match, no reference is orphaned, and the program did not fail on any scene.
     pub fn matches(&self) -> bool {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }
 
-    /// Iterates over the references without a scene, and the scenes on which the program failed. Each path has a
-    /// message.
+    /// Iterates over the orphaned references and the scenes on which the program failed. Each path has a message.
     pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
         let orphans = self.orphans.iter().map(|(path, words)| {
-            let words = format!("a reference without a scene: {words}");
+            let words = format!("an orphaned reference: {words}");
             (path.as_path(), words)
         });
         let faults = self.faults.iter().map(|(path, fault)| {
@@ -216,7 +217,9 @@ impl CheckOutcome {
         lines
     }
 
-    /// Returns the numbers of matching and other snapshots in one line: `12 snapshots: 10 match, 1 changed, 1 new`.
+    /// Returns the numbers of snapshots that match and that do not match, in one line:
+    /// `12 snapshots: 10 match, 1 changed, 1 new`. Orphaned references and failures of the program follow if there are
+    /// any.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
@@ -236,8 +239,8 @@ impl CheckOutcome {
         }
         match self.orphans.len() {
             0 => {}
-            1 => words.push_str(", 1 reference without a scene"),
-            n => words.push_str(&format!(", {n} references without a scene")),
+            1 => words.push_str(", 1 orphaned reference"),
+            n => words.push_str(&format!(", {n} orphaned references")),
         }
         match self.faults.len() {
             0 => {}

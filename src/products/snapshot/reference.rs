@@ -1,4 +1,4 @@
-//! [`Part`]: the reference files of a scene, and the options that produce them.
+//! [`Part`]: a reference file of a scene or figure, and the options that produce it.
 
 use std::path::{Path, PathBuf};
 
@@ -15,14 +15,14 @@ pub struct Part {
     pub file: PathBuf,
     /// The kind of figure.
     pub kind: Kind,
-    /// The theme of the figure.
+    /// The name of the theme of the figure.
     pub theme: String,
-    /// The width in pixels; `None` for the natural width of the drawing.
+    /// The width of the picture in pixels; `None` for the natural width of the drawing.
     pub width: Option<u32>,
 }
 
 /// Lists the reference files of a scene or figure, one for each combination of layer, kind, theme and width that the
-/// settings require. Their paths are `base` with suffixes for this combination.
+/// settings require. The path of each file is `base` with suffixes for its combination.
 pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);
@@ -38,7 +38,7 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
         parts.push(part(Layer::Facts, &[], Kind::Forces, &first_theme, None));
     }
     for (k, kind) in settings.kinds.iter().enumerate() {
-        // The first kind, theme and width have no suffix in the file name.
+        // The first kind, the first theme and the first width have no suffix in the file name.
         let kind_mark = (k > 0).then(|| kind.name().to_owned());
         if has(Layer::Svg) {
             let marks: Vec<String> = kind_mark.iter().cloned().collect();

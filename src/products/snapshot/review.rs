@@ -1,9 +1,9 @@
 //! [`page`]: writes the findings as one HTML file for review.
 //!
-//! The page shows the expected picture, the difference and the new picture side by side. A slider or a blink button
-//! compares them in place. It also lists the changes in words and the commands that accept them. The pictures are
-//! part of the file, so the page loads nothing from the network. They are the stored PNG files, not drawn by the
-//! browser.
+//! The page shows the expected picture, the difference and the new picture side by side. With a slider or a blink
+//! button, a user compares the expected and the new picture in the same place. The page also lists the changes in
+//! words and the commands that accept them. All pictures are PNG data in the file itself, so the page loads nothing
+//! from the network.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::text::{line, shell};
 
 const STYLE: &str = include_str!("../../../assets/snapshot/review.css");
 const SCRIPT: &str = include_str!("../../../assets/snapshot/review.js");
-/// Longer lists of changes are collapsed, because the pictures show most of these changes.
+/// Longer lists of changes of an SVG are collapsed, because the pictures show most of these changes.
 const MAX_OPEN_CHANGES: usize = 12;
 /// Largest number of changes of one file that the page lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 60;
@@ -67,7 +67,7 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                 }
                 @if !report.orphans.is_empty() {
                     section {
-                        h2 { "References without a scene" }
+                        h2 { "Orphaned references" }
                         ul {
                             @for (path, words) in &report.orphans {
                                 li { code { (line(&shown(path))) } " " (line(words)) }

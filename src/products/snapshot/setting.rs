@@ -1,4 +1,5 @@
-//! [`Settings`]: reads `drystone-snapshots.toml`. No other file of this folder uses the toml crate.
+//! [`Settings`]: the settings of a check, read from `drystone-snapshots.toml`. No other file of this folder uses the
+//! toml crate.
 
 use std::path::{Path, PathBuf};
 
@@ -29,13 +30,13 @@ pub struct Settings {
     /// The widths of pictures in pixels. The first width is stored as `name.png`, every other width as, for example,
     /// `name.w320.png`. If the list is empty, a picture has one pixel per unit of the drawing.
     pub widths: Vec<u32>,
-    /// The significant digits of a force that is as large as the largest load.
+    /// The significant digits of a force that is as large as the largest weight or load.
     pub digits: usize,
     /// The largest differences at which two pixels count as equal.
     pub tolerance: PixelTolerance,
     /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel; `None` for no limit.
     pub most_kilobytes: Option<u64>,
-    /// Files to ignore: paths relative to the settings file, with `*` for any characters.
+    /// Scene files to ignore: paths relative to the settings file, in which `*` stands for any text.
     pub ignore: Vec<String>,
     /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the
     /// settings file.
@@ -73,10 +74,10 @@ const KEYS: [&str; 10] = [
 ];
 
 impl Settings {
-    /// Reads the text of a settings file.
+    /// Reads the text of a settings file. Keys that are missing have their default values.
     ///
     /// # Errors
-    /// All problems, each with line and column.
+    /// One message for each problem, which begins with its line and column.
     ///
     /// # Example
     /// ```

@@ -1,9 +1,10 @@
 //! Reads and writes reference files.
 //!
-//! All files of a snapshot are written together, completely or not at all. If a result differs from its reference, it
-//! is written next to the reference as `.new.*`, and an image of the difference as `.diff.png`. Both are deleted as
-//! soon as the results agree. Simultaneous runs take turns by locking the folder. The operating system releases the
-//! lock when a process ends for any reason.
+//! All files of a snapshot are written together, completely or not at all. If a result differs from its reference, the
+//! result is written next to the reference as `.new.*`, and an image of the difference as `.diff.png`. Both files are
+//! deleted when the result is accepted or agrees with its reference again. Locks on the folders ensure that no run
+//! replaces references while another run uses the same folder. The operating system releases the locks when a process
+//! ends for any reason.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -66,21 +67,21 @@ pub struct FolderLock {
 /// The access of a run to the files in a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// The run reads references. Other runs may read them at the same time.
+    /// The run reads references, and may write `.new.*` files. Other runs may do the same at the same time.
     Read,
-    /// The run writes references. No other run may use the folder at the same time.
+    /// The run replaces references. No other run may use the folder at the same time.
     Write,
 }
 
-/// Locks folders for this run of the program. For read access, waits until no other run writes there. For write
+/// Locks folders for this run of the program. For read access, waits until no other run has write access. For write
 /// access, waits until no other run uses the folders.
 ///
 /// On a file system without locks, the run continues without a lock. Even then, each file is written completely or
 /// not at all.
 pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) -> FolderLock {
     let real = folders.into_iter().filter_map(|f| fs::canonicalize(f).ok());
-    // Lock the folders in sorted order. All runs do so, and therefore two runs never wait for each other (no
-    // deadlock).
+    // Lock the folders in sorted order. Because all runs use this order, two runs cannot wait for each other forever
+    // (no deadlock).
     let sorted: BTreeSet<PathBuf> = real.collect();
     let mut held = Vec::new();
     for folder in sorted {

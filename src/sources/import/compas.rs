@@ -1,8 +1,8 @@
-//! Reads an assembly of the Python package `compas_assembly` from JSON. Its blocks must be prisms across one plane, and
-//! the scene gets their sections in this plane.
+//! Reads an assembly of the Python package `compas_assembly` from JSON. The blocks must be prisms perpendicular to one
+//! coordinate plane, and the scene gets their sections in this plane.
 //!
-//! The file is searched for the first object with nodes that have blocks, so that all versions of COMPAS are read: some
-//! wrap data as `data`, older ones as `value`.
+//! The first object whose nodes have blocks is the assembly, wherever it is in the file. Files of all versions of
+//! COMPAS can therefore be read, although some versions wrap the data in a key `data` and older ones in a key `value`.
 
 use std::collections::BTreeMap;
 
@@ -12,18 +12,19 @@ use super::Options;
 use super::draft::Remark;
 use crate::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 
-/// Coordinates across the plane that differ by less than this share of the largest coordinate are equal.
+/// Coordinates across the plane that differ by less than this share of the largest coordinate count as equal. The
+/// thicknesses of the blocks are compared with the same share of the largest thickness.
 const EQUAL_COORDINATE_TOL: f64 = 1e-6;
 /// Coordinates are rounded to this many steps per unit of length before the two ends of a prism are compared.
 const STEPS_PER_UNIT: f64 = 1e6;
 
-/// A plane: its name, and the axes to the right, up and across.
+/// A coordinate plane: its name, and the indices of the axes that point to the right, up, and across the plane.
 type Plane = (&'static str, [usize; 3]);
 
 /// The planes in the order in which they are tried: z is up in COMPAS.
 const PLANES: [Plane; 3] = [("xz", [0, 2, 1]), ("yz", [1, 2, 0]), ("xy", [0, 1, 2])];
 
-/// A block of the assembly: its node, whether it is a support, and the corners of its faces.
+/// A block of the assembly: the name of its node, whether it is a support, and the corners of its faces.
 struct AssemblyBlock {
     name: String,
     is_support: bool,
@@ -41,8 +42,8 @@ pub(super) fn is_assembly(text: &str) -> bool {
 /// thickness.
 ///
 /// # Errors
-/// Returns an error if the text is not an assembly with blocks, if the blocks are not prisms across one plane, or if
-/// they differ in thickness and `options` has no thickness.
+/// Returns an error if the text is not an assembly with blocks, if all blocks are supports, if the blocks are not
+/// prisms perpendicular to one coordinate plane, or if they differ in thickness and `options` has no thickness.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let refuse = |message: String, help: &str| {
@@ -110,8 +111,8 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Returns a message that names the first block that is not a prism perpendicular to any coordinate plane. If there is
-/// no such block, the message says that the blocks are prisms perpendicular to different planes.
+/// Returns a message that names the first block that is not a prism perpendicular to one of the coordinate planes. If
+/// there is no such block, the message says that the blocks are prisms perpendicular to different planes.
 fn not_prismatic(solids: &[AssemblyBlock]) -> String {
     let odd = solids
         .iter()
@@ -122,7 +123,7 @@ fn not_prismatic(solids: &[AssemblyBlock]) -> String {
              parallel to this plane and have the same outline",
             crate::text::line(&solid.name)
         ),
-        None => "its blocks are prisms, but across different planes".into(),
+        None => "its blocks are prisms, but perpendicular to different planes".into(),
     }
 }
 
@@ -182,7 +183,7 @@ fn solid(name: &str, node: &Value) -> Option<AssemblyBlock> {
 }
 
 /// Returns the section of a block in the plane of the axes `right` and `up`, and its thickness along the axis `across`.
-/// `None` if the block is not a prism along that axis.
+/// `None` if the block is not a prism along the axis `across`.
 fn prism(solid: &AssemblyBlock, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f64)> {
     let size = solid
         .faces

@@ -1,7 +1,8 @@
-//! Reads a contact list: bodies with centre and mass, and the points at which they touch, as rows of numbers or as JSON.
+//! Reads a contact list: bodies with centre and mass, and the points at which they touch, as rows of numbers or as
+//! JSON.
 //!
-//! A row of three numbers is a body: x, y, mass. A row of six numbers is a contact: the numbers of the two bodies from 1
-//! (0 is the ground), x, y, the direction of the normal into the first body in radians, and the friction coefficient.
+//! A row of three numbers is a body: x, y, mass. A row of six numbers is a contact: the numbers of the two bodies from
+//! 1 (0 is the ground), x, y, the direction of the normal into the first body in radians, and the friction coefficient.
 
 use serde_json::Value;
 
@@ -9,7 +10,7 @@ use super::Options;
 use super::draft::Remark;
 use crate::scene::format::{BlockEntry, ContactEntry, SceneFile};
 
-/// Directions larger than this, in radians, are most likely degrees.
+/// Directions with a magnitude above this, in radians, are refused, because they are most likely degrees.
 const MAX_DIRECTION: f64 = 7.0;
 /// A direction within this many degrees of a multiple of 15° is replaced by that multiple: π is often written as
 /// 3.1416.
@@ -31,8 +32,9 @@ pub(super) fn is_contact_list(text: &str) -> bool {
 /// Reads a contact list. Returns the scene file, and notes about the units and the directions of the normals.
 ///
 /// # Errors
-/// Returns all rows that are neither a body nor a contact, that name a body that does not exist, or whose normal has an
-/// angle of more than a full turn.
+/// Returns a problem for each row that is neither a body nor a contact, that names a body that does not exist, or whose
+/// normal has an angle of more than a full turn. Without such rows, returns one problem if there is no body or no
+/// contact.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (rows, mut problems) = match text.trim_start().starts_with('{') {
@@ -223,7 +225,7 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
     (rows, problems)
 }
 
-/// Returns the value of the first of these keys that has a number in the entry. The key `centre.0` means the first
+/// Returns the value of the first key in `names` that has a number in the entry. The key `centre.0` means the first
 /// number of the list `centre`. `None` if no key has a number.
 fn named(entry: &Value, names: &[&str]) -> Option<f64> {
     names.iter().find_map(|name| match name.split_once('.') {

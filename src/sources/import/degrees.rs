@@ -4,8 +4,8 @@ use serde_json::{Map, Value};
 
 use crate::geometry::{Bounds, Point};
 
-/// Drawings usually lie near their origin. Coordinates count as places on the globe if their distance from the
-/// origin, relative to their extent, exceeds this, and if they are in the range of degrees.
+/// Coordinates in the range of degrees count as places on the globe if their distance from the origin, relative to
+/// their extent, exceeds this. Drawings usually lie nearer to their origin.
 const MIN_ORIGIN_DISTANCE_RATIO: f64 = 20.0;
 /// A structure on the globe extends at most this many degrees, about 100 km.
 const MAX_EXTENT_DEGREES: f64 = 1.0;

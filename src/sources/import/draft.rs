@@ -17,7 +17,7 @@ pub(super) struct Draft {
 /// A message about an element that could not be imported exactly.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
-    /// The element of the drawing, as `path "arch"` or `<rect> in line 12`; empty for the whole drawing.
+    /// The element of the drawing, for example `path "arch"` or `<rect> in line 12`; empty for the whole drawing.
     pub element: String,
     /// The message.
     pub message: String,

@@ -8,8 +8,8 @@ use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
-/// Reads a GeoJSON text. `scale` is in metres per unit. Coordinates that look like degrees are refused unless the
-/// scale is given.
+/// Reads a GeoJSON text. `scale` is in metres per unit. Coordinates that look like degrees are refused, unless the user
+/// gave the scale (`is_scale_given`).
 ///
 /// # Errors
 /// Returns the reason why the text cannot be read as GeoJSON.

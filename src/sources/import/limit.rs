@@ -11,15 +11,15 @@ use crate::geometry::snap::Corner;
 
 /// The largest number of outlines, copies included.
 pub(super) const MAX_BODIES: usize = 20_000;
-/// The largest number of pairs with overlapping bounding boxes: a constant, plus a number for each outline. In an
-/// arch, for example, the box of each voussoir overlaps those of a few neighbours.
+/// The largest number of pairs with overlapping bounding boxes is `MAX_PAIRS`, plus `MAX_PAIRS_PER_BODY` for each
+/// outline. In an arch, for example, the box of each voussoir overlaps those of a few neighbours.
 const MAX_PAIRS: usize = 100_000;
 const MAX_PAIRS_PER_BODY: usize = 10;
 /// The largest number of comparisons of a corner with an edge in the search for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
-/// Returns a remark if a drawing has too many outlines, or too many outlines that overlap. `boxes` are the bounding
-/// boxes of the blocks, and those of the parts of the ground.
+/// Returns a remark if a drawing has too many outlines, or too many pairs of outlines that overlap. `boxes` are the
+/// bounding boxes of the blocks, and those of the parts of the ground; pairs are counted within each of the two lists.
 pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
     let count: usize = boxes.iter().map(Vec::len).sum();
     if count > MAX_BODIES {

@@ -1,4 +1,5 @@
-//! Imports drawings as scene files: SVG, DXF, GeoJSON or well-known text. Also imports contact lists and assemblies of COMPAS.
+//! Imports drawings as scene files: SVG, DXF, GeoJSON or well-known text. Also imports contact lists and assemblies of
+//! COMPAS.
 //!
 //! | step | file |
 //! |---|---|
@@ -9,9 +10,10 @@
 //! | 5. snap corners and edges that nearly touch, so that interfaces are found | `outline` |
 //! | 6. write the scene file, and check it like any other | `scene_file` |
 //!
-//! Every closed outline becomes a block. If its name, or the name of a layer around it, begins with `ground` or `robot`, it
-//! becomes ground or a robot; with `ignore` or `guide` it is left out. Elements that cannot be imported are reported by
-//! name. Drawings contain no friction between materials, limits of robots, loads or steps, so these are not imported.
+//! Every closed outline becomes a block. If its name, or the name of a layer around it, begins with `ground` or
+//! `robot`, it becomes ground or a robot; with `ignore` or `guide` it is left out. Elements that cannot be imported are
+//! reported by name. Drawings contain no friction between materials, limits of robots, loads or steps, so these are not
+//! imported.
 
 mod affine;
 mod limit;
@@ -88,16 +90,16 @@ pub struct Options {
     /// Metres per unit of the drawing. Default: computed from the physical size of an SVG, from the unit of a DXF
     /// (`$INSUNITS`) or from the scale of a figure by this library; 1 if the drawing states none of these.
     pub scale: Option<f64>,
-    /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit that the
-    /// drawing states; a drawing that states no unit needs `scale` too.
+    /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit
+    /// that the drawing states; a drawing that states no unit needs `scale` too.
     pub ratio: Option<f64>,
     /// Names of additional layers and elements that are ground, in upper or lower case. Layers and elements whose
     /// names begin with `ground` are always ground.
     pub ground_layers: Vec<String>,
     /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
-    /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off. Default: 0.001 times the size of
-    /// the drawing, but at most a quarter of the thickness of the thinnest body.
+    /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off. Default: 0.001 times the
+    /// size of the drawing, but at most a quarter of the thickness of the thinnest body.
     pub gap: Option<f64>,
     /// The frame to import from a figure by this library, counted from 0. Default: the last.
     pub frame: Option<usize>,
@@ -135,19 +137,19 @@ pub struct Imported {
     pub snapped: Vec<Snapped>,
 }
 
-/// A body that was moved so that it touches its neighbours.
+/// A body whose corners were moved or inserted so that it touches its neighbours.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Snapped {
     /// The body: the id of a block, or `ground[2]`.
     pub body: String,
-    /// Its element in the drawing.
+    /// The element of the drawing from which the body was made.
     pub element: String,
     /// The number of corners that were moved or inserted.
     pub corners: usize,
     /// The largest movement of a corner, in metres.
     pub distance: f64,
-    /// The bodies that it touches now.
+    /// The bodies that this body touches now, named like `body`.
     pub to: Vec<String>,
 }
 
@@ -215,7 +217,8 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     }
 }
 
-/// Checks the scene of a contact list or of an assembly. The problems of the scene become remarks.
+/// Checks the scene of a contact list or of an assembly. Returns the problems of the list or assembly, or else of the
+/// scene, as an error.
 fn complete(
     read: Result<(SceneFile, Vec<String>), Vec<Remark>>,
 ) -> Result<Imported, DrawingProblems> {
@@ -240,8 +243,12 @@ fn complete(
     })
 }
 
-/// Reads the drawing. If no element is ground, reads it again, and then names such as "abutment" also make an element
-/// ground.
+/// Reads the drawing. If no element is ground, reads the drawing again with the rule that names such as "abutment" also
+/// make an element ground. If there is still no ground, adds a remark.
+///
+/// # Errors
+/// Returns a message if the drawing cannot be read, or if the option for ground names a layer or element that does not
+/// exist.
 fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, String> {
     let has_ground = |draft: &Draft| draft.parts.iter().any(|p| p.kind == Role::Ground);
     let naming = Naming::new(&options.ground_layers, false);
@@ -285,7 +292,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
     Ok(draft)
 }
 
-/// Reads the drawing into a draft, with these rules for names (step 1).
+/// Reads the drawing into a draft, with the rules `naming` for names (step 1).
 fn read_draft(
     text: &str,
     format: Format,
@@ -331,7 +338,7 @@ fn option_problems(options: &Options) -> Vec<Remark> {
         if !(value.is_finite() && (value > 0.0 || (zero && value == 0.0))) {
             problems.push(Remark {
                 element: format!("--{name}"),
-                message: format!("{value} is not a valid length"),
+                message: format!("{value} is not a valid value"),
                 help: if zero {
                     "give 0 or more"
                 } else {

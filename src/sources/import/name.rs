@@ -13,7 +13,7 @@ pub(super) struct Names {
 }
 
 /// Returns a unique name for each body and robot. If a name is already used, a number is added to it. A block without a
-/// name gets its number as its name.
+/// name gets its number as its name, and a robot without a name gets `r` and its number.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved, because results use it for the ground.
     let mut taken = TakenNames::with("ground");
@@ -44,7 +44,8 @@ pub(super) fn unique_names(outlines: &Outlines) -> Names {
 #[derive(Default)]
 struct TakenNames {
     names: BTreeSet<String>,
-    /// The next number to try for each stem. Smaller numbers are taken. Naming n duplicates therefore takes n steps.
+    /// The next number to try for each stem. Smaller numbers are not tried again, so naming n duplicates takes about n
+    /// steps.
     last: BTreeMap<String, usize>,
 }
 

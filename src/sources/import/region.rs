@@ -1,8 +1,8 @@
 //! [`regions`]: splits the closed outlines of one element into regions, each an outline with its holes.
 //!
 //! 1. Sort the rings by area, so that a ring comes after all rings around it.
-//! 2. The winding number just outside a ring is the sum of the directions of the rings around it. Inside the ring,
-//!    its own direction is added.
+//! 2. The winding number just outside a ring is the sum of the directions of the rings around it: 1 for anticlockwise,
+//!    −1 for clockwise. Inside the ring, its own direction is added.
 //! 3. A ring begins a region if the area inside it is filled and the area outside is not. If only the area outside is
 //!    filled, the ring is a hole of the innermost region around it. All other rings are ignored.
 

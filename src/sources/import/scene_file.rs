@@ -159,7 +159,7 @@ fn rounded(text: String) -> String {
 
 /// Rounds coordinates to multiples of a power of ten.
 struct Rounding {
-    /// Coordinates times this factor are whole numbers; 0 for no rounding.
+    /// Rounded coordinates times this factor are whole numbers; 0 if coordinates are not rounded.
     factor: f64,
 }
 
@@ -167,8 +167,8 @@ impl Rounding {
     /// Returns a rounding to multiples of the largest power of ten that is at most `step`, in metres.
     fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
-        // Factors above 10^15 would change nothing, because f64 has 16 digits. Factors below 1 would round to more
-        // than a metre.
+        // Otherwise do not round. Factors above 10^15 would change nothing, because f64 has 16 digits. Factors below 1
+        // would round to more than a metre.
         let factor = if (0.0..=15.0).contains(&power) {
             libm::pow(10.0, power)
         } else {

@@ -32,8 +32,8 @@ pub(super) enum Segment {
     Arc(Arc),
 }
 
-/// An elliptical arc: `centre + u cos θ + v sin θ` for θ from `from` over `sweep`. `to` is the end as it was given,
-/// without rounding errors.
+/// An elliptical arc: `centre + u cos θ + v sin θ` for θ from `from` to `from + sweep`, in radians. `to` is the end
+/// point as it was given, without rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) centre: Point,
@@ -139,7 +139,8 @@ impl Subpath {
     }
 
     /// Replaces curves by chords that are at most `tolerance` from them, and returns the corners. If the last corner is
-    /// at most `close` from the first, the two are merged. Returns `None` if the subpath is open.
+    /// at most `close` from the first, the two are merged. Returns `None` if the subpath is open and its ends are
+    /// farther apart than `close`.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
         let mut corners = vec![Corner {
             at: self.start,
@@ -174,8 +175,8 @@ impl Segment {
         }
     }
 
-    /// Returns the corners between the ends of a segment that begins at `from`, if chords may be at most `tolerance`
-    /// from the curve.
+    /// Returns the corners between the ends of a segment that begins at `from`. The chords between the corners are at
+    /// most `tolerance` from the curve.
     fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
         match self {
             Segment::Line(_) => Vec::new(),

@@ -20,9 +20,9 @@ use crate::scene::format::{Pair, SceneFile};
 pub struct Arch {
     /// The number of voussoirs, at least 2.
     pub voussoirs: usize,
-    /// Clear width, metres.
+    /// Clear width, in metres.
     pub span: f64,
-    /// The thickness from the inner to the outer face, metres.
+    /// The thickness from the inner to the outer face, in metres.
     pub thickness: f64,
     /// Friction coefficient.
     pub friction: f64,

@@ -8,12 +8,12 @@ use crate::scene::format::{
 /// A pile of triangular cells that point up and down alternately. Each row has one upward triangle fewer than the row
 /// below.
 ///
-/// Contacts on a lattice are computed exactly, from whole coordinates.
+/// Contacts on a lattice are computed exactly, from integer coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LatticePile {
     /// The number of rows, which is also the number of triangles that stand on the ground.
     pub rows: usize,
-    /// Edge length of a cell, metres.
+    /// Edge length of a cell, in metres.
     pub side: f64,
     /// Friction coefficient.
     pub friction: f64,

@@ -3,16 +3,16 @@
 use super::{STONE_DENSITY, block, floor, rectangle, rounded};
 use crate::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
 
-/// A wall in running bond, with half bricks at its ends.
+/// A wall in running bond. Every second course has half bricks at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
     /// The number of courses.
     pub courses: usize,
-    /// The number of bricks in a course.
+    /// The number of bricks in a course; two half bricks count as one brick.
     pub bricks: usize,
-    /// Length of a brick, metres.
+    /// Length of a brick, in metres.
     pub length: f64,
-    /// Height of a course, metres.
+    /// Height of a course, in metres.
     pub height: f64,
     /// Friction coefficient.
     pub friction: f64,
@@ -81,9 +81,9 @@ impl Wall {
 pub struct Tower {
     /// The number of blocks.
     pub blocks: usize,
-    /// Width of a block, metres.
+    /// Width of a block, in metres.
     pub width: f64,
-    /// Height of a block, metres.
+    /// Height of a block, in metres.
     pub height: f64,
     /// The shift of each block to the right relative to the block below, in metres. The tower stands if the shift is
     /// at most the width divided by the number of blocks.
@@ -146,18 +146,19 @@ impl Tower {
     }
 }
 
-/// Two jambs and a lintel, built in three steps. A robot holds the free end of the lintel until the second jamb is placed.
+/// Two jambs and a lintel, built in three steps. A robot holds the free end of the lintel until the second jamb is
+/// placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doorway {
     /// The number of blocks in each jamb.
     pub courses: usize,
-    /// Clear width, metres.
+    /// Clear width, in metres.
     pub width: f64,
-    /// Clear height, metres.
+    /// Clear height, in metres.
     pub height: f64,
-    /// Width of a jamb, metres.
+    /// Width of a jamb, in metres.
     pub jamb: f64,
-    /// Height of the lintel, metres.
+    /// Height of the lintel, in metres.
     pub lintel: f64,
     /// Friction coefficient.
     pub friction: f64,

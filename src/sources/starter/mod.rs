@@ -1,7 +1,8 @@
 //! Generates the scene files of common structures from their dimensions and numbers of blocks.
 //!
-//! They are starting points for users (`drystone new arch`), benchmarks and tests. Blocks that touch share their
-//! rounded corners, so rounding does not open any joint. Lengths are in metres, x points right, y up.
+//! These scene files are starting points for users (`drystone new arch`), benchmarks and tests. The coordinates of
+//! faces that touch are rounded to the same values, so rounding does not open any joint. Lengths are in metres, x
+//! points right, y up.
 
 mod arch;
 mod lattice;

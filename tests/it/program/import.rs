@@ -132,7 +132,7 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
         ),
         (
             "import drawing.svg --scale 0 -o scene.json",
-            "--scale: 0 is not a valid length",
+            "--scale: 0 is not a valid value",
         ),
         ("import drawing.svg --friction -1 -o scene.json", "friction"),
         (

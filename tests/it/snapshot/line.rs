@@ -111,7 +111,7 @@ fn references_without_scenes_and_missing_references_fail() {
     assert!(
         ran.code == 1
             && ran.out.contains(
-                "a/arch.dark.svg: a reference without a scene: the settings of its scene do not include"
+                "a/arch.dark.svg: an orphaned reference: the settings of its scene do not include"
             ),
         "{}",
         ran.out
@@ -120,7 +120,7 @@ fn references_without_scenes_and_missing_references_fail() {
     fs::rename(folder.path("a/arch.json"), folder.path("a/bow.json")).expect("renamed");
     let ran = folder.run(&["a"]);
     for name in ["arch.txt", "arch.svg", "arch.png"] {
-        let words = format!("a/{name}: a reference without a scene: its scene does not exist");
+        let words = format!("a/{name}: an orphaned reference: its scene does not exist");
         assert!(ran.code == 1 && ran.out.contains(&words), "{}", ran.out);
     }
 }
@@ -438,7 +438,7 @@ fn kinds_themes_and_widths_have_their_own_files() {
     let ran = folder.run(&["."]);
     assert!(
         ran.out.contains(
-            "a.thrust.svg: a reference without a scene: the settings of its scene do not include"
+            "a.thrust.svg: an orphaned reference: the settings of its scene do not include"
         ),
         "{}",
         ran.out

@@ -7,11 +7,11 @@ use crate::scene::Problem;
 use crate::text;
 use crate::wording::verdict::word;
 
-/// The first row. Forces are in newtons. `friction_used` and `limit_used` are fractions: 1 means that all available
-/// friction is used, or that a robot is at its limit.
+/// The first row: the names of the columns. Forces are in newtons. `friction_used` is the largest used fraction of the
+/// available friction at any contact, and `limit_used` the largest used fraction of the limits of any robot.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 
-/// Writes the rows of a scene, one for each frame.
+/// Returns the rows of a scene, one for each frame.
 pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     let scene = &analysis.scene;
     let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
@@ -37,7 +37,7 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     frames.map(row).collect()
 }
 
-/// Writes the row of a scene that is not valid, with its first problem.
+/// Returns the row of a scene that is not valid. Only its first problem is shown.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
     let words = problems.first().map_or(String::new(), |problem| {
         match (problem.line, problem.message.is_empty()) {

@@ -64,7 +64,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     })
 }
 
-/// Returns the origin of a record: its file and line.
+/// Returns the file and the line from which one scene of the input was read.
 pub(super) fn origin(record: &Record) -> Origin {
     Origin {
         file: record.file.as_ref().map(|f| f.display().to_string()),
@@ -72,7 +72,7 @@ pub(super) fn origin(record: &Record) -> Origin {
     }
 }
 
-/// Returns the file and the line of a record as text for messages, such as `scenes.ndjson, line 3`.
+/// Returns the file and the line of one scene of the input as text for messages, such as `scenes.ndjson, line 3`.
 pub(super) fn shown(record: &Record) -> String {
     let file = match &record.file {
         Some(file) => file.display().to_string(),
@@ -87,7 +87,8 @@ pub(super) fn shown(record: &Record) -> String {
 /// The least number of digits of a line number in the name of a picture.
 const LINE_DIGITS: usize = 7;
 
-/// Returns the file name of a record's picture without the extension, such as `scenes-0000003` for line 3.
+/// Returns the file name of the picture of one scene, without the extension: `scenes-0000003` for line 3 of
+/// `scenes.ndjson`.
 pub(super) fn picture_name(record: &Record) -> String {
     let stem = record.file.as_deref().map(stem);
     match (stem, record.line) {
@@ -121,7 +122,8 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
+/// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`. A
+/// folder without scene files is an error.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),
@@ -151,7 +153,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     }
 }
 
-/// Returns an error for each pair of files whose pictures would have the same name.
+/// Returns an error for each pair of files with pictures of the same name.
 fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut clashes = Vec::new();

@@ -24,7 +24,7 @@ pub(super) struct Output {
     /// The name of the output in error messages.
     name: String,
     is_stdout: bool,
-    /// The number of lines that an earlier run has written.
+    /// The number of complete lines that an earlier run has written.
     done: usize,
 }
 
@@ -41,7 +41,8 @@ pub(super) struct Target<'a> {
 
 impl Output {
     /// Opens standard output or a file. With `--resume`, the answers that an earlier run has written to the file are
-    /// checked against the scenes in `records`, and new answers follow them.
+    /// checked against the first scenes in `records`. These scenes are removed from `records`, and new answers follow
+    /// the old ones.
     pub fn open(
         target: &Target<'_>,
         inputs: &[PathBuf],
@@ -95,12 +96,13 @@ impl Output {
         }
     }
 
-    /// Returns the number of lines that an earlier run has written.
+    /// Returns the number of complete lines that an earlier run has written.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Writes the output line of one scene, whose hash is `scene`. Returns `Break` if the reader has closed the pipe.
+    /// Adds the output line of one scene, whose hash is `scene`, and writes all waiting lines if they fill the buffer.
+    /// Returns `Break` if the reader has closed the pipe.
     pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
         self.waiting.extend_from_slice(line);
         if let Some(resume) = &mut self.resume {

@@ -59,7 +59,7 @@ impl<'t> BatchProgress<'t> {
         }
     }
 
-    /// Sets the number of scenes that an earlier run has answered, and restarts the clock.
+    /// Sets the number of scenes that an earlier run has answered, reports this number, and restarts the clock.
     pub fn skipped(&mut self, scenes: usize) {
         self.before = scenes;
         self.read_before = self.read.load(Ordering::Relaxed);
@@ -70,7 +70,7 @@ impl<'t> BatchProgress<'t> {
         }
     }
 
-    /// Counts one more answered scene.
+    /// Counts one more answered scene, and prints a report if the interval since the last report has passed.
     pub fn step(&mut self, ending: ExitStatus) {
         let kind = match ending {
             ExitStatus::Done => 0,
@@ -87,7 +87,7 @@ impl<'t> BatchProgress<'t> {
         }
     }
 
-    /// Prints the totals, if progress is reported.
+    /// Prints the totals of this run, if progress is reported.
     pub fn end(&self) {
         if self.every.is_none() {
             return;

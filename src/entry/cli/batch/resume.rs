@@ -1,5 +1,5 @@
-//! [`ResumeFile`]: a file next to the output. It stores the options of the run, and for each output line the hash of
-//! the scene and the hash of the line.
+//! [`ResumeFile`]: a file next to the output of a batch, from which a later run can continue the output. It stores the
+//! options of the run, and for each output line the hash of the scene and the hash of the line.
 //!
 //! The output contains only one line of JSON for each scene, so the options and hashes are in a separate file:
 //! `answers.ndjson.resume` for `answers.ndjson`. It begins with the options, one `name: value` per line, and an empty
@@ -25,7 +25,7 @@ const ENTRY_BYTES: usize = 34;
 /// The size of a read buffer in bytes.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// The options on which the answers of a run depend: name and value.
+/// The name and the value of each option on which the answers of a run depend.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Settings(pub Vec<(&'static str, String)>);
 
@@ -155,7 +155,7 @@ fn not_read(path: &Path, error: &io::Error) -> CliError {
 pub(super) struct Checked {
     /// The number of answers.
     pub answers: usize,
-    /// Their length in bytes; an incomplete line may follow.
+    /// The length of these answers in bytes. In the file, an incomplete line may follow them.
     pub bytes: u64,
     /// The length of the header and of the entries of these answers in the resume file, in bytes.
     resume_bytes: u64,
@@ -165,7 +165,8 @@ pub(super) struct Checked {
 /// input. Changes no file.
 ///
 /// # Errors
-/// Returns an error for the first difference. Its message also says what to do.
+/// Returns an error for the first difference, or if a file cannot be read. The message for a difference also says what
+/// to do.
 pub(super) fn check(
     output: &Path,
     settings: &Settings,
@@ -257,8 +258,8 @@ fn refused(why: &str) -> CliError {
     ))
 }
 
-/// Checks that an output line is unchanged since it was written, and that it answers this scene. The error states the
-/// difference.
+/// Checks that an output line is unchanged since it was written, and that it answers the scene in `record`. The error
+/// states the difference.
 fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
     let expected = entry(scene, line);
@@ -279,7 +280,8 @@ fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result
     Ok(())
 }
 
-/// Opens an output and its resume file for appending, and deletes everything after the checked part of each file.
+/// Opens an output and its resume file, and deletes everything after the checked part of each file. New lines will
+/// follow this part.
 pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFile), CliError> {
     let path = ResumeFile::path_for(output);
     let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;

@@ -61,8 +61,8 @@ impl Render {
         }
     }
 
-    /// Reads one scene and draws its outlines. The inner error means that the program itself failed on this scene;
-    /// other scenes can still be drawn.
+    /// Reads one scene and draws its outlines. The outer error, such as a file that cannot be read, ends the command.
+    /// The inner error means that the program itself failed on this scene; other scenes can still be drawn.
     fn sketch(
         &self,
         path: &Path,

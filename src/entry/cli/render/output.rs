@@ -21,8 +21,8 @@ pub(super) struct Rendered {
     pub(super) summary: String,
 }
 
-/// Moves the errors of scenes on which the program itself failed to `faults`. Returns the other results with their
-/// paths.
+/// Moves internal faults of the program to `faults`. Returns the results of the other scenes, and the paths of their
+/// figures. `paths` has one path for each result, or is empty for standard output.
 pub(super) fn without_faults(
     rendered: Vec<Result<Rendered, CliError>>,
     paths: Vec<PathBuf>,
@@ -45,7 +45,8 @@ pub(super) fn without_faults(
 }
 
 impl Render {
-    /// Writes all pictures or none, and then prints a line about each scene.
+    /// Writes all picture files or none, and then prints a line about each scene. To standard output, writes only the
+    /// pictures.
     pub(super) fn write(
         &self,
         rendered: Vec<Rendered>,

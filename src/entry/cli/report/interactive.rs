@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cli::error::CliError;
 
-/// The name of the file in the folder that `examples/playground/build.sh` makes.
+/// The name of the script file that `examples/playground/build.sh` makes.
 const NAME: &str = "interactive.js";
 /// How to make the file, for error messages.
 const MADE: &str = "examples/playground/build.sh in the repository of drystone makes it";

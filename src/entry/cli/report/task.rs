@@ -1,4 +1,4 @@
-//! [`Task`]: one scene of a report, or two scenes that it compares.
+//! [`Task`]: one scene of a report, or two scenes that the report compares.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::Report;
 use crate::cli::error::CliError;
 
-/// A scene in a report, or two that it compares.
+/// One scene of a report, or two scenes that the report compares.
 pub(super) enum Task {
     One(PathBuf),
     Two([PathBuf; 2]),

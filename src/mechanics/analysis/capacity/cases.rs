@@ -7,10 +7,10 @@
 //! - *Horizontal load*: the loads are linear in it, so the two ends of the range are enough.
 //! - *Friction*: more friction only adds admissible forces, so the lowest value is enough.
 //! - *Tilt*: the loads rotate, so they are not linear in the angle and the ends alone are not enough. The tip of the
-//!   gravity vector moves on an arc. The polygon of the tangents of this arc encloses it. Each of its corners has the
-//!   direction of gravity at the middle of a piece of the arc, and the strength 1/cos(half the piece). The ends and
-//!   these corners are therefore enough. They are slightly more severe than the arc: by at most 4·10⁻⁵ of the weights
-//!   with pieces of 1°. The result is on the safe side.
+//!   gravity vector moves on an arc. The arc is divided into pieces of at most 1°, and the tangents at the ends of each
+//!   piece meet at a corner outside the arc. In this corner gravity has the direction of the middle of the piece, and
+//!   its strength is multiplied by 1/cos(half the piece). The two ends of the range and these corners enclose the arc,
+//!   so they are enough. Gravity at a corner is too strong by at most 4·10⁻⁵, so the result is on the safe side.
 //! - *Several ranges*: the loads are linear in gravity at a fixed horizontal fraction, and linear in the fraction at
 //!   fixed gravity. All combinations of the extreme values of both therefore enclose every case.
 //!
@@ -26,7 +26,7 @@ use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 /// The longest piece into which an arc of tilts is divided, degrees.
 const MAX_ARC_DEGREES: f64 = 1.0;
 
-/// Rays are cut off at this multiple of the size of the sets.
+/// Unbounded sets are cut off at this multiple of the size of the sets.
 const RAY_LENGTH_PER_SIZE: f64 = 1e5;
 
 /// Computes the load capacity in each extreme case with the function `capacity_of_case`, and returns the intersection
@@ -96,8 +96,8 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
     Ok(all)
 }
 
-/// Returns the gravity vectors that enclose all tilts between `from` and `to`, in degrees. Each is a tilt in degrees
-/// and a factor on the strength of gravity.
+/// Returns gravity vectors whose convex hull contains gravity at every tilt between `from` and `to`, in degrees. Each
+/// vector is given by its tilt in degrees and a factor on the strength of gravity.
 fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     if from == to {
         return vec![(from, 1.0)];
@@ -164,8 +164,8 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
     capacity
 }
 
-/// Sorts directions that lie within a half-plane anticlockwise, and returns the first and the last. Returns only one
-/// direction if both are equal, and none for an empty list.
+/// Sorts directions anticlockwise, and returns the first and the last. All directions must lie within one half-plane.
+/// Returns one direction if the first and the last are nearly equal, and an empty list if there are no directions.
 fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     let mean: Vector = directions.iter().sum();
     let turn = |d: &Vector| libm::atan2(mean.x * d.y - mean.y * d.x, mean.dot(d));
@@ -177,8 +177,8 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
     }
 }
 
-/// Returns the half-planes normal · F ≤ limit, as (normal, limit), whose intersection is a given convex polygon,
-/// segment or point. `slack` is added to each limit.
+/// Returns the half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex polygon, segment or
+/// point with the corners `ring`. `slack` is added to each limit. Without corners, the list is empty.
 fn half_planes(ring: &[Vector], slack: f64) -> Vec<(Vector, f64)> {
     let side = |from: Vector, outward: Vector| {
         let normal = outward.normalize();

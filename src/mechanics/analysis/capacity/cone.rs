@@ -1,8 +1,9 @@
-//! Computes the set of forces that a block can carry. If the set is unbounded, its recession cone is computed first.
+//! Computes the set of forces that a block can carry. If the simplex method does not find the whole set and the set is
+//! unbounded, its recession cone is computed first.
 //!
 //! An unbounded set has a *recession cone*: any force of this cone may be added to any force of the set. The cone is
-//! the set of forces that are carried without loads. The set has a farthest force exactly in the directions at an angle
-//! of at least 90° to the whole cone.
+//! the set of forces that are carried without loads. The set has a farthest force exactly in those directions that form
+//! an angle of at least 90° with every direction of the cone.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -23,16 +24,16 @@ const MAX_STEP: f64 = 1.1;
 /// Two angles that differ by less than this, in radians, count as equal.
 const SAME_ANGLE: f64 = 1e-7;
 
-/// Where directions near the two outer directions are sampled, as fractions of the interval of directions. The last
-/// vertices before an unbounded edge may be many times farther away than the others; only directions near the outer
-/// one find them.
+/// Additional directions near the two ends of an interval of directions, as fractions of the interval. The last
+/// vertices before an unbounded edge may be many times farther away than the other vertices. Only directions near the
+/// ends of the interval find them.
 const NEAR_OUTER: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
-/// Both components of a force on an unbounded edge are limited to this multiple of the size of the set.
+/// The components of a force on an unbounded edge are limited to this multiple of the largest other force or load.
 const MAX_FORCE_PER_SIZE: f64 = 10.0;
 
-/// Computes the set of forces that the block of a probe can carry. `None` if the set is empty, or if a force has no
-/// proof.
+/// Computes the set of forces that the block of a probe can carry. `None` if no force is carried, if a program has no
+/// result, or if a necessary force has no proof.
 pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
     let axes = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2];
     let mut start = Vec::new();
@@ -58,8 +59,9 @@ pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
     unbounded(probe)
 }
 
-/// Computes a set of carried forces from the polygon of the simplex method, and refines it where a corner or an edge
-/// has no proof. `None` if no such polygon was found, or if too little of it has a proof.
+/// Computes a set of carried forces from the polygon that the simplex method finds, and refines the set where a corner
+/// or an edge has no proof. `None` if the simplex method finds no polygon, or if too few corners and edges have a
+/// proof.
 pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
     let ForcePolygon { corners, far } = probe.polygon()?;
     let proved: Vec<Option<Sample>> = corners
@@ -79,8 +81,8 @@ pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
         let rays = Vec::new();
         return Some(SampledSet { samples, rays });
     };
-    // The unbounded edges begin at the first and the last corner. Each must have two proofs: of its motion, and of a
-    // force far along it.
+    // The unbounded edges begin at the first and the last corner. Each of these two edges needs two proofs: one of its
+    // motion, and one of a force far along the edge.
     let ray = |corner: &Option<Sample>, far: &Amounts| {
         let corner = corner.as_ref().filter(|c| c.half_plane.is_some())?;
         let along = probe.carried(far)?.force - corner.carried.force;
@@ -94,21 +96,22 @@ pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
     Some(SampledSet { samples, rays })
 }
 
-/// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a force has no proof.
+/// Computes an unbounded set of carried forces. `None` if its recession cone was not found, or if a necessary force has
+/// no proof.
 fn unbounded(probe: &Probe) -> Option<SampledSet> {
     let cone = Cone::from_probe(probe)?;
     let around = probe.heaviest();
     if cone == Cone::Everything {
         let rays = [0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2].map(unit).to_vec();
-        // The recession cone contains every force. So the set does too if one force is carried with the real loads:
-        // prove one.
+        // The recession cone contains every force. So if one force is carried with the real loads, all forces are
+        // carried. Prove one force.
         let samples = vec![sample(probe, unit(0.0), Some(around))?];
         return Some(SampledSet { samples, rays });
     }
     let mut samples = Vec::new();
     for (from, to) in cone.normals() {
-        // First compute samples in the inner directions of the interval. Their forces determine the size of the set:
-        // they may be far larger than the loads, most of all near the outer directions.
+        // First compute samples in the inner directions of the interval. Their forces determine the size of the set,
+        // because the forces may be far larger than the loads.
         let count = ((to - from) / MAX_STEP).ceil().max(2.0);
         let inner = (1..count as usize).map(|k| k as f64 / count);
         let shares = NEAR_OUTER.into_iter().chain(inner);
@@ -122,7 +125,8 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
         };
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);
-        // Then compute samples in the two outer directions, at right angles to the unbounded edges.
+        // Then compute samples at the two ends of the interval. These directions are at right angles to the unbounded
+        // edges.
         let reach = Some(MAX_FORCE_PER_SIZE * largest);
         let first = sample(probe, unit(from), reach)?;
         if to - from > SAME_ANGLE {
@@ -150,7 +154,7 @@ enum Cone {
 
 impl Cone {
     /// Computes the recession cone of a probe: the forces, with components of at most 1, that are carried without
-    /// loads. `None` if the set is bounded in every direction.
+    /// loads. `None` if no direction was found in which the set is unbounded.
     fn from_probe(probe: &Probe) -> Option<Cone> {
         let homogeneous = probe.without_loads();
         let reach = Some(1.0);

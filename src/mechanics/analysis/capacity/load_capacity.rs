@@ -31,21 +31,23 @@ use crate::scene::{BlockId, RobotId};
 pub struct LoadCapacity {
     /// The block on which the force acts.
     pub block: BlockId,
-    /// The point at which the force acts, metres. A free contact has two points; the force is then their resultant.
+    /// The point at which the force acts, metres. For `ForceAt::Contact` there are two points, and the force is the
+    /// resultant of the forces at both.
     pub at: Vec<Point>,
-    /// The robot that exerts the force; `None` if no robot holds the block at this point.
+    /// The robot whose force this force replaces; `None` if no robot holds the block, or if the request names a point.
     pub robot: Option<RobotId>,
-    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set.
+    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set or if every
+    /// force is carried.
     pub vertices: Vec<CapacityVertex>,
     /// The unit directions in which the set is unbounded, anticlockwise: at most two, or four if every force is
     /// carried.
     pub rays: Vec<Vector>,
-    /// The edges, anticlockwise.
+    /// The edges of the set, anticlockwise.
     pub edges: Vec<CapacityEdge>,
     /// A bound on the error, N: no force that the motions allow is farther than this from the set of proved forces.
     pub gap: f64,
-    /// How the frame begins to fall whatever the force is. If each of several cases carries some forces, but none in
-    /// common, this is the motion of one edge of a case. Empty unless the set is empty and a motion proves this.
+    /// How the frame begins to fall whatever the force is. If each case carries some forces but no force is carried in
+    /// all cases, this is the motion of one edge of one case. Empty unless the set is empty and a motion proves this.
     pub mechanism: Vec<Motion>,
     /// The number of extreme cases of the given ranges. The structure carries each force of this result in all of
     /// these cases. It is 1 if no range was given.
@@ -58,7 +60,7 @@ pub struct LoadCapacity {
 pub struct CapacityVertex {
     /// The force on the block, N.
     pub force: Vector,
-    /// The torque of a free contact, N·m, about its first point; 0 if the force acts at one point.
+    /// The torque on the block about the first point, N·m, if the force acts at two points; otherwise 0.
     pub torque: f64,
     /// The contact forces that balance the force of this vertex. Empty if several cases were intersected, because the
     /// contact forces differ between cases.
@@ -67,15 +69,16 @@ pub struct CapacityVertex {
     pub proof: Option<Proof>,
 }
 
-/// The forces at one interface that carry the force of a vertex, N.
+/// The forces at one interface, N, when the block carries the force of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VertexForce {
-    /// The index of the interface among the contacts of the frame.
+    /// The index of the interface among the interfaces of the frame.
     pub interface: usize,
-    /// Normal forces at its two application points, pressure positive.
+    /// The normal forces at the two application points of the interface. Pressure is positive.
     pub normal: [f64; 2],
-    /// Friction on its first body, positive along (−n_y, n_x).
+    /// The friction on the first body of the interface, positive along (−n_y, n_x), where n is the normal of the
+    /// interface.
     pub friction: f64,
 }
 
@@ -86,8 +89,8 @@ pub struct CapacityEdge {
     /// The indices of the vertices at which the edge begins and ends, anticlockwise. `None` on a side where it is
     /// unbounded.
     pub ends: [Option<usize>; 2],
-    /// The outward unit normal. The point of the block begins to move in this direction under a force just beyond the
-    /// edge.
+    /// The outward unit normal. Under a force just beyond the edge, the point where the force acts begins to move in
+    /// this direction.
     pub normal: Vector,
     /// The limit of normal · F, N.
     pub limit: f64,
@@ -106,9 +109,9 @@ pub enum CapacityShape {
     Empty,
     /// Only one force is carried.
     Point,
-    /// The forces on the line segment between two forces.
+    /// The carried forces form a line segment.
     Segment,
-    /// A bounded polygon.
+    /// The carried forces form a bounded polygon.
     Polygon,
     /// The set is unbounded: forces of any size are carried in some directions.
     Unbounded,
@@ -163,7 +166,7 @@ impl LoadCapacity {
     }
 
     /// Returns the magnitude of the largest force, N, that the block can carry in a unit direction. Infinite if it can
-    /// carry every force in this direction. `None` if the frame falls without an additional force.
+    /// carry forces of any magnitude in this direction. `None` if the frame falls without an additional force.
     pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
         if !self.contains(Vector::zeros()) {

@@ -2,16 +2,15 @@
 //! frame stands.
 //!
 //! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
-//! unbounded or empty. It contains the forces that a robot without limits could exert at this point ([`probe`]). A
-//! simplex method walks from corner to corner ([`force_polygon`](crate::solve::force_polygon)). It gives contact forces
-//! that prove each corner, and for each edge a motion that excludes every farther force.
+//! unbounded or empty. It consists of the forces that a robot without limits could exert at the point of the block
+//! ([`probe`]). A simplex method walks from corner to corner ([`force_polygon`](crate::solve::force_polygon)). This
+//! method gives contact forces that prove each corner, and for each edge a motion that excludes every farther force.
 //!
 //! Where a proof is missing, one linear program computes the farthest force of the set in a given direction, with
 //! contact forces and a motion. More directions are added until two polygons agree: the convex hull of the proved
 //! forces, and the intersection of the half-planes of the motions ([`refine`]). If the simplex method fails, all forces
-//! are computed in this way. If forces of any size are then carried in some direction, the directions in which the set
-//! is unbounded are found first ([`cone`]). For several cases, the result is the intersection of their sets
-//! ([`cases`]).
+//! are computed in this way. If the set is then unbounded, the directions in which it is unbounded are computed first
+//! ([`cone`]). For several cases, the result is the intersection of their sets ([`cases`]).
 
 mod cases;
 mod cone;
@@ -58,8 +57,8 @@ impl Analysis {
     /// Computes the motion by which the frame falls under a force just beyond an edge of the capacity, as an elementary
     /// mechanism (see [`Analysis::elementary`]) for drawing. The list is empty if the frame or the edge does not exist.
     ///
-    /// The fastest point has speed 1. If the capacity belongs to several cases or to a free contact, the result is
-    /// the motion that proves the edge.
+    /// The fastest point has speed 1. If the capacity belongs to several cases, or if the force acts at two points, the
+    /// result is the motion that proves the edge.
     pub fn edge_mechanism(
         &self,
         frame: usize,
@@ -86,7 +85,8 @@ impl Analysis {
     }
 }
 
-/// Computes the capacity of each frame if the options request it. Adds a notice to a frame if this fails.
+/// Computes the capacity of each frame if the options request it. If this fails, the frame gets a notice, unless the
+/// block is not placed in this frame.
 pub(super) fn add_capacities(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -138,7 +138,7 @@ fn outside(block: &Block, points: &[Point]) -> Option<String> {
     })
 }
 
-/// Computes the capacity of a block in a frame of a scene, numbered from 0.
+/// Computes the capacity of a block in one frame of a scene. Frames are numbered from 0.
 pub(crate) fn capacity_of(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -156,7 +156,8 @@ pub(crate) fn capacity_of(
         interfaces: &interfaces.in_frame(scene, found),
     };
     let (mut assembly, _) = effect::assemble(&context);
-    // The capacity replaces the force of this robot, so its force limits are set to 0. Its torque limit stays.
+    // If the additional force replaces the force of a robot, the force limits of this robot are set to 0. Its torque
+    // limit stays.
     let tool = request.tool(found);
     let mut grips = assembly.grips.iter_mut();
     if let Some(grip) = tool.and_then(|hold| grips.find(|grip| grip.robot == hold.robot)) {
@@ -204,15 +205,15 @@ fn capacity_of_assembly(
         let capacity = region::capacity(found, &probe, block, points);
         (!is_inexact(&capacity)).then_some(capacity)
     };
-    // The simplex method needs one program for the whole polygon. If it fails, each corner and each edge needs a
-    // program.
+    // The simplex method solves one program for the whole polygon. If it fails, each corner and each edge needs a
+    // separate program.
     if let Some(capacity) = cone::from_polygon(&probe).and_then(exact) {
         return Ok(capacity);
     }
     match cone::sample_set(&probe) {
         Some(found) => exact(found).ok_or_else(undecided),
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
-        // The component with a free force decides: if it falls, the set is empty.
+        // Decide the component with an unlimited grip at the point: if it falls even then, the set is empty.
         None => match decide_verdict(
             &probe.held,
             LimitDistance::Unknown,

@@ -1,5 +1,5 @@
-//! [`Probe`]: a component with an unlimited force at one point of a block. The program finds which forces can act
-//! there.
+//! [`Probe`]: a component with an unlimited force at one point of a block. A linear program finds which forces can act
+//! at this point.
 
 use crate::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
 use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
@@ -9,22 +9,22 @@ use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
 
-/// How far beyond the limit the force lies for which a motion is proved, relative to its size. The power along a motion
-/// is linear in the force, so the proof holds up to the line on which the power is 0.
+/// A motion is proved under a force that lies this far beyond the limit, relative to the size of the force. The power
+/// along the motion is linear in the force, so the proof holds up to the line on which the power is 0.
 const SHARE_BEYOND_LIMIT: f64 = 4e-3;
 
-/// How far inside the limit a force is tried, relative to its size, if the farthest force itself has no proof.
+/// How far inside the limit forces are tried, relative to the size of the force, if the farthest force has no proof.
 const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 
-/// The last of these distances, which is half of the relative tolerance of the refinement.
+/// The last entry of `SHARES_INSIDE_LIMIT`, which is half of the relative tolerance of the refinement.
 const MAX_SHARE_INSIDE: f64 = 1e-7;
 
 /// The farthest force and the half-plane of its motion agree if the force lies within this distance of the boundary,
 /// relative to the size of the force. Otherwise the program is solved again with higher accuracy.
 const AGREES: f64 = 1e-7;
 
-/// A motion in which the point is slower than this does not limit the force. The fastest point of a motion has speed
-/// 1.
+/// A motion in which the point of the force is slower than this does not limit the force. The fastest point of a motion
+/// has speed 1.
 const MIN_SPEED: f64 = 1e-9;
 
 /// A component, and the point of a body at which the additional force acts.
@@ -37,7 +37,7 @@ pub(super) struct Probe {
     at: Point,
     /// True if the force acts at two points. The probe then also exerts a torque without limit.
     has_torque: bool,
-    /// True if forces and motions are proved. They are not proved for a cone of directions: a proof is relative to the
+    /// True if forces and motions are proved. They are not proved for the recession cone: a proof is relative to the
     /// forces on each body, and without loads most bodies have no force. The loaded component proves the edges and a
     /// far force instead.
     proves: bool,
@@ -104,8 +104,9 @@ impl Probe {
         }
     }
 
-    /// Returns the same probe without loads, for the recession cone: the forces that it carries may be added to any
-    /// carried force, in any size. Finite limits of robots are set to 0; unlimited robots stay.
+    /// Returns the same probe without loads, for the recession cone. Any multiple of a force that the block carries
+    /// without loads may be added to any force that it carries with loads. Finite limits of robots are set to 0;
+    /// unlimited robots stay.
     pub fn without_loads(&self) -> Probe {
         let mut given = self.given.clone();
         for body in &mut given.bodies {
@@ -187,8 +188,8 @@ impl Probe {
         half_plane.beyond(carried.force) <= AGREES * size
     }
 
-    /// Combines the results of two programs for the same direction: the farther force, and the half-plane whose boundary
-    /// is nearer to this force.
+    /// Combines the results of two programs for the same direction: the farther force, and the half-plane whose
+    /// boundary is nearer to this force. If no force was proved, it takes the half-plane with the smaller limit.
     fn best(
         &self,
         direction: Vector,
@@ -245,7 +246,8 @@ impl Probe {
         }
     }
 
-    /// Proves the force of the grip that amounts of the program contain. `None` if these amounts have no proof.
+    /// Proves the force that the additional grip exerts in a solution of the program. `None` if this solution has no
+    /// proof.
     pub fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
         let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
         let own = forces.grips.pop()?;
@@ -258,8 +260,9 @@ impl Probe {
     }
 
     /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
-    /// slightly smaller forces in `direction`. If both fail, decides it with a free force and accepts this force if it
-    /// is as far.
+    /// slightly smaller forces in `direction`. If all fail, decides the component with a free force, and accepts the
+    /// resulting force if it is about as far in `direction`. Only this last step is used if the force acts at two
+    /// points.
     fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<CarriedForce> {
         let size = farthest.norm().max(self.heaviest());
         let under = |inside: f64| {
@@ -290,12 +293,14 @@ impl Probe {
     }
 
     /// Returns the half-plane normal · F ≤ limit that a motion proves: the velocities `y` of the program exclude every
-    /// force outside it. `None` if a force just beyond `near` gives no proof, or if the point hardly moves.
+    /// force outside the half-plane. `near` is a force near the limit, and `direction` points outward. `None` if the
+    /// motion has no proof under a force just beyond `near`, or if the point of the force hardly moves.
     pub fn half_plane(&self, near: Vector, direction: Vector, y: &[f64]) -> Option<HalfPlane> {
         let size = near.norm().max(self.heaviest());
         let beyond = self.with_force(near + direction * (SHARE_BEYOND_LIMIT * size));
         let program = Program::new(&beyond, self.program.scale);
-        // The motions of a basis have no error except rounding; those of an interior-point method are corrected.
+        // Motions from the simplex method have only rounding errors. Motions from an interior-point method need a
+        // correction.
         let (motion, proof) = proved_exact_motion(&beyond, &program, y)
             .or_else(|| proved_motion(&beyond, &program, y))?;
         let own = &motion[self.body];

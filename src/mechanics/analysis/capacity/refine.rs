@@ -7,7 +7,8 @@
 use super::probe::{CarriedForce, Farthest, HalfPlane, Probe};
 use crate::geometry::{Vector, cross};
 
-/// The farthest force in a direction, and the half-plane of the motion that excludes farther forces.
+/// The farthest force in a direction, and the half-plane of the motion that excludes farther forces, if this motion has
+/// a proof.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub carried: CarriedForce,
@@ -23,13 +24,13 @@ const MIN_TOL_PER_LOAD: f64 = 2e-9;
 /// Forces whose distance is at most this fraction of the size of a set differ only by rounding.
 pub(super) const ROUNDING_TOL: f64 = 1e-12;
 
-/// A force that lies beyond a chord by at most this multiple of the tolerance may be an error of the program.
+/// The error of a program may increase the tolerance by at most this multiple of the tolerance.
 const NOISE_PER_TOLERANCE: f64 = 30.0;
 
 /// The largest depth of the recursion.
 const MAX_DEPTH: usize = 24;
 
-/// The largest number of linear programs of one refinement.
+/// The largest number of additional directions in one refinement. Each direction needs at least one linear program.
 const MAX_SAMPLES: usize = 500;
 
 /// Returns the distance, N, below which two forces count as equal, for a set of forces of this size, N.

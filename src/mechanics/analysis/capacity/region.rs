@@ -1,4 +1,4 @@
-//! Convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
+//! Computes with convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
 
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
@@ -6,7 +6,7 @@ use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross, in_half_plane};
 use crate::scene::BlockId;
 
-/// A ray is cut off at this multiple of the size of the set.
+/// Unbounded sets are cut off at this multiple of their size.
 const RAY_LENGTH_PER_SIZE: f64 = 1e4;
 
 /// Builds the capacity of a block from samples of its boundary: vertices, edges and error bound.
@@ -48,8 +48,8 @@ pub(super) fn capacity(
     capacity
 }
 
-/// Sets the edges and the error bound of a capacity. For each side of the polygon, the edge is the nearest of the
-/// half-planes `lines`.
+/// Sets the edges and the error bound of a capacity. The edge for each side of the polygon is the half-plane of `lines`
+/// whose boundary is nearest to this side.
 pub(super) fn set_edges(capacity: &mut LoadCapacity, lines: &[CapacityEdge], size: f64) {
     let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
     let mut edges = Vec::new();
@@ -101,8 +101,9 @@ fn edge_of((line, case): (&HalfPlane, usize)) -> CapacityEdge {
     }
 }
 
-/// Returns the sides of a convex set, anticlockwise. Each has the indices of its two vertices, `None` where the side is
-/// unbounded, and two points on it.
+/// Returns the sides of a convex set, anticlockwise. Each side is given by the indices of its two vertices, `None`
+/// where the side is unbounded, and by two points on it. `size` is the distance of the second point from the vertex of
+/// an unbounded side.
 fn sides(
     corners: &[Vector],
     rays: &[Vector],
@@ -139,8 +140,9 @@ fn sides(
     sides
 }
 
-/// Returns the indices of the forces that are corners of the convex hull of `forces` and `rays`, anticlockwise. The
-/// list begins after the unbounded side. A corner within about `tolerance` of the rest of the hull may be left out.
+/// Returns the indices of the forces that are corners of the convex hull of `forces` and `rays`, anticlockwise. If the
+/// hull is unbounded, the list begins after the unbounded side. A corner within about `tolerance` of the rest of the
+/// hull may be left out.
 pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec<usize> {
     if forces.is_empty() {
         return Vec::new();
@@ -195,8 +197,8 @@ fn hull(mut points: Vec<(Vector, Option<usize>)>) -> Vec<(Vector, Option<usize>)
     ring
 }
 
-/// Removes corners that lie within a quarter of the tolerance of the segment between their neighbours, the nearest
-/// corner first. Points without an index stay.
+/// Removes corners that lie within a quarter of the tolerance of the segment between their neighbours. The corner
+/// nearest to its segment is removed first. Points without an index, which represent rays, stay.
 fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
     while ring.len() > 1 {
         let count = ring.len();
@@ -312,8 +314,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
             cross(*first, direction) >= -SAME_DIRECTION
                 && cross(direction, *second) >= -SAME_DIRECTION
         }
-        // With two opposite rays the set is a line, a strip or a half-plane. All vertices of a half-plane lie on its
-        // boundary.
+        // With two opposite rays the set is a line, a strip or a half-plane. A half-plane has only one vertex.
         [first, second] => {
             let is_line = (first + second).norm() <= SAME_DIRECTION && corners.len() != 1;
             !is_line && cross(*first, direction) >= -SAME_DIRECTION

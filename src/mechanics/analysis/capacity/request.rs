@@ -1,9 +1,10 @@
-//! [`CapacityRequest`]: the block, the point and the cases for which a capacity is computed.
+//! [`CapacityRequest`]: the block, the point and the ranges of uncertain quantities for which a capacity is computed.
 
 use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, Frame, Hold, Scene};
 
-/// The block, the point and the cases for which a [`LoadCapacity`](super::LoadCapacity) is computed.
+/// The block, the point and the ranges of uncertain quantities for which a [`LoadCapacity`](super::LoadCapacity) is
+/// computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CapacityRequest {
@@ -23,10 +24,10 @@ pub enum ForceAt {
     /// limits do not apply. Otherwise at the centroid of the block.
     #[default]
     Default,
-    /// At this point, in metres. It moves with the block.
+    /// At this point, in metres. The point is fixed to the block.
     Point(Point),
-    /// At two points, with a force in any direction at each. They act like an additional contact; the capacity is the
-    /// set of their resultants.
+    /// At two points, in metres, with a force in any direction at each. The capacity is the set of the resultants of
+    /// the two forces.
     Contact([Point; 2]),
 }
 
@@ -56,7 +57,7 @@ pub enum CapacityError {
     /// The block is not placed in this frame.
     #[error("the block is not placed in this frame")]
     NotPlaced,
-    /// A point is not finite, or two points are the same.
+    /// The magnitude of a coordinate is not finite or exceeds 1e12 m, or the two points are the same.
     #[error(
         "the point ({0}, {1}) is not valid: coordinates must be numbers of at most 1e12, and two points must differ"
     )]
@@ -64,7 +65,7 @@ pub enum CapacityError {
     /// A range is not valid.
     #[error("{0}")]
     Range(String),
-    /// Neither forces nor a motion proved which forces are carried.
+    /// No proof was found of which forces are carried.
     #[error("no proof was found of which forces are carried")]
     Undecided,
     /// The deadline passed before a result was found.
@@ -165,8 +166,7 @@ impl Cases {
         Cases { friction, ..self }
     }
 
-    /// Checks the ranges: finite numbers, the smaller one first, no negative friction, and tilts that are not too far
-    /// apart.
+    /// Checks the ranges: the numbers must be finite, the smaller number first, and friction must not be negative.
     ///
     /// # Errors
     /// Returns an error if a range is not valid, or if a range of tilts is wider than [`Cases::WIDEST_TILT`].
@@ -186,9 +186,7 @@ impl Cases {
                 return wrong("is not valid; write the smaller number first");
             }
             if name == "tilt" && to - from > Self::WIDEST_TILT {
-                return wrong(
-                    "is wider than 90°: between such tilts gravity differs too much from both; split it into smaller ranges",
-                );
+                return wrong("is wider than 90°; split it into smaller ranges");
             }
             if name == "friction" && from < 0.0 {
                 return wrong("begins below 0");

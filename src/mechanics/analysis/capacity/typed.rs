@@ -1,4 +1,5 @@
-//! Parses the text of a capacity request: block, point and ranges. The command line, Python and JavaScript share it.
+//! Parses capacity requests that a user types: block, point and ranges. The command line, Python and JavaScript accept
+//! this text.
 
 use super::request::{CapacityRequest, Cases, ForceAt};
 use crate::geometry::Point;

@@ -28,8 +28,8 @@ impl<'a> Candidate<'a> {
     }
 
     /// Returns *stable* if the forces `amounts` balance every body. Returns *unstable* if the motion along the
-    /// unbalanced load is a mechanism that no admissible forces can stop. Returns `None` otherwise. `residual` is
-    /// minus the unbalanced load: three rows for each body, in program units.
+    /// unbalanced load is, for some component, a mechanism that no admissible forces can stop. Returns `None`
+    /// otherwise. `residual` is minus the unbalanced load: three rows for each body, in program units.
     pub fn verdict(&self, amounts: &Amounts, residual: &[f64]) -> Option<Verdict> {
         let forces = self.component.prove_without_cleaning(amounts);
         if self.component.accepts(&forces) {

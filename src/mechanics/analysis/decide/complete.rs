@@ -31,7 +31,7 @@ impl Component<'_> {
     }
 
     /// Replaces the forces of a decision by balancing forces of least sum, if a solution is accurate enough to prove
-    /// that they are least.
+    /// that they are least. Otherwise tries to find balancing forces with a smaller sum.
     fn with_least_force(&self, program: &Program, mut decision: Decision) -> Decision {
         // Do not solve the program of least force if it ended without a result before, or if any balancing forces are
         // enough.

@@ -1,4 +1,4 @@
-//! Converts the missing adhesion of a component to failures in metres and newtons.
+//! Converts the missing adhesion of a component to failures: the places where force is missing, in metres and newtons.
 
 use super::Component;
 use crate::analysis::Failure;
@@ -79,8 +79,8 @@ impl Component<'_> {
         }
     }
 
-    /// Appends the missing force and the missing torque of a robot to `failures`, if they exceed `min_amount`. `[x, y, m]`
-    /// and `min_amount` are in program units.
+    /// Appends the missing force x, y and the missing torque m of a robot to `failures`, if they exceed `min_amount`.
+    /// All inputs are in program units.
     fn add_grip_failures(
         &self,
         failures: &mut Vec<Failure>,
@@ -165,7 +165,8 @@ impl Component<'_> {
     }
 }
 
-/// Returns the sum of the magnitudes of all missing forces, N. A missing torque is divided by the length `length`, m.
+/// Returns the sum of the magnitudes of all missing forces, N. A missing robot force counts as |Fx| + |Fy|. A missing
+/// torque is divided by `length`, m.
 pub(super) fn total(failures: &[Failure], length: f64) -> f64 {
     let sizes = failures.iter().map(|failure| match failure {
         Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),

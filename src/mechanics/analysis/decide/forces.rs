@@ -11,7 +11,7 @@ use crate::solve::{Amounts, is_late};
 enum Noise {
     /// Relative to the heaviest load of the component.
     OfTheWhole,
-    /// Relative to the forces on each body; the smaller limit of two bodies in contact counts.
+    /// Relative to the forces on each body. For a contact, the smaller limit of its two bodies applies.
     OfEachBody,
     /// No force is noise.
     None,
@@ -92,9 +92,9 @@ impl Component<'_> {
         proof::check_forces(self.assembly, &self.in_newtons(amounts, Noise::None))
     }
 
-    /// Converts forces to newtons and sets forces to 0 that are only noise. A normal or robot force is noise below
-    /// 1e-13 of the heaviest load, or of all forces on the body. Friction is noise below 1e-10 of N and of μN. Setting
-    /// them to 0 changes the balance by at most a tenth of the accepted imbalance.
+    /// Converts forces to newtons, limits them to their admissible range, and sets forces to 0 that are only noise. A
+    /// normal or robot force is noise below 1e-13 of the heaviest load, or of all forces on the body. Friction is noise
+    /// below 1e-10 of N and of μN. Setting them to 0 changes the balance by at most a tenth of the accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.threshold.imbalance;

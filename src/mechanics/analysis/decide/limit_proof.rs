@@ -41,7 +41,7 @@ pub(in crate::mechanics::analysis) fn decided_forces(
         .then_some((found.forces, found.proof))
 }
 
-/// Corrects the velocities `y` of a program to the nearest motion that violates no contact. Returns this motion, one
+/// Corrects the velocities `y` of a program to a motion near them that violates no contact. Returns this motion, one
 /// entry for each body, and the proof that the component falls by it. `None` if the proof is too weak.
 pub(in crate::mechanics::analysis) fn proved_motion(
     assembly: &Assembly,
@@ -67,8 +67,8 @@ pub(in crate::mechanics::analysis) fn proved_exact_motion(
 
 /// A motion violates contacts only by rounding if the violation is at most this; the fastest point has speed 1. Forces
 /// of a thousand times the loads could then change a limit by at most 1e-10 of the loads. Long chains of blocks have a
-/// rounding of 1e-14, so a tenth of this value would need more corrections of motions; ten times this value would
-/// count a correction of [`repair_motion`](crate::solve::repair_motion) as rounding.
+/// rounding of 1e-14, so with a tenth of this value more motions would need a correction. With ten times this value,
+/// errors as large as the openings that [`repair_motion`](crate::solve::repair_motion) adds would count as rounding.
 const MAX_ROUNDING: f64 = 1e-13;
 
 fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {

@@ -1,5 +1,5 @@
-//! Converts velocities from the solver to a motion in metres, removes the solver's error, and proves that no force can
-//! stop this motion (route 3b).
+//! Converts velocities from the solver to a motion in metres, removes the solver's error, and proves that no admissible
+//! forces can stop this motion (route 3b).
 
 use super::Component;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
@@ -9,9 +9,9 @@ use crate::program::Program;
 use crate::proof::{self, Motion, Proof, fastest};
 use crate::solve::{Effort, repair_motion};
 
-/// A motion must exclude balancing forces up to this many times the sum of all loads. The thrust of a flat arch is
-/// several times its weight, so with a tenth of this value a thrust could contradict the motion. Ten times this value
-/// would leave flat wedges undecided.
+/// A motion must prove that forces cannot balance the loads, even if the sum of the forces is this many times the sum
+/// of all loads. The thrust of a flat arch is several times its weight, so with a tenth of this value a thrust could
+/// contradict the motion. Ten times this value would leave flat wedges undecided.
 const MIN_EXCLUDED_LOADS: f64 = 10.0;
 
 impl Component<'_> {
@@ -47,8 +47,9 @@ impl Component<'_> {
             .then_some((motion, proof))
     }
 
-    /// True if a proof shows that no forces can stop a motion. It must also exclude the large forces that the loads of
-    /// all bodies may cause: the thrust of heavy bodies could otherwise make up for a small violation at a light body.
+    /// True if a proof shows that no admissible forces can stop a motion. The proof must also exclude large forces,
+    /// such as the loads of all bodies may cause. The thrust of heavy bodies could otherwise make up for a small
+    /// violation at a light body.
     pub(super) fn accepts_motion(&self, motion: &[Motion], proof: &Proof) -> bool {
         // Forces whose sum is at most `MIN_EXCLUDED_LOADS` times the sum of all loads must not be able to stop the
         // motion.
@@ -58,8 +59,8 @@ impl Component<'_> {
         self.accepts(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// True if the power of the loads along a motion exceeds the largest power that an accepted imbalance of forces
-    /// could have. Then no proof by forces can contradict the motion.
+    /// True if the power along a motion, of the loads minus what robots absorb, exceeds the largest power that an
+    /// accepted imbalance of forces could have. Then no proof by forces can contradict the motion.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let speed_sum: f64 = motion
             .iter()

@@ -7,7 +7,7 @@ use crate::program::Program;
 use crate::proof::Proof;
 use crate::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
 
-/// Forces that balance every body, with their proof and a lower bound of their sum.
+/// Forces that balance every body, with their proof and a lower bound for the sum of any balancing forces.
 pub(super) struct LeastForce {
     pub amounts: Amounts,
     pub proof: Proof,
@@ -18,7 +18,7 @@ pub(super) struct LeastForce {
 }
 
 impl Component<'_> {
-    /// Returns forces with a smaller sum if there are any, otherwise the forces `found`.
+    /// Returns balancing forces with a smaller sum if it finds any, otherwise the forces `found`.
     ///
     /// Computes the forces of least sum of two simpler programs: one with nearly parallel joints made exactly
     /// parallel, and one without slight loads. Then changes these forces as little as possible, so that they balance

@@ -2,7 +2,7 @@
 //!
 //! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
 //! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
-//! program has shown that no forces balance: the program of least residual or the program of least adhesion. If no
+//! program has shown that no forces balance: the program of any balance, of least residual or of least adhesion. If no
 //! program shows this, the component is undecided.
 
 use super::parallel_joints::LeastForce;
@@ -49,7 +49,7 @@ struct Progress {
     effort: Effort,
     /// Whether a program of least force ended without a result.
     least_force_failed: bool,
-    /// A proved motion that does little work.
+    /// A weak motion with its proof: an accepted imbalance of forces could absorb its power.
     weak_motion: Option<(Vec<Motion>, Proof)>,
     least_adhesion: Option<LeastAdhesion>,
     last: Option<(Strategy, Attempt)>,
@@ -127,7 +127,8 @@ impl Component<'_> {
                     force_bound,
                     least_force,
                 };
-                // If joints are nearly parallel, the program of least force may end without a result.
+                // If joints are nearly parallel, the program of least force may end without a result. Then simpler
+                // programs reduce the sum.
                 if !least_force && progress.least_force_failed {
                     found = self.reduce_force_sum(program, found, &mut progress.effort);
                 }
@@ -165,8 +166,7 @@ impl Component<'_> {
     ) -> Option<Decision> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
-        // A motion is a proof at once if its power is larger than the power of any imbalance that a proof by forces
-        // accepts.
+        // A motion decides alone if its power is larger than the power of any imbalance that a proof by forces accepts.
         let is_strong = proved
             .as_ref()
             .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
@@ -188,9 +188,9 @@ impl Component<'_> {
         })
     }
 
-    /// Returns the decision if no strategy gave a proof: undecided, with the best forces and the best motion. A weak
-    /// motion does not decide, because no program has excluded a balance. The programs failed, or the deadline passed
-    /// before they were solved.
+    /// Returns the decision if no strategy gave a proof: undecided, with the forces of the last attempt and the proof
+    /// of a weak motion or of the last attempt's motion. A weak motion does not decide, because no program has excluded
+    /// a balance. The programs failed, or the deadline passed before they were solved.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
         let decision = match &progress.last {
             Some((strategy, _)) => progress.decision(program, *strategy),
@@ -202,7 +202,7 @@ impl Component<'_> {
         let proof = self.prove_forces(&amounts).proof;
         let weak = progress.weak_motion.map(|(_, proof)| proof);
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
-        // The reason reports the errors of both.
+        // The reason for the undecided verdict reports the errors of the forces and of the motion.
         let unproved_motion =
             weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
         Decision {
@@ -219,7 +219,8 @@ impl Component<'_> {
 }
 
 impl Decision {
-    /// Creates a decision with the verdict *stable*, whose forces and proof are to be filled in.
+    /// Creates a decision with the verdict *stable*, zero forces and an empty proof. The caller sets the forces and the
+    /// proof.
     pub fn new(program: &Program, method: Method) -> Decision {
         Decision {
             verdict: Verdict::Stable,

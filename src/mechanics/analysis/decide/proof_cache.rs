@@ -10,7 +10,7 @@ use crate::geometry::Point;
 use crate::proof::{self, ContactForces, Forces, Motion};
 
 /// The largest number of sets of forces in the cache, and the largest number of motions. A search alternates between
-/// few values, and each trial costs a proof.
+/// few values, and each entry that is tried costs the check of a proof.
 const MAX_CACHED: usize = 4;
 
 /// Forces and motions of similar components, the latest last.
@@ -87,7 +87,7 @@ impl ProofCache {
 
 impl CachedForces {
     /// Returns the forces that have the same resultants but act at the application points of another component. `None`
-    /// if a resultant passes outside these points.
+    /// if a resultant does not pass between these points.
     fn transfer_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);

@@ -1,16 +1,17 @@
 //! Route 3a: corrects forces that balance the structure as a whole but leave light bodies unbalanced. If this fails, it
 //! tries to prove that some of these bodies fall.
 //!
-//! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed its own weight
-//! and hide that it falls. Each round does the first of these steps that helps:
+//! A solver's error is a small fraction of the heaviest load. On a light body this error may exceed the weight of the
+//! body and hide that the body falls. Each round does the first of these steps that helps:
 //!
 //! 1. Change each force by a small fraction of itself ([`rebalance_relative`]).
 //! 2. Change all forces as little as possible ([`rebalance_absolute`]). This step can add forces that were 0, such as
 //!    a robot's force.
 //! 3. For each connected set of unbalanced bodies, hold all other bodies still, as if they were ground. Change the
-//!    forces on the set as little as possible, in its own scale ([`rebalance_absolute`]).
-//! 4. If no change balances the set, decide the set like a component. If it falls, the whole component falls: the
-//!    motion of the set with all other bodies at rest is a mechanism. If it stands, its forces replace the old ones.
+//!    forces on the set as little as possible, in units of force and length that suit the set ([`rebalance_absolute`]).
+//! 4. If this does not improve the balance enough, decide the set like a component. If it falls, the whole component
+//!    falls: the motion of the set with all other bodies at rest is a mechanism. If it stands, its forces replace the
+//!    old ones.
 //!
 //! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
@@ -23,11 +24,12 @@ use crate::program::{Program, Scale};
 use crate::proof::{self, Motion, Proof};
 use crate::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
 
-/// The largest number of rounds of correction. Each round adds the accurate digits of one solution; eight rounds
-/// cover weights from 1e-30 to 1e30.
+/// The largest number of rounds of correction. Each round gains as many accurate digits as one solution has; eight
+/// rounds cover weights from 1e-30 to 1e30.
 const MAX_ROUNDS: usize = 8;
 
-/// Sets of at most this many bodies are decided separately, even if they contain more than half of all bodies.
+/// Sets of at most this many bodies are decided separately, even if they contain more than half of all bodies. A set of
+/// all bodies is never decided separately.
 const MAX_SMALL_SET: usize = 12;
 
 /// Forces are corrected only if the largest residual of a balance equation is at most this fraction of the largest

@@ -1,5 +1,5 @@
-//! Computes only the verdict of a component, for margins. A margin needs the verdicts of many similar components, most
-//! of them near the limit of stability.
+//! Computes only the verdict of a component, for margins and capacities. A margin needs the verdicts of many similar
+//! components, most of them near the limit of stability.
 
 use super::programs::Decision;
 use super::{Component, LimitDistance, ProofCache};
@@ -12,7 +12,8 @@ use crate::solve::{Amounts, Effort, is_late};
 /// Returns the verdict of a component, and its mechanism if it falls.
 ///
 /// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
-/// [`decide_component`](super::decide_component). Forces or a motion that a program then finds are added to the cache.
+/// [`decide_component`](super::decide_component), without the forces of least sum and the failures. Forces or a motion
+/// that a program then finds are added to the cache. After the deadline, the verdict is undecided.
 pub(in crate::mechanics::analysis) fn decide_verdict(
     assembly: &Assembly,
     limit_distance: LimitDistance,
@@ -57,7 +58,7 @@ pub(in crate::mechanics::analysis) fn least_force_error(
 }
 
 /// Returns the verdict that the forces and motions in the cache prove, and the mechanism if it is unstable. Solves no
-/// program. The verdict is undecided if they prove nothing.
+/// program. The verdict is undecided if they prove nothing, or if the deadline has passed.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -75,7 +76,7 @@ pub(in crate::mechanics::analysis) fn verdict_from_cache(
     }
 }
 
-/// The options for margins, which need only the verdict.
+/// The options for margins and capacities, which need only the verdict.
 pub(super) const VERDICT_ONLY: Options = Options {
     verdict_only: true,
     ..Options::PLAIN
@@ -102,7 +103,7 @@ pub(super) fn decide_without_non_binding_limits(
 /// The results of a program exactly at the limit of stability, in program units.
 #[derive(Debug)]
 pub(in crate::mechanics::analysis) struct LimitResults<'a> {
-    /// The program.
+    /// The linear program.
     pub program: &'a Program,
     /// Forces that balance at the limit, and the component at the limit.
     pub forces: Option<(&'a Amounts, &'a Assembly)>,

@@ -72,8 +72,7 @@ impl Threshold {
     /// Newton's root is accepted if a stable value on one side and an unstable value on the other side are at most
     /// this far apart, relative to their size.
     pub(super) const BRACKET_TOL: f64 = 512e-6;
-    /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a proof is strong
-    /// enough.
+    /// Distances from the threshold grow by this factor up to [`Threshold::MAX_OFFSET`], until a verdict has a proof.
     const OFFSET_GROWTH: f64 = 16.0;
     /// The largest number of times that an end is moved inward by [`Threshold::sharpened`]. Each time costs a program.
     const MAX_SHARPENINGS: usize = 8;
@@ -88,7 +87,7 @@ impl Threshold {
     /// Searches for the threshold between 0 and `max_value`, by Newton's method and bisection. Returns the interval of
     /// values at which the component stands.
     ///
-    /// If the verdict at a value is undecided, the search ends there, because it cannot find the threshold more
+    /// If a verdict is undecided during the bisection, the search ends, because it cannot find the threshold more
     /// exactly.
     pub fn search(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
         let (at_zero, motion) = trial.decide(&setting(0.0));
@@ -198,7 +197,8 @@ impl Threshold {
     }
 
     /// Bisects a bracket until its two values are close enough, and returns the end of the interval. A bracket that
-    /// contains `root` may be wider (`BRACKET_TOL`). The end is unconfirmed if the values stay too far apart.
+    /// contains `root` may be wider (`BRACKET_TOL`). The end is unconfirmed if the values stay too far apart or no fall
+    /// was proved.
     fn bisect(
         &self,
         trial: &mut Trial,

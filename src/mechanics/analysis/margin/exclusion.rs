@@ -1,7 +1,7 @@
 //! [`Exclusion`]: a range of values of a parameter in which a frame falls by the same motion.
 //!
 //! If a frame stands at no value of a parameter, a few exclusions cover all values: one exclusion of all values, two
-//! exclusions of parts that need different values, or arcs of tilts.
+//! exclusions if two components stand only at different values, or arcs of tilts.
 
 use crate::proof::Motion;
 

@@ -1,10 +1,10 @@
 //! [`robots`]: computes the values of each robot limit at which a component stands.
 //!
-//! Each limit is changed alone. If a component stands with several limits set to 0 at once, it stands with each of
-//! them set to 0 alone, because larger limits admit more forces. In the same way, a component that falls with several
-//! limits removed falls with each of them removed alone, by the same motion. One verdict therefore settles a whole
-//! group of limits that do not matter. A group that it does not settle is halved, so that k limits that matter among
-//! n take about k·log₂(n/k) verdicts, and k searches.
+//! Each limit is changed alone. If a component stands with several limits set to 0 at once, it stands with each of them
+//! set to 0 alone, because larger limits admit more forces. In the same way, a component that falls with several limits
+//! removed falls with each of them removed alone, by the same motion. One verdict therefore settles a whole group of
+//! limits that do not matter. A group that one verdict does not settle is halved. If k of n limits matter, this takes
+//! about k·log₂(n/k) verdicts, and k searches.
 
 use super::interval::{End, Interval, RobotIntervals};
 use super::line::Line;

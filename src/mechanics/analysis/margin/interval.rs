@@ -9,7 +9,7 @@ use super::exclusion::Exclusion;
 use crate::proof::Motion;
 use crate::scene::RobotId;
 
-/// The values of one parameter at which a frame stands. Both ends belong to it.
+/// The values of one parameter at which a frame stands. Both ends belong to the interval.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
@@ -135,7 +135,7 @@ impl Interval {
     pub(super) fn intersection(self, other: Interval) -> Interval {
         let (low, high) = match (self, other) {
             (Interval::Empty(a), Interval::Empty(b)) => {
-                // Both intervals are empty. Keep the reason with fewer motions.
+                // Both intervals are empty. Keep the list with fewer exclusions.
                 return Interval::Empty(if b.len() < a.len() { b } else { a });
             }
             (empty @ Interval::Empty(_), _) | (_, empty @ Interval::Empty(_)) => return empty,
@@ -205,7 +205,7 @@ pub struct Intervals {
     pub horizontal_load: Option<Interval>,
     /// The safety kernel, from 0 upwards. The upper end is unbounded if the frame stands with a kernel of 1.
     pub kernel: Option<Interval>,
-    /// The factor on the listed loads, at least 0; `None` in a frame without loads.
+    /// The factor on the listed loads, at least 0; `None` in a frame without listed loads.
     pub load_factor: Option<Interval>,
     /// The limits of each robot that holds a block, in the order of the frame's holds.
     pub robots: Vec<RobotIntervals>,

@@ -1,6 +1,7 @@
-//! [`MarginKind`]: one margin. [`MarginKinds`]: the set of requested margins.
+//! [`MarginKind`]: a kind of margin, such as friction or tilt. [`MarginKinds`]: a set of kinds, such as the requested
+//! margins.
 
-/// One margin of a frame, or a pair of them, by its name in results.
+/// A kind of margin. Tilt and horizontal load have one margin to each side, and robots have one margin for each limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MarginKind {
@@ -30,7 +31,7 @@ impl MarginKind {
     ];
 
     /// Returns the margin with this name in results; `None` if no margin has this name. A hyphen counts as an
-    /// underscore.
+    /// underscore, and capital letters count as small letters.
     pub fn from_word(word: &str) -> Option<MarginKind> {
         let word = word.replace('-', "_").to_ascii_lowercase();
         MarginKind::ALL.into_iter().find(|kind| kind.word() == word)

@@ -2,9 +2,9 @@
 //! be linear in this parameter.
 //!
 //! The power of the loads along a fixed mechanism is linear in such a parameter. One mechanism therefore shows that a
-//! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley
-//! 1960). One linear program gives the end and the forces and the mechanism there; verdicts confirm them. If they do
-//! not, cutting planes and bisection narrow the range that contains the end.
+//! component falls at every value on one side of the value at which this power vanishes: a cutting plane (Kelley 1960).
+//! One linear program gives an end of the interval, and the forces and the mechanism there; verdicts confirm the end.
+//! If the verdicts do not confirm it, cutting planes and bisection narrow the range that contains the end.
 
 mod nearest;
 
@@ -16,13 +16,13 @@ use crate::proof::{Motion, Proof};
 
 /// A parameter, and how a component changes with it.
 pub(super) struct Line<'a> {
-    /// The changed component at a value.
+    /// Returns the change of the component for a value of the parameter.
     pub setting: &'a dyn Fn(f64) -> Setting,
     /// The least meaningful value; −∞ if all values are meaningful.
     pub min_value: f64,
     /// A typical small size of the parameter. Distances from smaller values are relative to it.
     pub typical_small: f64,
-    /// A typical large size of the parameter: a load of 10⁻⁵ N equals a weight of 1 N at the factor 10⁵.
+    /// A typical large size of the parameter. For the factor on a load of 10⁻⁵ N it is 10⁵ if the blocks weigh 1 N.
     pub typical_large: f64,
     /// The largest load that the parameter does not change, divided by the largest load that the parameter adds per unit.
     /// If forces balance with a relative error of 10⁻⁷, the end may be off by 10⁻⁷ times this ratio. This matters only
@@ -34,14 +34,14 @@ pub(super) struct Line<'a> {
 struct Bracket {
     /// A value at which the component stands.
     inside: f64,
-    /// The fall that is proved from a value nearest to `inside`; `None` if no fall is known.
+    /// The known fall whose range begins nearest to `inside`; `None` if no fall is known.
     beyond: Option<Fall>,
 }
 
-/// A fall that is proved from a value outward.
+/// A proved fall at all values from one value outward.
 struct Fall {
-    /// The mechanism proves that the component falls at this value and at every value farther out. A proof by forces
-    /// has a tolerance, and may have called the component stable slightly farther out. A mechanism has no tolerance.
+    /// The mechanism proves that the component falls at this value and at every value farther out. The verdict may
+    /// still be stable slightly farther out, because a proof by forces has a tolerance. A mechanism has no tolerance.
     from: f64,
     /// The value at which the mechanism was found.
     at: f64,
@@ -61,12 +61,12 @@ const END_TOL: f64 = 1e-6;
 const CONFIRMATION_TOL: f64 = 256e-6;
 /// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.
 const STABLE_BEYOND: f64 = 4e-6;
-/// The possible error of an end is ignored if it is at most this share of the natural size of the parameter.
+/// The possible error of an end is ignored if it is at most this fraction of [`Line::typical_small`].
 const MIN_UNSURE: f64 = 1e-3;
-/// If no forces are known near an end, this is taken for their relative error: half of the tolerance of the proofs.
+/// The relative error of the forces near an end, if no forces are known there: half of the tolerance of the proofs.
 const UNKNOWN_ERROR: f64 = 0.5 * Proof::IMBALANCE_TOL;
-/// The relative error of known forces counts as at least this value. Without it, one end of a random scene was too far
-/// out by 2·10⁻⁶ of its value.
+/// The relative error of known forces counts as at least this value. Without this minimum, one end in a random scene
+/// was too far out by 2·10⁻⁶ of its value.
 const LEAST_ERROR: f64 = 2e-10;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const OFFSET_GROWTH: f64 = 16.0;
@@ -159,9 +159,9 @@ impl Line<'_> {
     /// Returns the end if the bracket is narrow enough: the hint if it lies in the bracket, otherwise the value beyond
     /// which the mechanism proves the fall.
     ///
-    /// If this mechanism excludes even the value `from`, then the component stands there only within the tolerance of
-    /// the proofs: the loads that the parameter changes are too small. The end is then not confirmed. If they are small
-    /// and `from` lies farther inside, the end is moved inward by its possible error, to the safe side.
+    /// If this mechanism excludes even the value `from`, the component stands there only within the tolerance of the
+    /// proofs, because the loads that the parameter changes are too small. The end is then unconfirmed. Otherwise, if
+    /// these loads are small, the end is moved inward by its possible error, to the safe side.
     fn enclosed(
         &self,
         trial: &mut Trial,
@@ -187,7 +187,7 @@ impl Line<'_> {
                 mechanism: fall.mechanism,
             };
         }
-        // Without the loads of the parameter it may stand beyond doubt.
+        // At the least value of the parameter, the component may stand beyond doubt.
         let base = if self.min_value.is_finite() {
             self.min_value
         } else {

@@ -14,7 +14,8 @@ use crate::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
 /// A value at which the component stands.
 struct Start {
     value: f64,
-    /// The end that faces the current value, according to the linear program; `None` if the component stands there.
+    /// The end of the interval that faces the current value, according to the linear program. `None` if the component
+    /// stands at the current value, or if the program found no end.
     facing_end: Option<f64>,
 }
 
@@ -93,7 +94,7 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
         (at, program, found) = closer;
     }
     // Add the forces and the motion of this program to the cache: they often prove later verdicts. If the component
-    // stands at no value, the motion is that at the value `present`.
+    // stands at no value, the motion proves the fall at `present`.
     let toward_present = (present - at).signum();
     let beyond = match found.limit {
         Limit::Infeasible => [present; 3],

@@ -18,9 +18,9 @@ pub enum Margin {
         /// below 0.
         mechanism: Vec<Motion>,
     },
-    /// The frame falls at every value.
+    /// The frame falls at every value. For a tilt or a horizontal load: the frame falls without it.
     None,
-    /// The frame stands at every value.
+    /// The frame stands at every value in this direction.
     Unbounded,
     /// The limit lies between two values, but no verdicts closer to it were proved.
     Unconfirmed {
@@ -33,7 +33,7 @@ pub enum Margin {
     Undecided,
     /// The margin was not requested.
     NotAsked,
-    /// The scene lists no loads, so a load factor has no meaning.
+    /// The frame has no listed loads, so a load factor has no meaning.
     NotApplicable,
 }
 
@@ -82,16 +82,17 @@ pub struct Margins {
     /// The smallest friction coefficient, the same at every interface, with which the frame stands; 0 if it needs no
     /// friction. [`Margin::None`] if it falls at [`Margins::MAX_FRICTION`].
     pub friction: Margin,
-    /// The largest rotation of gravity to each side, in degrees; loads do not rotate. To the right means that the tip
-    /// of the gravity vector moves to the right. [`Margin::None`] if the frame falls without rotation, even if it
-    /// stands at some rotation. [`Margin::Unbounded`] if it stands at every rotation.
+    /// The largest rotation of gravity to each side, in degrees. Listed loads do not rotate. To the right means that
+    /// the tip of the gravity vector moves to the right. [`Margin::None`] if the frame falls without rotation, even if
+    /// it stands at some rotation. [`Margin::Unbounded`] if it stands at every rotation.
     pub tilt: Sides,
     /// The largest fraction of each weight that may act at right angles to gravity, in addition to the weight.
     /// [`Margin::None`] if the frame falls without it.
     pub horizontal_load: Sides,
     /// The largest safety kernel with which the frame stands; [`Margin::Unbounded`] if it stands with a kernel of 1.
     pub kernel: Margin,
-    /// The largest factor on the listed loads; 1 means the loads as listed. [`Margin::NotApplicable`] without loads.
+    /// The largest factor on the listed loads; 1 means the loads as listed. [`Margin::NotApplicable`] without listed
+    /// loads.
     pub load_factor: Margin,
     /// The least sufficient limits of each robot that holds a block, in the order of the frame's holds.
     pub robots: Vec<RobotMargins>,

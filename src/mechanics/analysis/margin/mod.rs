@@ -72,8 +72,8 @@ impl Part<'_> {
     }
 }
 
-/// The intervals of one component. `None` if not requested; the load factor is also `None` for a component without
-/// loads.
+/// The intervals of one component. `None` if not requested. The load factor is also `None` for a component without
+/// listed loads, and the tilt if some component of the frame does not stand.
 pub(super) struct ComponentIntervals {
     friction: Option<Interval>,
     tilt: Option<Interval>,
@@ -98,11 +98,13 @@ impl ComponentIntervals {
     }
 }
 
-/// Computes the margins of a frame from its components. Also returns how many changed components were decided for this.
+/// Computes the margins of a frame from its components. Also returns how many changed components were evaluated for
+/// this.
 ///
 /// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
 /// 2. Intersect them: a frame stands if all its components stand.
-/// 3. If the frame falls, search the nearest tilt at which it stands. This needs verdicts of the whole frame.
+/// 3. If the frame does not stand, search for the tilt nearest to 0 at which it stands. This needs verdicts of the
+///    whole frame.
 pub(super) fn find_margins(
     parts: &[Part],
     kinds: MarginKinds,
@@ -139,8 +141,8 @@ pub(super) fn find_margins(
     (Margins::new(intervals, kinds), decided_count)
 }
 
-/// Computes the intervals of components that are missing in `known`, and adds them to it. Returns how many changed
-/// components were decided for this.
+/// Computes the intervals of the components that are missing in `known`, and adds the intervals to `known`. Returns how
+/// many changed components were evaluated for this.
 fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
@@ -157,7 +159,7 @@ fn find_fresh_intervals(
     let each = fresh.par_iter();
     #[cfg(not(feature = "parallel"))]
     let each = fresh.iter();
-    // A deadline guard works only on its own thread, so each worker thread creates one.
+    // A deadline guard applies only to the thread that creates it, so each task creates one.
     let deadline = deadline();
     let fresh_intervals: Vec<(Key, ComponentIntervals, usize)> = each
         .map(|part| {
@@ -230,9 +232,10 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
 
 /// The note on the interval of tilts of frames that may stand in several separate ranges of tilt.
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
-                       tilts too; this interval contains 0, or is the nearest one where the frame falls unturned";
+                       tilts too; this interval contains 0, or is the nearest one to 0 if the frame falls without tilt";
 
-/// Returns the intervals of the limits of all robots. They are empty if a component falls that the robot does not hold.
+/// Returns the intervals of the limits of all robots. The intervals of a robot are empty if another component falls,
+/// because the robot cannot hold it.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, intervals)) in components.iter().enumerate() {

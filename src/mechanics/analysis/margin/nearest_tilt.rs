@@ -1,7 +1,7 @@
-//! Finds the tilt of gravity nearest to 0 at which a frame stands, for a frame that falls without tilt.
+//! Finds the tilt of gravity nearest to 0 at which a frame stands, for a frame that does not stand without tilt.
 //!
-//! The mechanism of a tilt excludes an arc of tilts. Arc by arc the excluded range around 0 grows, until the frame
-//! stands at one of its ends or until the range is a full turn.
+//! A mechanism found at one tilt proves that the frame falls at all tilts in an arc. Each such arc enlarges the
+//! excluded range around 0, until the frame stands at one end of the range or the range is a full turn.
 
 use super::exclusion::{Exclusion, fewest_arcs};
 use super::interval::Interval;
@@ -12,14 +12,14 @@ use super::trial::Trial;
 use crate::analysis::Verdict;
 use crate::analysis::decide::LimitDistance;
 
-/// If a cut gains less than this, relative to the tilt, the search looks ahead by [`LOOKAHEAD_FACTOR`] times the gain.
-/// Cuts whose mechanisms change a little each time can gain less and less: a fifteenth less each time for a lintel that
-/// a load pulls off its posts.
+/// If a step of the search enlarges the excluded range by less than this, relative to the tilt, the search looks ahead
+/// by [`LOOKAHEAD_FACTOR`] times this gain. If the mechanism changes slightly from step to step, the gain can shrink
+/// each time: by a fifteenth for a lintel that a load pulls off its posts.
 const SLOW_GAIN: f64 = 1e-2;
 /// How far the search looks ahead, as a multiple of the gain.
 const LOOKAHEAD_FACTOR: f64 = 16.0;
-/// Returns the interval of tilts at which a frame stands, in degrees, for a frame that falls without tilt. If there are
-/// several such intervals, it returns the interval nearest to 0.
+/// Returns the interval of tilts at which a frame stands, in degrees, for a frame that does not stand without tilt. If
+/// there are several such intervals, it returns the interval nearest to 0.
 pub(super) fn nearest_stable_tilts(trials: &mut [Trial]) -> Interval {
     match first_standing(trials) {
         Err(interval) => interval,
@@ -30,8 +30,8 @@ pub(super) fn nearest_stable_tilts(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// Finds the tilt nearest to 0 at which all components stand, in degrees. Each mechanism excludes an arc of tilts
-/// around 0; the search goes on from the nearer end of the excluded range. If no tilt is found, the error is the
+/// Finds the tilt nearest to 0 at which all components stand, in degrees. Each mechanism excludes an arc of tilts. The
+/// search continues from the end of the excluded range that is nearer to 0. If no tilt is found, the error is the
 /// interval: empty or undecided.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let mut excluded = Excluded::default();
@@ -82,7 +82,7 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     Err(Interval::Undecided)
 }
 
-/// The tilts around 0 that mechanisms exclude, in degrees.
+/// The range of tilts around 0 that mechanisms exclude, in degrees.
 #[derive(Default)]
 struct Excluded {
     low: f64,

@@ -1,5 +1,5 @@
-//! Newton's method for a [`Threshold`]: searches for the parameter value at which the least residual force becomes 0.
-//! It starts where the component falls.
+//! Newton's method for a [`Threshold`]: searches for the parameter value at which the least residual, the smallest sum
+//! of unbalanced forces, becomes 0. The search starts where the component falls.
 
 use super::edge::{Side, Threshold};
 use super::trial::{Setting, Trial};
@@ -19,15 +19,15 @@ const ROOT_TOL: f64 = 1e-7;
 /// The error of a least residual, relative to the largest load: a few times the solver's tolerance.
 const RESIDUAL_NOISE: f64 = 2e-9;
 
-/// If the component stands at the root of a tangent, the next tangent is computed at this fraction of the bracket
-/// from its stable end. The error of its root falls with the square of this fraction.
+/// If the component stands at the root of a tangent, the next tangent is computed at this fraction of the bracket from
+/// its stable end. The error of the root of this next tangent falls with the square of this fraction.
 const APPROACH_SHARE: f64 = 1.0 / 16.0;
 
 /// In Newton's method a component counts as stable if the least residual is at most this fraction of the largest
 /// load.
 const MAX_STABLE_RESIDUAL: f64 = 1e-8;
 
-/// A least residual above this fraction of the largest load is no noise of the solver.
+/// A least residual above this fraction of the largest load cannot be noise of the solver.
 const MIN_SURE_RESIDUAL: f64 = 1e-6;
 
 /// The bracket of Newton's method.
@@ -38,7 +38,7 @@ struct NewtonBracket {
     outside: f64,
     /// The tangent at `outside`.
     tangent: Tangent,
-    /// The last value at which the component stands.
+    /// The last value that was tested and at which the component stands, with the tangent there.
     standing: Option<(f64, Tangent)>,
 }
 
@@ -52,7 +52,8 @@ impl NewtonBracket {
         value: f64,
     ) -> Option<bool> {
         let tangent = trial.tangent(&setting(value))?;
-        // A residual this small may be noise of the solver: the component falls only if the motion proves it.
+        // A residual below `MIN_SURE_RESIDUAL` may be noise of the solver. The component then counts as falling only if
+        // the motion proves it.
         let falls = match tangent.residual_sum {
             residual if residual <= MAX_STABLE_RESIDUAL => false,
             residual if residual < MIN_SURE_RESIDUAL => {
@@ -87,11 +88,11 @@ impl NewtonBracket {
 }
 
 impl Threshold {
-    /// Finds the threshold with Newton's method: the value at which the least residual becomes 0. It starts on the side
-    /// where the component falls. `None` if the method does not converge.
+    /// Finds the threshold with Newton's method: the value at which the least residual becomes 0. The search starts at
+    /// `outside`, where the component falls; it stands at `inside`. `None` if the method does not converge.
     ///
-    /// If a root lies beyond the threshold, the root of a tangent much closer to the threshold must confirm it. Adds
-    /// the forces and the motion that confirm the threshold to the cache of `trial`.
+    /// If the component stands at the root of a tangent, the root of another tangent, closer to the threshold, must
+    /// confirm it. Adds the forces and the motion that confirm the threshold to the cache of `trial`.
     pub(super) fn newton_root(
         &self,
         trial: &mut Trial,

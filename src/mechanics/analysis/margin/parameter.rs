@@ -12,7 +12,8 @@ use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
 
 /// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
-/// stands. `with_tilt` is true if its whole frame stands; only then are its tilts around 0 computed.
+/// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
+/// computed.
 pub(super) fn intervals(
     trial: &mut Trial,
     stands: bool,
@@ -23,7 +24,8 @@ pub(super) fn intervals(
         true => grip_limit::robots(trial, stands),
         false => Vec::new(),
     };
-    // The interval of tilts may follow from the horizontal load, so compute the horizontal load for both margins.
+    // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
+    // margins is requested.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];
     let horizontal_load = horizontal
         .iter()

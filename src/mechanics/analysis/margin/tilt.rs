@@ -1,10 +1,10 @@
-//! Finds the tilts at which a frame stands: the angles by which gravity may rotate.
+//! Finds the tilts at which a component stands: the angles by which gravity may rotate.
 //!
 //! Changed gravity has two components: one along the original direction and one across it. The pairs of components at
-//! which a structure stands form a convex set in a plane. Tilts form a circle in this plane. If only weights act and
-//! no limit bounds a force, the set is a cone, and the tilts follow from the interval of horizontal loads: one linear
-//! program. Otherwise the circle may enter and leave the set several times. The power along a mechanism at the tilt θ
-//! is A cos θ + B sin θ + C. One mechanism therefore excludes a whole arc, and the ends of these arcs are tried next.
+//! which a structure stands form a convex set in a plane. Tilts form a circle in this plane. If only weights act and no
+//! robot has a finite limit, the set is a cone, and the tilts follow from the interval of horizontal loads. Otherwise
+//! the circle may enter and leave the set several times. At the tilt θ, a mechanism has the power A cos θ + B sin θ +
+//! C, so it excludes a whole arc of tilts. The ends of these arcs are tried next.
 
 use super::interval::{End, Interval};
 use super::line::Line;
@@ -27,7 +27,7 @@ pub(super) const MIN_ARC: f64 = 1e-6;
 const SEARCH_STEP: f64 = 77.7;
 /// The largest number of mechanisms that move an end inward by less than the tolerance of the proofs.
 const MAX_SHARPENINGS: usize = 8;
-/// The largest number of cuts of one search.
+/// The largest number of steps of one search. Each step excludes an arc of tilts by a mechanism.
 pub(super) const MAX_CUTS: usize = 200;
 
 /// Returns the interval of tilts around 0, in degrees, at which a component stands. It must stand at tilt 0.
@@ -57,15 +57,15 @@ pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     Interval::Between { low, high }
 }
 
-/// The tilts in one direction from a tilt at which a component stands. The *distance* of a tilt is the angle from
-/// that tilt, from 0 to 360 degrees.
+/// A search for the end of the stable tilts in one direction, from the tilt `from`, at which the component stands. The
+/// *distance* of a tilt is its angle from `from` in this direction, from 0 to 360 degrees.
 struct TiltSearch<'t, 'a> {
     trial: &'t mut Trial<'a>,
     from: f64,
     outward: f64,
 }
 
-/// The first end of the stable tilts in one direction.
+/// The first end of the stable tilts in one direction, as a distance from the start, in degrees.
 enum StableEnd {
     At(f64, Vec<Motion>),
     /// The component stands at the first distance; at the second it falls or is undecided.
@@ -75,7 +75,8 @@ enum StableEnd {
 impl TiltSearch<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // If the search does not start at tilt 0, the frame falls at tilt 0. The first step towards 0 then ends at 0.
+        // If the search does not start at tilt 0, the frame does not stand at tilt 0. The first step towards 0 then
+        // ends at 0.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { SEARCH_STEP };
         loop {

@@ -17,11 +17,11 @@ use crate::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::scene::{Limits, RobotId};
 use crate::solve::{ExtremeValue, Tangent};
 
-/// The number of verdicts on changed components, such as tilted or more heavily loaded ones, in this process.
+/// The number of evaluations of changed components in this process: verdicts and programs of least residual.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
 
-/// Returns the number of verdicts on changed components that this process has computed for margins. The progress bar
-/// shows this number.
+/// Returns how many changed components, such as tilted or more heavily loaded ones, this process has evaluated for
+/// margins. The progress bar shows this number.
 pub fn trials() -> usize {
     TRIALS.load(Ordering::Relaxed)
 }
@@ -29,9 +29,9 @@ pub fn trials() -> usize {
 /// The changed parameters of a component; by default nothing is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Setting {
-    /// One friction coefficient for every interface.
+    /// One friction coefficient for every interface; `None` leaves the coefficients unchanged.
     pub friction: Option<f64>,
-    /// The safety kernel.
+    /// The safety kernel; `None` leaves it unchanged.
     pub kernel: Option<f64>,
     /// The fraction of each weight that acts along gravity.
     pub along: f64,
@@ -48,10 +48,10 @@ pub(super) struct Setting {
 pub(super) enum LimitChange {
     /// The limits of the scene.
     None,
-    /// Every finite limit becomes 0. The unlimited forces remain, with which robots resist loads of any size.
+    /// Every finite limit becomes 0. Unlimited forces and torques of robots remain, which resist loads of any size.
     FiniteToZero,
-    /// Consecutive limits, counted over all grips: limits 3g, 3g + 1 and 3g + 2 are those of force x, force y and torque
-    /// of grip g.
+    /// Consecutive limits get a new value. They are counted over all grips: limits 3g, 3g + 1 and 3g + 2 are those of
+    /// force x, force y and torque of grip g.
     Replace {
         /// The index of the first limit.
         first: usize,
@@ -81,7 +81,7 @@ pub(super) struct Trial<'a> {
     /// The forces that balance the unchanged component, if it stands.
     forces: Option<&'a Forces>,
     proofs: ProofCache,
-    /// The number of settings that were decided.
+    /// The number of evaluations so far: verdicts and programs of least residual.
     pub decided_count: usize,
 }
 
@@ -131,8 +131,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// True if the largest listed load and the heaviest weight differ by a factor of more than a thousand. The tolerance
-    /// of a proof by forces then is more than 10⁻⁴ of the slighter ones.
+    /// True if the largest listed load and the heaviest weight differ by a factor of more than a thousand. The
+    /// tolerance of a proof by forces then is more than 10⁻⁴ of the smaller of the two.
     pub fn has_slight_loads(&self) -> bool {
         !(1e-3..=1e3).contains(&self.weights_to_loads())
     }
@@ -168,9 +168,9 @@ impl<'a> Trial<'a> {
         Tangent::new(&self.program(setting))
     }
 
-    /// Returns a motion that proves that the changed component falls: the one of largest power. `None` if it proves
-    /// nothing. A mechanism has no tolerance, so it may prove a fall where the verdict is stable, because the forces
-    /// balance within their tolerance.
+    /// Returns the motion of largest power, if this motion proves that the changed component falls; otherwise `None`. A
+    /// mechanism has no tolerance, so it may prove a fall where the verdict is stable, because the forces balance
+    /// within their tolerance.
     pub fn sure_fall(&mut self, setting: &Setting) -> Option<Vec<Motion>> {
         let tangent = self.tangent(setting)?;
         self.proved_motion(&tangent, setting)

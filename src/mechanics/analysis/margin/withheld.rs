@@ -1,4 +1,5 @@
-//! Describes the margins that are withheld because the verdicts on both sides of an end are too far apart.
+//! Describes the margins that are withheld: the verdicts on both sides of an end are too far apart, or no verdict shows
+//! where the frame stands.
 
 use super::{End, Interval, Intervals};
 use crate::scene::RobotId;
@@ -15,8 +16,8 @@ impl Intervals {
                 for (name, end) in [(least, low), (largest, high)] {
                     if let End::Unconfirmed { stands, beyond } = end {
                         list.push(format!(
-                            "{name} is withheld, since no verdict confirms it: it stands at {stands:.6}, and at \
-                             {beyond:.6} it was not shown to stand; the proofs do not decide in between"
+                            "{name} is withheld, since no verdict confirms it: the frame stands at {stands:.6}, and \
+                             at {beyond:.6} it was not shown to stand; between these values nothing was proved"
                         ));
                     }
                 }
@@ -108,15 +109,15 @@ mod tests {
         let expected = [
             (
                 "the largest tilt in degrees to the left is withheld",
-                "it stands at -0.250000, and at -0.500000 it was not",
+                "the frame stands at -0.250000, and at -0.500000 it was not",
             ),
             (
                 "the largest kernel is withheld",
-                "it stands at 0.250000, and at 0.500000 it was not",
+                "the frame stands at 0.250000, and at 0.500000 it was not",
             ),
             (
                 "the least fy in newtons of robot r is withheld",
-                "it stands at 0.250000, and at 0.500000 it was not",
+                "the frame stands at 0.250000, and at 0.500000 it was not",
             ),
             (
                 "the least torque in newton metres of robot r and the largest",

@@ -1,4 +1,4 @@
-//! [`Case`]: a component exactly at an end of the interval of a parameter, where it begins to fall.
+//! [`Case`]: a component exactly at an end of the interval in which it stands, where it begins to fall.
 
 use crate::analysis::margin::MarginKind;
 use crate::assembly::{Assembly, LoadVector};
@@ -11,7 +11,7 @@ use crate::solve::{LimitState, limit_state};
 pub(super) struct Case<'a> {
     /// The component with the current values of all parameters.
     pub component: &'a Assembly,
-    /// The parameter whose interval ends.
+    /// The margin whose parameter is at the end of its interval.
     pub kind: MarginKind,
     /// The value of the parameter at the end.
     pub value: f64,

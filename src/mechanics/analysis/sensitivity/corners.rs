@@ -41,7 +41,8 @@ pub(super) struct ContactCorners {
 /// The corners of all bodies of a frame.
 pub(super) struct Corners {
     pub all: Vec<Corner>,
-    /// For each corner, the index of its joined corner.
+    /// For each corner, the index of its joined corner. A corner that is joined with no other corner has an index of
+    /// its own.
     pub joined: Vec<usize>,
     /// The number of joined corners.
     pub count: usize,

@@ -17,7 +17,8 @@ pub(in crate::mechanics::analysis) struct Part<'a> {
     pub interval: Option<&'a Interval>,
 }
 
-/// Returns the slope of a value that is read from the rates. The first argument is the largest derivative of its kind.
+/// A function that returns the slope for one quantity. Its first argument is the largest derivative of the same kind.
+/// Its second argument reads the derivative from the rates of a state.
 type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
 
 /// Two ends that differ by less than this, relative to their values, count as equal. Every component with an equal end

@@ -5,10 +5,11 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::{BodyId, Frame, Scene};
 
-/// A corner counts as the end of a contact if its distance is at most this multiple of the admissible gap. The corner
-/// and the end may each be wrong by one gap.
+/// A corner counts as the end of a contact if its distance from this end is at most this multiple of the admissible
+/// gap. The corner and the end may each be wrong by one gap.
 const CORNER_REACH_PER_GAP: f64 = 4.0;
-/// The least such distance, as a fraction of the coordinates, for scenes without tolerance.
+/// The distance up to which a corner counts as the end of a contact is at least this fraction of the coordinates. This
+/// matters only for scenes without tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
 
 /// A corner of a body, with its index in the outline. The corners of holes follow those of the outline.

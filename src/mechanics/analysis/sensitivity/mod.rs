@@ -1,9 +1,9 @@
 //! [`Sensitivity`]: the derivatives of a margin with respect to corners, weights, friction and loads.
 //!
-//! At the end of a margin the forces x balance, and the power of all forces along the mechanism u is 0. If a quantity p
-//! changes, the value λ of the margin changes such that this power stays 0. Therefore dλ/dp = −(u·∂r/∂p) / (u·∂r/∂λ),
-//! where r is the sum of the forces on each body. The derivative is exact. It needs one linear program for each end,
-//! and no program for each corner.
+//! At an end of a margin's interval the forces balance, and the power of all forces along the mechanism u is 0. If a
+//! quantity p changes, the parameter value λ at this end changes such that this power stays 0. Therefore dλ/dp =
+//! −(u·∂r/∂p) / (u·∂r/∂λ), where r is the sum of the forces on each body. The derivative is exact. It needs one linear
+//! program for each end, and no program for each corner.
 //!
 //! | file | content |
 //! |---|---|
@@ -178,13 +178,13 @@ pub struct EndSensitivity {
     pub corners: Vec<CornerSlope>,
     /// The derivative for each placed block, per newton of its weight. Its centroid stays where it is.
     pub weights: Vec<(BlockId, Slope)>,
-    /// The derivative for each interface of the frame, with its index, per unit of its friction coefficient. Empty for
-    /// the margin of friction, which sets all coefficients.
+    /// The derivative for each interface of the frame, with the index of the interface, per unit of its friction
+    /// coefficient. Empty for the margin of friction, which sets all coefficients.
     pub friction: Vec<(usize, Slope)>,
     /// The derivative if all friction coefficients increase together, per unit. `None` for the margin of friction.
     pub friction_of_all: Option<Slope>,
-    /// The derivatives for each load on a placed block, with its index in the scene, per metre that its point moves
-    /// along x and along y.
+    /// The derivatives for each load on a placed block, with the index of the load in the scene, per metre that its
+    /// point moves along x and along y.
     pub loads: Vec<(usize, [Slope; 2])>,
 }
 
@@ -202,7 +202,7 @@ pub struct CornerSlope {
     pub corner: usize,
     /// The position of the corner, metres.
     pub at: Point,
-    /// The other bodies that have a corner at this joint, which moves with this corner.
+    /// The other bodies with a corner that is joined with this corner and moves with it.
     pub with: Vec<BodyId>,
     /// In which directions the corner can move, with the derivatives per metre.
     pub moves: CornerMoves,
@@ -221,7 +221,7 @@ pub enum CornerMoves {
         /// The derivative in this direction.
         slope: Slope,
     },
-    /// The corner cannot move without opening or bending a joint.
+    /// The corner cannot move without opening a contact, or the derivatives of its moves are not computed.
     Not,
 }
 

@@ -30,8 +30,8 @@ impl RigidMotion {
 pub(super) struct State {
     /// The motion of each body.
     pub motions: Vec<RigidMotion>,
-    /// The forces of each contact in newtons; 0 for contacts inside a group of bodies.
+    /// The forces of each contact in newtons; 0 for contacts inside a group of bodies that move as one rigid body.
     pub forces: Vec<ContactForces>,
-    /// The power of the unbalanced forces along the motions, per unit of the parameter.
+    /// The derivative, with respect to the parameter, of the power of all forces along the motions.
     pub work: f64,
 }

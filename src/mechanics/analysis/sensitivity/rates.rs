@@ -25,7 +25,8 @@ pub(super) struct Rates {
 
 impl Rates {
     /// Computes the derivatives with respect to all corners, weights, friction coefficients and load points of a frame.
-    /// `interfaces` is the number of its interfaces. `None` if the margin's parameter does no work along the mechanism.
+    /// `interfaces` is the number of its interfaces. `None` if the power along the mechanism does not depend on the
+    /// margin's parameter.
     pub fn new(
         scene: &Scene,
         corners: &Corners,

@@ -21,7 +21,8 @@ pub(super) struct Reduced {
     pub groups: usize,
     /// The forces between groups.
     pub unknowns: Vec<Unknown>,
-    /// The grips with a force component at its limit: grip, component and force.
+    /// The grip forces that are at their limit: the index of the grip, the component (0 force x, 1 force y, 2 torque),
+    /// and the force in program units.
     limits: Vec<(usize, usize, f64)>,
     /// The motion of each group in the mechanism of the program: velocity x, velocity y, and spin times L.
     pub motion: Vec<f64>,

@@ -67,7 +67,7 @@ impl Slope {
 /// Derivatives count as equal if they differ by at most this fraction of the largest derivative of the same kind.
 const EQUAL_SLOPE_TOL: f64 = 1e-7;
 
-/// The derivatives of one component at one end, for every state there.
+/// The derivatives of one component at one end, for each state that was computed there.
 pub(super) struct Branch {
     pub rates: Vec<Rates>,
     pub freedom: Freedom,

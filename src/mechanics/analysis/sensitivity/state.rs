@@ -64,8 +64,8 @@ pub(super) struct EndState {
 }
 
 impl EndState {
-    /// Computes forces and mechanism at an end of an interval. `None` if the equations are not solved accurately, or if
-    /// there are too many groups.
+    /// Computes forces and mechanism at an end of an interval. `None` if the equations are not solved accurately, if
+    /// the result is not admissible, or if there are too many groups.
     pub fn new(case: &Case) -> Option<EndState> {
         let (program, solved) = case.solved(&case.at(case.value))?;
         let mut reduced = Reduced::new(case, &program, &solved);
@@ -273,8 +273,8 @@ impl Motions {
     }
 }
 
-/// Returns all extreme points of the set of possible motions. `None` if the set is unbounded, or if there are too many
-/// combinations of conditions to test.
+/// Returns all extreme points of the set of possible motions. `None` if the set is unbounded, if there are too many
+/// combinations of conditions to test, or if too few points are found.
 ///
 /// A motion is first + Σ share · other. Forces between groups that are 0 must not do negative work. At an extreme
 /// motion, as many of these conditions hold with equality as there are shares.

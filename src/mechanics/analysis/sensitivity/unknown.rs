@@ -6,7 +6,7 @@ use crate::program::{Force, Program};
 use crate::solve::LimitState;
 
 /// A force is basic if the ratio of its amount to the largest amount is larger than this. This ratio must also be
-/// larger than the power of the column, relative to the largest velocity.
+/// larger than the power of one unit of the force along the mechanism, relative to the largest velocity.
 const BASIC_TOL: f64 = 1e-8;
 
 /// The force of a robot counts as being at its limit if it differs from the limit by at most this fraction of the
@@ -17,7 +17,8 @@ const LIMIT_TOL: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unknown {
     pub source: Source,
-    /// Its amount in the solution of the program. It is not negative unless the force can act in both directions.
+    /// The amount of the force in the solution of the program. It is not negative unless the force can act in both
+    /// directions.
     pub amount: f64,
     /// True if the force may be different from 0 in equilibrium.
     pub is_basic: bool,
@@ -34,7 +35,7 @@ pub(super) enum Source {
         point: usize,
         side: f64,
     },
-    /// One unit of a component of a grip's force or torque.
+    /// One unit of force x, force y or torque of a grip (component 0, 1 or 2).
     Grip { grip: usize, component: usize },
 }
 
@@ -101,9 +102,9 @@ pub(super) fn unknowns(
 
 /// Returns the group of each body, and the number of groups. The group is `None` for a body at rest with the ground.
 ///
-/// A contact holds its bodies together if both of its points have basic forces, and one point has them on both sides of
-/// the friction cone. Then neither point can move, so the bodies cannot move. A robot holds a body if all three
-/// components are between their limits.
+/// A contact holds its bodies together if both of its points have basic forces, and one point has them on both edges of
+/// its friction cone. Then the bodies cannot move relative to each other. A robot holds a body if its force x, force y
+/// and torque are all below their limits.
 pub(super) fn groups(given: &Assembly, unknowns: &[Unknown]) -> (Vec<Option<usize>>, usize) {
     let ground = given.bodies.len();
     let mut sets = DisjointSets::new(ground + 1);

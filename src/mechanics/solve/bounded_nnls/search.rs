@@ -1,4 +1,5 @@
-//! [`Search`]: the columns that may enter the passive set, and the number of times this set may still change.
+//! [`Search`]: the state of one search of [`BoundedNnls`], with the columns that may enter the passive set and the
+//! number of times this set may still change.
 
 use super::{BoundedNnls, MAX_PIVOTS_PER_COLUMN};
 use crate::program::Column;
@@ -10,8 +11,8 @@ pub(super) struct Search<'a> {
     /// The length |column| of each column.
     pub(super) norms: Vec<f64>,
     pub(super) state: Vec<State>,
-    /// Columns that entered and left at once, or depend on the passive set. They are not tried again until the amounts
-    /// change.
+    /// True for columns that entered the passive set and left it at once, or that depend linearly on it. They are not
+    /// tried again until the amounts change.
     pub(super) rejected: Vec<bool>,
     /// The columns that may enter: (gradient per unit of |column|, column).
     pub(super) candidates: Vec<(f64, usize)>,

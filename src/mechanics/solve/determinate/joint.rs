@@ -1,10 +1,11 @@
-//! [`Joint`]: one contact of a structure in which the contacts form a tree. The joints are listed from the ground
-//! outwards.
+//! [`Joint`]: one contact of a structure in which the contacts form a tree, so that only one path leads from each body
+//! to the ground. The function [`joints`] lists them from the ground outwards.
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};
 
-/// A face whose two points are closer together than this, relative to the median face, cannot resist a moment.
+/// A contact whose two points are closer together than this, relative to the median interface length, cannot resist a
+/// moment.
 ///
 /// Its forces would be 10⁹ times the loads, and the proof could not use any of their digits.
 const MIN_FACE_LENGTH: f64 = 1e-9;
@@ -19,19 +20,20 @@ pub(super) struct Wrench {
 /// The forces ([N1, N2], T) of a contact; a negative N is tension.
 pub(super) type ContactForces = ([f64; 2], f64);
 
-/// The speeds at which the two points open, and at which the face slides along its tangent.
+/// The speeds at which the two points of a contact open, and the speed at which the contact slides along its tangent.
 pub(super) type JointSpeeds = ([f64; 2], f64);
 
-/// A contact of a tree of blocks, and the body that it joins to the ground.
+/// A contact of a tree of blocks, and the body that the contact connects to the ground, directly or through other
+/// bodies.
 pub(super) struct Joint<'a> {
     /// The index of the contact.
     pub number: usize,
     pub contact: &'a ContactTerm,
-    /// The joined body.
+    /// The body on the side of the contact that is farther from the ground.
     pub body: usize,
     /// The vectors from that body's centroid to the two application points.
     arms: [Vector; 2],
-    /// 1 if the contact pushes the body along the normal, −1 if against it.
+    /// 1 if the contact pushes `body` along the normal, −1 if it pushes `body` against the normal.
     sign: f64,
     /// The next body on the way to the ground, and the vector from the centroid of that body to the centroid of `body`.
     pub below: Option<(usize, Vector)>,
@@ -86,7 +88,7 @@ impl Joint<'_> {
 /// Lists the joints in order from the ground outwards, one for each body.
 ///
 /// `None` if the contacts do not form a tree, because a body has several paths to the ground or no path. Also `None` if
-/// the program has grips or if a face is too short.
+/// the program has grips or corner contacts, or if a contact is too short.
 pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {

@@ -1,9 +1,11 @@
-//! Closed forms for statically determinate structures: stacks, and all trees of blocks.
+//! Computes forces, least adhesion and motion of statically determinate structures in closed form: stacks, and all
+//! structures whose contacts form a tree.
 //!
 //! In a tree, each contact is the only connection of the blocks beyond it to the ground. The balance of these blocks
-//! determines its forces N1, N2 and T. If the contact can exert them, the structure stands. Otherwise the missing
-//! part is the adhesion: tension −N, and friction beyond μ(N1 + N2). With μ ≤ 1 no other choice needs less adhesion:
-//! one newton of additional pressure, balanced by one newton of tension, allows only μ newtons of friction.
+//! determines the forces N1, N2 and T of the contact. If every contact can exert its forces, the structure stands.
+//! Otherwise the missing part is the adhesion: tension −N, and friction beyond μ(N1 + N2). With μ ≤ 1 no other choice
+//! needs less adhesion: one newton of additional pressure, balanced by one newton of tension, allows only μ newtons of
+//! friction.
 //!
 //! No program is solved, and the accuracy does not depend on the length of a chain. An interior-point method has no
 //! correct digits left at 10 000 blocks. Steps: order the joints from the ground outwards; sum the loads from the
@@ -20,7 +22,7 @@ use crate::geometry::{Vector, cross};
 use crate::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
 
-/// A missing force up to this fraction of the contact's forces is rounding: the contact does not fail.
+/// A missing force up to this fraction of the contact's forces counts as rounding: the contact does not fail.
 ///
 /// A tower of 1000 blocks sums 1000 loads, each with a rounding of 1e-16. If this value were ten times smaller, some of
 /// its joints would seem to fail. Real failures, of the size that proofs accept (1e-7), are far above it.
@@ -32,7 +34,8 @@ const ROUNDING_TOL: f64 = 1e-12;
 /// loads changes by a similarly small fraction.
 const EXTRA_OPENING: f64 = 1e-14;
 
-/// Returns the contact forces that balance the loads. `None` if they are not unique, or if a contact cannot exert them.
+/// Returns the contact forces that balance the loads. `None` if the contacts do not form a tree (see `joints`), or if a
+/// contact cannot exert its force.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
     let split = SplitForces::new(program, &joints)?;
@@ -63,8 +66,8 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     forces.collect()
 }
 
-/// Computes the least adhesion, and the motion that proves that it is the least. `None` if the forces are not unique or
-/// a friction coefficient exceeds 1.
+/// Computes the least adhesion, and the motion that proves that it is the least. `None` if the contacts do not form a
+/// tree (see [`joints`]), or if a friction coefficient exceeds 1.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     SplitForces::new(program, &joints)?.into_least_adhesion(program, &joints)
@@ -73,7 +76,8 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
 ///
 /// On each path from the ground, only the first failing contact opens or slides; the blocks beyond it move as one body.
-/// `None` if the forces are not unique, if the structure stands, or if a friction coefficient exceeds 1.
+/// `None` if the contacts do not form a tree (see `joints`), if the structure stands, or if a friction coefficient
+/// exceeds 1.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
     let split = SplitForces::new(program, &joints)?;
@@ -154,7 +158,8 @@ impl SplitForces {
 
     /// Returns the optimum of the program of least adhesion. In its motion, all failing joints open or slide.
     ///
-    /// `None` if a friction coefficient exceeds 1: the closed form is then not always the least adhesion.
+    /// `None` if a friction coefficient exceeds 1, because the closed form is then not always the least adhesion. Also
+    /// `None` if a velocity is not finite.
     fn into_least_adhesion(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
         if program
             .contacts

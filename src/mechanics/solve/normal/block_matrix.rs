@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::program::QuadraticProgram;
 
-/// The largest block. A contact has three columns at each of its two application points.
+/// The largest number of columns in a block. A contact has three columns at each of its two application points.
 pub(super) const MAX_BLOCK_COLUMNS: usize = 6;
 
 /// A symmetric block-diagonal matrix.

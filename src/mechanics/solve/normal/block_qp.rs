@@ -43,8 +43,8 @@ const LONG_STEP: f64 = 0.8;
 /// If more than this fraction of the primal residual remains, a long step has made no progress.
 const STALLED_SHARE: f64 = 0.8;
 
-/// After this number of consecutive steps without progress the method stops: it is then likely that no amounts
-/// balance the loads.
+/// After this number of consecutive steps without progress the method stops, because probably no amounts balance the
+/// loads.
 const MAX_IDLE_STEPS: usize = 3;
 
 /// Solves a least-squares program in forces with lower bounds. `None` if the program has another form, or if the method
@@ -96,14 +96,16 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     })
 }
 
-/// True if the rows of a problem are the equilibrium equations and exactly one lower bound for each column.
+/// True if the rows of a problem are the equilibrium equations and exactly one lower bound for each column, and if
+/// there are at least as many columns as equations.
 fn has_only_floors(problem: &QuadraticProgram) -> bool {
     let n = problem.unknowns;
     let is_floor = |(row, column, value): &(usize, usize, f64)| {
         *row - problem.equalities == *column && *value == -1.0
     };
     let mut below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
-    // With fewer columns than rows there is rarely a balance. clarabel detects this after two iterations.
+    // With fewer columns than equations there is rarely a balance. Leave such a problem to clarabel, which detects this
+    // after two iterations.
     problem.equalities != 0
         && n >= problem.equalities
         && problem.bound.len() == problem.equalities + n
@@ -139,7 +141,7 @@ struct Residuals {
     dual: Vec<f64>,
     /// x + floor − s.
     bound: Vec<f64>,
-    /// The largest entries of A x, of P x and of Aᵀy, to which the residuals are compared.
+    /// The largest absolute entries of A x, of P x and of Aᵀy, with which the residuals are compared.
     size: [f64; 3],
 }
 

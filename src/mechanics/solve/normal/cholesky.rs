@@ -1,12 +1,14 @@
-//! [`Cholesky`]: the sparse factorization A·W·Aᵀ + diagonal·I = L·Lᵀ, computed supernode by supernode. A·W·Aᵀ is Σ
-//! weight·column·columnᵀ.
+//! [`Cholesky`]: the sparse factorization A·W·Aᵀ + diagonal·I = L·Lᵀ, where A·W·Aᵀ is Σ weight·column·columnᵀ. The
+//! factor L is computed supernode by supernode; a supernode is a group of consecutive columns of L with the same rows
+//! below them.
 //!
-//! This is the multifrontal method (Duff and Reid 1983; Liu 1992). Each supernode in postorder
+//! This is the multifrontal method (Duff and Reid 1983; Liu 1992). Steps for each supernode, in postorder of the
+//! elimination tree:
 //!
-//! 1. assembles its frontal matrix: the columns of A whose first unknown it eliminates, and the update matrices of its
-//!    children from the stack (extend-add);
-//! 2. factors its own columns;
-//! 3. pushes its own update matrix, the rest of the frontal matrix in the rows below, onto the stack.
+//! 1. assemble its frontal matrix: the sum of weight·column·columnᵀ over the columns of A whose first unknown it
+//!    eliminates, and the update matrices of its children from the stack (extend-add);
+//! 2. factor its own columns;
+//! 3. push its own update matrix, the rest of the frontal matrix in the rows below, onto the stack.
 //!
 //! A·W·Aᵀ itself is never assembled as a whole.
 

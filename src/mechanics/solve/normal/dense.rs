@@ -5,12 +5,12 @@
 //! 4.2). Rows are packed in groups of four, so that a product of four by four numbers is sixteen independent sums,
 //! which the compiler keeps in vector registers.
 
-/// A pivot up to this fraction of the diagonal entry before elimination is rounding. Its column is set to zero, so that
-/// the unknown becomes 0: nothing holds the body in that direction.
+/// A pivot up to this fraction of the diagonal entry before elimination counts as rounding. Its column is set to zero,
+/// so that the unknown becomes 0: nothing holds the body in that direction.
 ///
-/// It is some hundred times the relative rounding of an f64. If it were ten times larger, weak but real supports would
-/// be dropped; if it were ten times smaller, the rounding of a sum of many terms would count as a support and make the
-/// unknown very large.
+/// It is several hundred times the relative rounding of an f64. If it were ten times larger, weak but real supports
+/// would be dropped; if it were ten times smaller, the rounding of a sum of many terms would count as a support and
+/// make the unknown very large.
 const PIVOT_TOL: f64 = 1e-13;
 
 /// The number of columns that are factored one by one before all columns to their right are updated together.

@@ -81,8 +81,8 @@ pub(super) struct OrderedGraph<'a> {
     order: Vec<usize>,
     /// The position of each unknown.
     pub position: Vec<usize>,
-    /// The parent of each column in the elimination tree. Children come before their parents, and the columns of a subtree
-    /// are consecutive.
+    /// The parent of each column in the elimination tree; `None` for a root. Children come before their parents, and
+    /// the columns of a subtree are consecutive.
     pub parent: Vec<Option<usize>>,
 }
 

@@ -1,5 +1,5 @@
-//! A primal-dual interior-point method for linear programs and for the program of least residual, on the homogeneous
-//! self-dual form.
+//! A primal-dual interior-point method on the homogeneous self-dual form. It solves linear programs, and the program of
+//! the shortest velocities (least ½|y|²).
 //!
 //! Unknowns are amounts f ≥ 0, velocities y, slacks z ≥ 0 and the pair τ, κ ≥ 0:
 //!
@@ -27,13 +27,13 @@ use crate::solve::settings::{CrossoverTolerance, StoppingCriteria};
 
 /// The optimum, a certificate, or the last iterate.
 pub(super) struct Solution {
-    /// The status; `None` if the method ended without one.
+    /// Whether the result is an optimum or a certificate; `None` if it is neither.
     pub termination: Option<Termination>,
     /// f, one for each column.
     pub amounts: Vec<f64>,
     /// z, one for each column.
     pub slack: Vec<f64>,
-    /// y, in the order of elimination. A certificate is scaled to a gain of 1.
+    /// y, in the order of elimination. A certificate is scaled so that loadsᵀy = 1 or costᵀf = −1.
     pub velocities: Vec<f64>,
     pub iterations: usize,
 }
@@ -41,7 +41,7 @@ pub(super) struct Solution {
 /// The largest number of calls to [`InteriorPoint::restore_balance`]. Each costs as much as an iteration.
 const MAX_RESTORATIONS: usize = 3;
 
-/// A column is taken to be basic if its amount exceeds its slack by this factor.
+/// A column counts as clearly basic if its amount is more than this multiple of its slack.
 ///
 /// If it were 10, non-basic columns would look basic, because centring keeps all products near μ; if it were 1000,
 /// basic columns would be dropped.
@@ -147,8 +147,8 @@ impl<'a> InteriorPoint<'a> {
         (self.newton).step(lp, self.factor, &mut self.at, residuals, optimality)
     }
 
-    /// True if the optimum will probably not be strictly complementary: the slack of the basic columns, extrapolated to
-    /// the final tolerance, exceeds `crossover.max_slack`.
+    /// True if the optimum will probably not be strictly complementary: the sum of the slacks of the basic columns,
+    /// extrapolated to the final tolerance, exceeds `crossover.max_slack`.
     fn is_never_complementary(
         &self,
         optimality: &Optimality,

@@ -5,18 +5,20 @@ use super::column_groups::ColumnGroups;
 
 /// A number added to the diagonal of the normal equations, so that the velocity of an unsupported body has a pivot too.
 ///
-/// The entries of the columns are near 1. If it were ten times larger, the last steps, whose weights differ by many
-/// powers of ten, would be less accurate; if it were ten times smaller, it would vanish in the rounding of a diagonal
-/// entry of a thousand.
+/// The entries of the columns are near 1. If this number were ten times larger, the last steps, whose weights differ by
+/// many powers of ten, would be less accurate; if it were ten times smaller, it would vanish in the rounding of a
+/// diagonal entry of a thousand.
 pub(super) const REGULARIZATION: f64 = 1e-12;
 
-/// The fraction of the distance to the nearest bound that a step covers, so that all variables stay positive.
+/// A step covers at most this fraction of the distance to the nearest bound, so that all variables stay positive.
 ///
 /// If it were closer to 1, variables would come too close to their bounds and the next steps would be short; if it were
 /// 0.9, each iteration would gain at most one digit.
 pub(super) const STEP_TO_BOUNDARY: f64 = 0.99;
 
-/// min costᵀf  s.t.  A f = loads, f ≥ 0, and its dual max loadsᵀy − ½ velocity_weight |y|²  s.t.  Aᵀy + z = cost, z ≥ 0.
+/// The linear program min costᵀf s.t. A f = loads, f ≥ 0, and its dual, max loadsᵀy s.t. Aᵀy + z = cost, z ≥ 0.
+///
+/// The objective of the dual may contain one more term, −½ velocity_weight |y|².
 pub(super) struct LinearProgram<'a> {
     /// A: one column for each force.
     pub columns: &'a ColumnGroups,
@@ -24,7 +26,7 @@ pub(super) struct LinearProgram<'a> {
     pub cost: &'a [f64],
     /// The loads, in the order of elimination, as are all velocities in this module.
     pub loads: &'a [f64],
-    /// 0 for a linear program; 1 if the dual has the term −½|y|².
+    /// The factor of the term −½|y|² of the dual: 0 for a linear program, or 1.
     pub velocity_weight: f64,
 }
 

@@ -1,6 +1,6 @@
 //! The second solver, for programs of many blocks: interior-point methods that solve the normal equations.
 //!
-//! A program's forces and velocities are optima of a pair of dual linear programs,
+//! The forces and the velocities of a structure are the optima of two linear programs that are dual to each other:
 //!
 //! ```text
 //! min Σ cost·amount  s.t.  Σ amount·column = loads, amount ≥ 0   and   max loadsᵀy  s.t.  columnᵀy ≤ cost.
@@ -19,7 +19,7 @@
 //! | least ½\|forces\|² of any sign | [`least_norm`]: one factor, no iteration |
 //! | least squares of forces with lower bounds | [`block_qp`], each contact with a small weight matrix |
 //!
-//! The results are checked by the proof, as those of clarabel are.
+//! The results are checked by a proof, as are the results of clarabel.
 
 mod block_matrix;
 mod block_qp;
@@ -46,17 +46,19 @@ use interior_point::Solution;
 use iterate::LinearProgram;
 use residuals::Termination;
 
-/// Programs of fewer blocks are solved by clarabel, which takes little time for them.
+/// Programs of fewer blocks than this are solved by clarabel, which takes little time for them.
 ///
 /// For more blocks, this solver is also more accurate. For a wall of 410 bricks, 10⁻⁵ past its limit, the least
-/// adhesion has a relative error of 10⁻⁶, and that of clarabel an error of 0.5 %. The velocities of clarabel may
-/// violate a column by 10⁻⁸, and a column may carry 10⁷ times the loads.
+/// adhesion has a relative error of 10⁻⁶, and that of clarabel an error of 0.5 %. The reason: the velocities of
+/// clarabel may violate the constraint of a column by 10⁻⁸, and a column may carry 10⁷ times the loads.
 const MIN_BLOCKS: usize = 60;
 
-/// A structure is a chain, such as an arch, if its factor takes fewer operations than this for each unknown.
+/// A structure counts as a chain, such as an arch, if its factorization takes fewer operations than this for each
+/// unknown.
 ///
-/// If a chain ends here without a result, clarabel solves it. Chains take little time in either solver. Long chains
-/// lose digits in the normal equations: for an arch of 10 000 stones a residual of 10⁻⁶ of the loads remains.
+/// If the interior-point method ends without a result for a chain, clarabel solves the program. Chains take little time
+/// in either solver. Long chains lose digits in the normal equations: for an arch of 10 000 stones a residual of 10⁻⁶
+/// of the loads remains.
 const CHAIN_OPERATIONS: f64 = 1e3;
 
 /// Programs with a column of more entries than this are refused: such a column couples many blocks and fills the
@@ -65,9 +67,10 @@ const MAX_COLUMN_ENTRIES: usize = 12;
 
 /// Solves a program. Returns an optimum, a certificate that there is no optimum, or an answer without a result.
 ///
-/// Returns `None` if clarabel should solve the program. This is the case if it has few blocks or another form, or if
-/// no order of elimination was found. It is also the case if the method ended without a result for a chain or for a
-/// program with squares, which clarabel may still solve.
+/// Returns `None` if clarabel should solve the program. This is the case if the program has few blocks, another form or
+/// a column with too many entries, or if no order of elimination was found. It is also the case if the method ended
+/// without a result for a chain or for a quadratic program, which clarabel may still solve. The least norm of a chain
+/// is an exception.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     let rows = match problem.equalities {
         0 => problem.unknowns,
@@ -111,7 +114,8 @@ fn solve_any_size(
         loads: &factor.to_elimination_order(&loads),
         velocity_weight: f64::from(u8::from(form == LinearForm::ShortestVelocities)),
     };
-    // If the method ends without a result for a chain or for the shortest velocities, clarabel is tried.
+    // If the method ends without a result for a chain or for the shortest velocities, return `None`, so that clarabel
+    // is tried.
     let solution = interior_point::solve(&lp, &mut factor, criteria);
     if (is_chain || form == LinearForm::ShortestVelocities) && solution.termination.is_none() {
         return None;
@@ -120,7 +124,8 @@ fn solve_any_size(
     Some(form.answer(problem, solution, velocities))
 }
 
-/// Finds the amounts, positive or negative, that balance the loads with the least ½|amounts|².
+/// Finds the amounts, positive or negative, that balance the loads with the least ½|amounts|². `None` if clarabel
+/// should solve the problem.
 fn solve_least_norm(
     problem: &QuadraticProgram,
     criteria: StoppingCriteria,
@@ -148,12 +153,13 @@ fn solve_least_norm(
     }
 }
 
-/// True if the structure is a chain: its factorization needs fewer than `chain_operations` operations for each unknown.
+/// True if the structure counts as a chain: its factorization needs fewer than `chain_operations` operations for each
+/// unknown.
 fn is_chain(factor: &Cholesky, columns: &ColumnGroups, chain_operations: f64) -> bool {
     factor.operations() < chain_operations * columns.unknowns() as f64
 }
 
-/// The kinds of problem that this module solves, apart from those of [`block_qp`].
+/// The kinds of problem that this module solves, apart from the problems of [`block_qp`].
 enum ProblemKind {
     Linear(LinearForm),
     /// The least ½|amounts|² without bounds: one equality for each velocity.

@@ -1,8 +1,8 @@
 //! [`Newton`]: one iteration of the interior-point method, with predictor, corrector and Gondzio's additional
 //! correctors.
 //!
-//! Newton's equations for a direction (df, dy, dz, dτ, dκ), where r are the residuals and η is the fraction of them
-//! to remove:
+//! Newton's equations for a direction (df, dy, dz, dτ, dκ) follow. Here r are the residuals, η is the fraction of the
+//! residuals to remove, and w is [`LinearProgram::velocity_weight`].
 //!
 //! ```text
 //! A df + w dy − loads dτ = η r_primal        z df + f dz = target
@@ -10,9 +10,9 @@
 //! costᵀdf − loadsᵀdy + dκ = −η gap
 //! ```
 //!
-//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration
-//! use the same factor. A second right-hand side, solved together with the predictor's, yields the change per unit
-//! of dτ (`tau_direction`). The last equation then determines dτ.
+//! Elimination of dz and df leaves (A·W·Aᵀ + w·1) dy = right-hand side with W = f/z. All directions of an iteration use
+//! the same factor. A second right-hand side, which is solved together with that of the predictor, yields the change of
+//! the other unknowns per unit of dτ (`tau_direction`). The last of Newton's equations then determines dτ.
 
 use super::cholesky::Cholesky;
 use super::dense::dot;
@@ -50,14 +50,14 @@ pub(super) struct Newton {
     direction: Iterate,
     /// The direction that was computed last.
     candidate: Iterate,
-    /// The change of each product amount·slack, to first order.
+    /// The change of each product amount·slack, to first order, at which the last direction aims.
     target: Vec<f64>,
     next_target: Vec<f64>,
     /// The right-hand side η r_dual − target/f after the elimination of dz.
     slack_side: Vec<f64>,
 }
 
-/// The right-hand sides of a direction other than those of amount·slack.
+/// The right-hand sides of Newton's equations for a direction, apart from the targets of the products amount·slack.
 #[derive(Clone, Copy)]
 struct Sides {
     /// η: the fraction of the residuals to be removed.
@@ -183,7 +183,8 @@ impl Newton {
     /// Writes the changes of the products amount·slack that a corrector aims at into `next_target`. Returns the
     /// correction of the product τκ.
     ///
-    /// Products that a step of length `step` would move out of the band around `centre` are projected onto the band.
+    /// A product that a step of length `step` would move out of the band around `centre` is corrected to the nearest
+    /// end of the band. A correction decreases a product by at most `CENTRALITY_BAND`·`centre`.
     fn recentre(&mut self, at: &Iterate, step: f64, centre: f64) -> f64 {
         let correction = |v: f64, dv: f64, w: f64, dw: f64| {
             let product = (v + step * dv) * (w + step * dw);

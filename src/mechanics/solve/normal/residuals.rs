@@ -3,7 +3,7 @@
 use super::dense::{dot, max_norm};
 use super::iterate::{Iterate, LinearProgram};
 
-/// The status with which the interior-point method ended. The primal program is the one in forces.
+/// The status with which the interior-point method ended. The primal program is the program in forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Termination {
     /// f/τ is an optimum of the program in forces, y/τ of the program in velocities.
@@ -83,7 +83,8 @@ impl Optimality {
         }
     }
 
-    /// True if the amounts balance the loads to the tolerance, relative to the sum of the largest load and amount.
+    /// True if the amounts balance the loads to the tolerance, relative to the sum of the largest load and the largest
+    /// amount.
     pub fn is_primal_feasible(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let f = self.size[0];
         let scale = f64::max(1.0, max_norm(lp.loads) + f / self.tau);

@@ -1,8 +1,8 @@
 //! [`SlackTrend`]: predicts, before the interior-point method ends, whether the optimum will be strictly complementary.
 //!
-//! If so, the slack of the basic columns falls in proportion to the duality gap, and faster at the end. Otherwise, as
-//! in walls near their limit, it falls like the square root of the gap, and more iterations do not separate basic
-//! columns from the others. The exponent of slack ∝ gap^exponent is fitted to two points.
+//! If it will be, the sum of the slacks of the basic columns falls in proportion to the duality gap, and faster at the
+//! end. Otherwise, as in walls near their limit, this sum falls like the square root of the gap, and more iterations do
+//! not separate basic columns from the others. The exponent of slack ∝ gap^exponent is computed from two iterations.
 
 /// The trend is measured once the gap, relative to the cost, is at most this. Before that, the basic columns are not
 /// known.

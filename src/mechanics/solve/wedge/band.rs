@@ -6,8 +6,8 @@
 
 use crate::program::Program;
 
-/// The smallest pivot; a smaller one is replaced by it. The unknown is then arbitrary, and the test of the balance
-/// decides.
+/// A pivot with a smaller absolute value is replaced by this value. The unknown of that row is then arbitrary; the
+/// later check of the balance decides whether the solution is usable.
 ///
 /// The entries are near 1, and the springs to the ground add at least 1e-11 to the diagonal. Only pivots that are
 /// rounding are therefore replaced.

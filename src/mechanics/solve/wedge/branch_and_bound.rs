@@ -1,14 +1,14 @@
 //! Branch and bound over the patterns of pressing points and sliding faces. The search finds a pattern in which the
 //! springs come to rest, or proves that there is none.
 //!
-//! A node fixes whether some points press and how some faces slide. For the other points and faces, its relaxation
-//! requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the balance
-//! and the robots' limits. Without robots, one more row requires that the loads do no negative work. All rows are
-//! linear in displacements and forces. Steps for each node:
+//! A node decides whether some points press and how some faces slide. For the other points and faces, the relaxation of
+//! the node requires only N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point. Further rows are the
+//! balance and the robots' limits. Without robots, one more row requires that the loads do no negative work. All rows
+//! are linear in displacements and forces. Steps for each node:
 //!
 //! 1. solve the relaxation;
 //! 2. if it is infeasible, check the multipliers that prove it (Farkas), and prune the node;
-//! 3. if it has a solution, try to complete it to springs at rest;
+//! 3. if it has a solution, try to find springs at rest with the pattern of this solution;
 //! 4. otherwise branch on the point or face that violates the springs' law most.
 //!
 //! The pruned nodes together cover all patterns, so their multipliers together are the certificate. Reference: Wolsey,
@@ -67,7 +67,8 @@ pub(super) fn search(program: &Program) -> SearchOutcome {
                 }
                 layout.most_violated(&springs, &node, &answer.x)
             }
-            // Without a valid status, branch too: the children have more equalities and may be easier to decide.
+            // If the solver has no result, or if its certificate is not valid, branch too: the children have more
+            // equalities and may be easier to decide.
             _ => node.first_open(&springs),
         };
         let Some(branch) = branch else {

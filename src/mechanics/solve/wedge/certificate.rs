@@ -7,7 +7,7 @@
 use crate::program::{Program, QuadraticProgram};
 use crate::solve::{Conditioning, Status, TOLERANCE, solve};
 
-/// Displacements and forces up to this multiple of the loads are ruled out.
+/// Displacements and forces up to this multiple of the sum of all loads are ruled out.
 ///
 /// Springs of stiffness 1 that come to rest move by far less. If this value were ten times larger, the multipliers
 /// would need one more digit.
@@ -17,13 +17,15 @@ const MAX_DISPLACEMENT: f64 = 1e6;
 /// reaches.
 const MAX_CORRECTIONS: usize = 6;
 
-/// The gain of the multipliers must exceed this fraction of the contribution of the loads to it.
+/// The gain −bᵀz of the multipliers z must exceed this fraction of Σ |load|·|z|, the largest contribution that the
+/// loads can make to the gain.
 ///
 /// It is twice the residual that forces at rest may leave, 1e-7 of a block's load. With less, a structure that springs
 /// hold within that tolerance could be ruled out.
 const BALANCE_BAND: f64 = 2e-7;
 
-/// Multipliers below this count as zero; the largest are at most 1. They come from a solver with a tolerance of 1e-9.
+/// Multipliers whose absolute value is below this count as 0; the largest is at most 1. They come from a solver with a
+/// tolerance of 1e-9.
 const ZERO_MULTIPLIER: f64 = 1e-6;
 
 /// Multipliers of inequalities below this fraction of the largest are dropped before the first correction.
@@ -38,7 +40,8 @@ pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &P
             .is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
 }
 
-/// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0 and |z| ≤ 1. `None` if the solver finds no optimum.
+/// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0, |z| ≤ 1, and z ≥ 0 on inequalities. `None` if b = 0, or
+/// if the solver finds no optimum.
 ///
 /// The multipliers that a solver returns may be so small that the corrections exceed them. The multipliers of largest
 /// gain are as large as possible.

@@ -1,10 +1,10 @@
 //! Finds springs at rest by fixed-point iteration on the friction limits, with convex programs (Tresca's friction).
 //!
-//! If the friction limit of each face is fixed (Tresca's law), springs at rest have the least energy. This is a
-//! convex program, which has a solution as long as additional springs hold the blocks to the ground. Its normal
-//! forces determine the next friction limits μ(N1 + N2), and so on (Panagiotopoulos 1975). Newton's method
-//! ([`super::newton`]) is faster if it converges, but cycles if one of two stones in contact is a thousand times
-//! heavier.
+//! If the friction limit of each face is fixed (Tresca's law), springs at rest have the least energy. This is a convex
+//! program, which has a solution as long as additional springs hold the blocks to the ground. Its normal forces
+//! determine the next friction limits μ(N1 + N2), and so on (Panagiotopoulos 1975). Newton's method ([`super::newton`])
+//! is faster if it converges. It does not converge, for example, if one of two stones in contact is a thousand times
+//! heavier than the other.
 
 use super::rest::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
@@ -18,7 +18,8 @@ const MAX_ITERATIONS: usize = 60;
 /// tolerance.
 const MIN_GROUND: f64 = 1e-9;
 
-/// Below this stiffness of the ground, Newton's method is tried too, because the pattern is close to that of the rest.
+/// Below this stiffness of the ground, Newton's method is tried too, because the pattern is then close to the pattern
+/// of the state of rest.
 const NEWTON_GROUND: f64 = 1e-4;
 
 impl Springs<'_> {

@@ -1,10 +1,11 @@
 //! Checks whether the loads alone, on a structure without initial stress, produce forces that balance them. If they do
 //! not, the structure stands only by a self-stress that the loads do not produce (wedging).
 //!
-//! Every application point gets a unilateral spring along the normal, and every interface a spring along its face. All
-//! springs are unstressed before the loads act; friction is Coulomb's. Robots may exert any force within their limits.
-//! If such springs come to rest, their forces are the certificate ([`spring`]). If no rest is found, a search tries to
-//! rule out every pattern of pressing points and sliding faces ([`branch_and_bound`]).
+//! Every application point gets a spring along the normal, which can only press. Every contact gets a spring along its
+//! face, the line along which the two bodies touch. All springs are unstressed before the loads act; friction is
+//! Coulomb's. Robots may exert any force within their limits. If the springs come to rest, their forces are the
+//! certificate ([`spring`]). If no state of rest is found, a search tries to prove that there is none: it rules out
+//! every pattern of pressing points and sliding faces ([`branch_and_bound`]).
 
 mod band;
 mod branch_and_bound;
@@ -29,26 +30,27 @@ pub use spring::Slide;
 pub enum SelfStressCheck {
     /// No self-stress is needed: the loads build up the balance from rest.
     FromRest,
-    /// A self-stress is needed: no springs come to rest.
+    /// A self-stress is needed: the springs have no state of rest. This is proved for springs that are equally stiff
+    /// along the normal and along the face.
     OnlyWedged(SelfStress),
-    /// Neither of the two was proved.
+    /// Neither of the two other answers was proved.
     Undecided(WedgingUndecided),
 }
 
 /// A self-stress that a program needs in order to stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfStress {
-    /// The motion in which the springs give way: three velocities for each block, the largest of which is 1.
+    /// The motion in which the springs give way: three velocities for each block. The largest absolute velocity is 1.
     pub motion: Vec<f64>,
     /// The contacts that open or slide in this motion.
     pub contacts: Vec<usize>,
-    /// True if the motion closes no contact.
+    /// True if no application point closes in the motion, so that the moving blocks press against nothing.
     pub presses_nothing: bool,
-    /// The least sum of normal forces at `contacts` in any balance, in program units. `None` if the solver finds
-    /// none.
+    /// The least sum of normal forces at `contacts` in any balance, in program units. `None` if the solver finds no
+    /// optimum.
     pub least_normal_sum: Option<f64>,
-    /// The motion that proves `least_normal_sum`. Along it, the forces of `contacts` do a negative work of at most 1
-    /// per unit of normal force. The forces of all other contacts do no negative work.
+    /// The motion that proves `least_normal_sum`. Along this motion, the work against the forces of `contacts` is at
+    /// most 1 per unit of normal force. No force of another contact resists the motion.
     pub bounding_motion: Vec<f64>,
     /// The patterns that the proof ruled out. Together they cover all patterns of pressing and sliding.
     pub ruled_out: Vec<RuledOut>,
@@ -75,7 +77,7 @@ impl std::fmt::Display for WedgingUndecided {
     }
 }
 
-/// The reason why neither answer was proved.
+/// The reason why it was proved neither that a self-stress is needed nor that none is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WedgingUndecided {
     /// Neither a state of rest nor a proof that there is none was found.
@@ -84,8 +86,8 @@ pub enum WedgingUndecided {
     Stiffness,
 }
 
-/// Stiffnesses along a face, relative to that of an application point. They are tried if no rest is found with a
-/// stiffness of 1.
+/// Stiffnesses of the spring along a face, relative to the spring of an application point. They are tried if no state
+/// of rest is found with a stiffness of 1.
 const OTHER_STIFFNESSES: [f64; 4] = [0.3, 3.0, 0.05, 20.0];
 
 /// The largest number of blocks for which the iteration with fixed friction is tried. With more blocks, it takes too

@@ -12,7 +12,7 @@ use super::spring::{Pattern, Rest, Springs};
 /// The largest number of Newton steps at one stiffness of the ground.
 const MAX_STEPS: usize = 60;
 
-/// The number of these steps that are full steps; later steps use a line search.
+/// The number of Newton steps at one stiffness of the ground that are full steps; later steps use a line search.
 const FULL_STEPS: usize = 15;
 
 /// The step lengths that the line search tries, as fractions of the full step.

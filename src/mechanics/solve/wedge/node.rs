@@ -1,9 +1,10 @@
-//! [`Node`]: a node of the search tree. It fixes whether some points press and how some faces slide.
+//! [`Node`]: a node of the search tree of `branch_and_bound`. It decides whether some application points press
+//! and how the faces of some contacts slide.
 
 use super::spring::{Pattern, Slide, Springs};
 
-/// A partial pattern of pressing and sliding that springs at rest cannot have. Points and faces that it does not list
-/// are open.
+/// A pattern of pressing points and sliding faces that springs at rest cannot have. Points and faces that are not
+/// listed may be in any state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuledOut {
     /// The fixed points: (contact, application point 0 or 1, whether it presses).

@@ -2,14 +2,15 @@
 //! quadratic program.
 //!
 //! The unknowns are the displacements of the blocks, the normal force at each application point, the friction force of
-//! each contact and the force components of the robots. The decisions of the node are equalities. For open points and
-//! faces, the springs' law is relaxed to N ≥ 0, N ≥ −g and |T| ≤ μ(N1 + N2), where g is the opening of a point.
+//! each contact and the force components of the robots. For points and faces that the node decides, the springs' law
+//! becomes equalities and inequalities. For open points and faces, the springs' law is relaxed to N ≥ 0, N ≥ −g and |T|
+//! ≤ μ(N1 + N2), where g is the opening of a point.
 
 use super::node::{Branch, Node};
 use super::spring::{Slide, Springs};
 use crate::program::{Column, QuadraticProgram};
 
-/// The weight of ½|unknowns|² in the objective, per unit of load. It makes the optimum unique and finite.
+/// The weight of ½|unknowns|² in the objective, multiplied by Σ |load|. This term makes the optimum unique and finite.
 ///
 /// The linear terms of the objective have coefficients of about 1. If this weight were ten times larger, it would
 /// compete with them.

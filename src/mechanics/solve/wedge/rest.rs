@@ -15,8 +15,8 @@ const ROUNDING_TOL: f64 = 1e-13;
 
 /// The largest violation of the springs' law, as a fraction of the lighter block's load.
 ///
-/// It is a tenth of [`BALANCE_TOL`], so that such violations are small compared with the allowed residual. A
-/// thousandth of this fraction of the contact's forces is allowed in addition.
+/// It is a tenth of [`BALANCE_TOL`], so that such violations are small compared with the allowed residual. In addition,
+/// a violation of 1e-11 of the contact's own forces is allowed.
 const LAW_TOL: f64 = 1e-8;
 
 /// The largest number of steps of iterative refinement. Each step adds about as many correct digits as the LU factors
@@ -192,8 +192,8 @@ impl Springs<'_> {
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {
-                // Faces: within the tolerance, the friction force must be −ρ · slip, limited to ±μ(N₁ + N₂), where N₁ and
-                // N₂ are the normal forces at the points of the face.
+                // Faces: within the tolerance, the friction force must be −ρ·slip, limited to ±μ(N1 + N2), where N1 and
+                // N2 are the normal forces at the points of the face.
                 let limit = c.friction * normal[k].max(0.0);
                 let law = (-self.tangential_stiffness * slip[k]).clamp(-limit, limit);
                 (rest.friction[k] - law).abs() <= allowed[k] * (1.0 + c.friction)

@@ -1,31 +1,33 @@
 //! [`Springs`]: the contacts of a program as springs that are unstressed before the loads act.
 //!
-//! The springs' law: at every application point, N = max(0, −g), where g is the opening. Along every face, T = −ρ s,
-//! where s is the slip; T is limited to ±μ(N1 + N2). If the loads grow in proportion, so do all displacements. The
-//! law of the final state is therefore also the law of each step of loading. The only parameter is ρ, the stiffness
-//! along a face relative to that of an application point.
+//! The springs' law: at every application point, N = max(0, −g), where g is the opening. Along the face of every
+//! contact (the line along which the two bodies touch), T = −ρ s, where s is the slip; T is limited to ±μ(N1 + N2). If
+//! the loads grow in proportion, so do all displacements. The law of the final state is therefore also the law of each
+//! step of loading. The only parameter is ρ, the stiffness along a face relative to that of an application point.
 //!
 //! Invariant: every [`Rest`] obeys the law and balances every block relative to that block's own load.
 
 use super::band::{Band, order};
 use crate::program::{Column, Force, Program, adhesion_columns, columns};
 
-/// Openings and slips below this fraction of their terms are rounding.
+/// Openings and slips below this fraction of the terms of which they are the sum count as rounding.
 const ROUNDING_TOL: f64 = 1e-13;
 
-/// Whether and in which direction one face slides.
+/// Whether and in which direction the face of a contact slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slide {
     /// It does not slide: friction is the force of the spring along the face.
     Sticks,
-    /// It slides along the face's direction; friction is at its limit, against that direction.
+    /// It slides along the tangent (−n_y, n_x), where n is the contact's normal. Friction is at its limit, against the
+    /// tangent.
     Forth,
-    /// It slides against the face's direction; friction is at its limit, along that direction.
+    /// It slides against the tangent. Friction is at its limit, along the tangent.
     Back,
 }
 
 impl Slide {
-    /// Returns the sign of friction at its limit; 0 if the face sticks, because the spring then determines friction.
+    /// Returns the sign of friction along the tangent if friction is at its limit; 0 if the face sticks, because the
+    /// spring then determines friction.
     pub(super) fn friction_sign(self) -> f64 {
         match self {
             Slide::Sticks => 0.0,
@@ -57,7 +59,8 @@ pub(super) struct Rest {
     pub(super) grips: Vec<f64>,
 }
 
-/// One component of a robot's force. Its spring yields around a given force, within the robot's limits.
+/// One component of a robot's force, as a spring. At displacement 0, the spring exerts the force `given`; its force
+/// never exceeds the robot's limit.
 ///
 /// Given forces need not be exact: the spring corrects them until the blocks balance.
 #[derive(Clone, Copy, Debug)]

@@ -53,7 +53,8 @@ pub(in crate::pictures::chart) fn course(chart: &Course, svg: &mut String) -> Dr
     Ok(())
 }
 
-/// Draws the lines. Returns the name of each line, and the vertical position on the page at which the line ends.
+/// Draws the lines. Returns, for each line with values, the vertical position on the page at which the line ends, and
+/// its name.
 fn draw_lines<'c>(
     axes: &mut Axes<'_, '_>,
     chart: &'c Course,
@@ -83,7 +84,8 @@ fn draw_lines<'c>(
     Ok(ends)
 }
 
-/// Draws the name of each line at the right end of the line. Names that would overlap are moved down.
+/// Draws the name of each line to the right of the axes, at the height of the end of the line. Names that would overlap
+/// are moved down.
 fn draw_names(area: &Page<'_>, mut ends: Vec<(i32, &str)>) -> DrawingResult {
     ends.sort();
     let mut free = i32::MIN;

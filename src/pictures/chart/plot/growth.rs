@@ -14,9 +14,9 @@ const HIGHLIGHT_COLOUR: RGBColor = RGBColor(20, 70, 130);
 /// The colour of all other lines.
 const OTHER_COLOUR: RGBColor = RGBColor(140, 140, 146);
 
-/// The horizontal position at which the names begin.
+/// The horizontal position at which the names begin, in units of the drawn picture.
 const NAMES_LEFT: i32 = (LARGE_SIZE.0 - 232) * UNITS_PER_PIXEL;
-/// The least vertical distance between two names.
+/// The least vertical distance between two names, in units of the drawn picture.
 const MIN_NAME_DISTANCE: i32 = 17 * UNITS_PER_PIXEL;
 
 /// A line, and the position of its right end on the page.
@@ -168,7 +168,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     heights
 }
 
-/// Formats a power of ten, with a space before the last three zeros of a large number: `10 000`, `0.1`.
+/// Formats the number at an axis tick, with a space before the last three zeros of a large number: `10 000`, `0.1`.
 fn grouped(value: f64) -> String {
     let text = tick(value);
     match text.strip_suffix("000").filter(|_| !text.contains('.')) {

@@ -3,7 +3,7 @@
 //!
 //! Two convex pieces are disjoint exactly if a side of one of them separates them (the separating axis theorem). A
 //! figure tests hundreds of positions for each label. Therefore a test allocates no memory, and each side stores the
-//! projection of its piece.
+//! projection of its piece onto the normal of the side.
 
 use core::f64::consts::TAU;
 
@@ -173,8 +173,8 @@ impl Ink {
     /// True if the rectangle does not overlap any ink.
     pub fn clear(&self, rect: PageRect) -> bool {
         let (min, max) = (rect.at, rect.at.moved(rect.width, rect.height));
-        // `any_near` only calls this for pieces whose bounding box overlaps the rectangle. No side of the rectangle
-        // separates these pieces from it, so only the sides of the piece must be tested.
+        // `any_near` calls `meets` only for pieces whose bounding box overlaps the rectangle. No side of the rectangle
+        // separates such a piece from the rectangle, so only the sides of the piece must be tested.
         let meets = |piece: &ConvexPiece| {
             let sides = &self.sides[piece.first..piece.end];
             !sides.iter().any(|side| side.separates_box(min, max))

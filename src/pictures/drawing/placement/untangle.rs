@@ -57,8 +57,8 @@ pub(super) fn untangle(
     any_moved
 }
 
-/// Exchanges the positions of labels `i` and `j` if both have leader lines, each fits at the other's position, and the
-/// number of crossings decreases. Leader lines that cross labels count too. Returns true if the positions were exchanged.
+/// Exchanges the positions of labels `i` and `j` if both have leader lines, each label fits at the position of the
+/// other, and the number of crossings decreases. Returns true if the positions were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,
@@ -92,7 +92,7 @@ fn exchange(
 }
 
 /// Returns the number of crossings in which label `i` or `j` takes part. A crossing is a leader line that crosses
-/// another leader line or a label.
+/// another leader line or a label. A crossing between `i` and `j` counts twice.
 fn crossings(placed: &[Option<Placed>], i: usize, j: usize) -> usize {
     let mut count = 0;
     for own in [i, j] {

@@ -25,7 +25,7 @@ impl Theme {
         }
     }
 
-    /// Returns the theme with the colours of the thesis on a white page.
+    /// Returns the theme with the colours of the thesis [Vallat23](crate::doc::references) on a white page.
     pub fn thesis() -> Theme {
         Theme {
             page: Colour::WHITE,

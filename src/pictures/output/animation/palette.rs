@@ -12,7 +12,8 @@ const MAX_COLOURS: usize = 255;
 /// If there are more colours, this number of the most frequent colours is kept exactly. These are usually fills and
 /// lines.
 const EXACT_COLOURS: usize = 96;
-/// All other colours are grouped by the leading bits of each channel. Fewer than this number of bits are compared.
+/// All other colours are grouped by the leading bits of each channel. Fewer than this number of bits per channel are
+/// compared.
 const CHANNEL_BITS: u32 = 7;
 
 /// The colours of an animation.

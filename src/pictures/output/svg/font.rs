@@ -1,7 +1,8 @@
 //! [`embedded`] embeds subsets of the built-in fonts in the SVG. A subset has only the characters of the drawing.
 //!
-//! The subsetter removes the tables for the glyphs of characters and for kerning, because PDF does not need them.
-//! Browsers need these tables, so they are computed again from the positions of the glyphs in this drawing.
+//! The subsetter removes the table that maps characters to glyphs, and the tables for kerning, because PDF does not
+//! need them. Browsers need this information, so it is computed again from the characters of the drawing and from the
+//! positions of their glyphs.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Draws the outlines of an invalid scene with the numbered marks of its problems and gaps.
+//! Draws the outlines of a scene that may be invalid, with the numbered marks of its problems and gaps.
 
 use super::super::option::Options;
 use crate::drawing::hatch::{hatch, lines};
@@ -14,7 +14,8 @@ pub(super) const DISC_RADIUS: f64 = 9.0;
 /// Distance between the hatched lines of an overlap, pixels.
 const HATCH_SPACING: f64 = 5.0;
 
-/// A numbered mark.
+/// A numbered mark of a problem or a gap. `at` is its position in the units of the scene file, and `bodies` are the
+/// bodies that have the problem or the gap.
 pub(super) struct NumberedMark {
     pub at: Point,
     pub bodies: Vec<BodyId>,
@@ -24,7 +25,7 @@ pub(super) struct NumberedMark {
 }
 
 /// Returns the shown part of the scene, in units of the scene file. It contains all blocks and marks, or the ground and
-/// all marks if there are no blocks. Returns `None` if it is empty or a single point.
+/// all marks if there are no blocks. Returns `None` if there is nothing to show, or only a single point.
 pub(super) fn view(sketch: &Sketch, marks: &[NumberedMark]) -> Option<Bounds> {
     let corners = |blocks: bool| {
         let bodies = sketch.bodies.iter();
@@ -39,7 +40,7 @@ pub(super) fn view(sketch: &Sketch, marks: &[NumberedMark]) -> Option<Bounds> {
     (size > 0.0 && size.is_finite()).then(|| around.grown(0.1 * size))
 }
 
-/// Draws the bodies, and hatches the areas in which they overlap.
+/// Draws the bodies and the names of the blocks, and hatches the areas in which bodies overlap.
 pub(super) fn structure(
     sketch: &Sketch,
     marks: &[NumberedMark],
@@ -102,8 +103,8 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
     outline
 }
 
-/// Draws the name of a block at its centre, or below a mark that covers the centre. Returns `None` if there is no
-/// space.
+/// Draws the name of a block at the centre of its bounding box, or below the centre if a mark covers it. Returns `None`
+/// if there is no space for the name.
 fn name(
     body: &SketchedBody,
     marks: &[NumberedMark],
@@ -150,7 +151,7 @@ fn shared(a: &[[PagePoint; 2]], b: &[[PagePoint; 2]]) -> Vec<[PagePoint; 2]> {
     common
 }
 
-/// Draws the marks, each with its number in a disc next to it. The discs do not overlap.
+/// Draws the marks, each with its number in a disc next to it. The discs do not overlap if there is space.
 pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options) -> Group {
     let theme = &options.theme;
     let mut group = Group::with_class("marks");
@@ -189,7 +190,8 @@ fn cross_arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
-/// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`.
+/// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`. Returns `place`
+/// if no such position is found.
 fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const DIRECTIONS: [(f64, f64); 8] = [
         (0.7, -0.7),

@@ -4,10 +4,11 @@ use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
 use crate::figure::view;
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
 
-/// Drawn length of the largest force of a polygon at the loaded point, as a fraction of the size of the structure.
+/// Length at which the largest force is drawn if the polygon is at the loaded point, as a fraction of the size of the
+/// structure.
 const MAX_POLYGON_SHARE: f64 = 0.42;
-/// A polygon that is smaller than this fraction of its largest force is drawn apart from its point, at a separate
-/// scale.
+/// A polygon that is smaller than this fraction of its largest force is drawn apart from the loaded point, at a
+/// separate scale.
 const SMALL_POLYGON_SHARE: f64 = 0.25;
 /// Size of a polygon that is drawn apart, as a fraction of the size of the structure.
 const SEPARATE_POLYGON_SHARE: f64 = 0.4;
@@ -17,11 +18,13 @@ const GAP_SHARE: f64 = 0.1;
 const CUT_OFF_RATIO: f64 = 1.7;
 /// The largest number of small pictures.
 const MAX_SMALL_PICTURES: usize = 4;
-/// Size of a small picture relative to the structure: next to it, and below it.
+/// Scale of a small picture relative to the figure: next to the structure, and below it. Below a wide structure, the
+/// scale may be up to 1.4 times as large.
 const SMALL_PICTURE_SCALES: (f64, f64) = (0.36, 0.21);
-/// A structure wider than this multiple of its height has its small pictures below it.
+/// If structure, ground and polygon together are wider than this multiple of their height, the small pictures are below
+/// them.
 const WIDE_RATIO: f64 = 1.5;
-/// Structures with more blocks have no small pictures.
+/// If a frame has more blocks than this, the figure has no small pictures.
 const MAX_BLOCKS_WITH_PICTURES: usize = 300;
 /// The number of corners of the circle at which unbounded sets are cut off.
 const CIRCLE_CORNERS: usize = 48;
@@ -43,10 +46,10 @@ pub(super) struct Plan<'a> {
     pub pictures: Vec<SmallPicture>,
 }
 
-/// A drawn edge.
+/// A drawn edge of the polygon. Its ends are in metres, and `outward` is its outward unit normal.
 pub(super) struct DrawnEdge {
     pub ends: [Point; 2],
-    /// For each end, whether the edge is unbounded in this direction.
+    /// For each end, whether the true edge continues beyond this end without limit.
     pub is_open: [bool; 2],
     pub outward: Vector,
     /// The number of the edge in the figure, from 1; `None` if the edge has no small picture.
@@ -64,7 +67,8 @@ pub(super) struct SmallPicture {
     pub mechanism: Vec<Motion>,
     /// The direction in which the loaded point begins to move.
     pub outward: Vector,
-    /// The shown part of the scene, and the corner and the scale at which it is drawn.
+    /// The shown part of the scene, metres. It is drawn with its lower left corner at `corner` (metres), `scale` times
+    /// as large as in the figure.
     pub view: Bounds,
     pub corner: Point,
     pub scale: f64,
@@ -86,7 +90,7 @@ impl SmallPicture {
 }
 
 impl SmallPicture {
-    /// Returns the box of the small picture and of its number to the left, in metres.
+    /// Returns a box around the small picture and the number to its left, in metres.
     fn bounds_with_number(&self) -> Bounds {
         let own = self.bounds();
         let number = NUMBER_SHARE * own.diagonal();
@@ -258,15 +262,15 @@ fn bounds_of(ring: &[Vector]) -> Bounds {
     })
 }
 
-/// Returns every frame for which the carried forces were computed, together with these forces. All frames are drawn at
-/// the same scale.
+/// Returns every frame for which the carried forces were computed, together with these forces. The scale of the
+/// polygons is the same for all these frames.
 fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
     let frames = analysis.frames.iter();
     frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))
 }
 
-/// Returns the largest force at a vertex of the polygons of all frames, N, but at least 0.001 of the weight of the
-/// heaviest frame.
+/// Returns the largest magnitude of a force at a vertex of the polygons of all frames, N. It is at least 0.001 times
+/// the weight of the heaviest frame.
 fn largest(analysis: &Analysis) -> f64 {
     let each = capacities(analysis).map(|(frame, capacity)| {
         let forces = capacity.vertices.iter().map(|v| v.force.norm());
@@ -280,7 +284,7 @@ fn cut(analysis: &Analysis) -> f64 {
     CUT_OFF_RATIO * largest(analysis)
 }
 
-/// Returns the largest magnitude of a drawn force, N: `cut` if a set is unbounded.
+/// Returns the largest magnitude of a drawn force in all frames, N: `cut` if the set of any frame is unbounded.
 fn farthest(analysis: &Analysis, cut: f64) -> f64 {
     let is_open = capacities(analysis).any(|(_, capacity)| !capacity.rays.is_empty());
     match is_open {
@@ -335,8 +339,8 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
 /// Before they are cut off, unbounded sets extend to this multiple of the radius of the circle.
 const UNBOUNDED_RATIO: f64 = 1e3;
 
-/// Returns the indices of the polygon's edges that get a small picture: the longest edges, in ascending order. Unbounded
-/// edges count as the longest. The list is empty if the analysis has several frames or many blocks.
+/// Returns the indices of the polygon's edges that get a small picture: the longest edges, in ascending order.
+/// Unbounded edges count as the longest. The list is empty if the analysis has several frames or many blocks.
 fn edges_with_pictures(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
     let frames = analysis.scene.frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);

@@ -4,14 +4,15 @@ use super::rigid::Displacement;
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
 use crate::scene::{BlockId, Frame, Scene};
 
-/// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. The eye
-/// already sees an overlap of 1 %.
+/// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. An overlap of 1 % is already
+/// visible.
 const MAX_OVERLAP: f64 = 0.004;
 
-/// The blocks of an overlapping pair; `None` for the ground.
+/// The two bodies of a pair that overlaps; `None` is the ground.
 pub(super) type Pair = [Option<BlockId>; 2];
 
-/// The placed blocks and the ground of a frame.
+/// The placed blocks and the ground of a frame, without blocks whose outlines are only schematic. Empty if the scene
+/// lists its contacts.
 pub(super) struct Clearance<'a> {
     bodies: Vec<(Option<BlockId>, &'a Polygon)>,
 }
@@ -33,8 +34,8 @@ impl<'a> Clearance<'a> {
         }
     }
 
-    /// Returns the pairs of bodies that overlap after the displacement. `displaced` is indexed by block; blocks beyond
-    /// the end of the list do not move.
+    /// Returns the pairs of bodies that overlap by more than [`MAX_OVERLAP`] after the displacement. `displaced` is
+    /// indexed by block; blocks beyond the end of the list do not move.
     pub fn overlapping(&self, displaced: &[Option<Displacement>]) -> Vec<Pair> {
         let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
         let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();

@@ -15,38 +15,39 @@ use crate::analysis::{Analysis, Motion};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// Joints are not closed if there are more bodies, because this would take longer than the drawing.
+/// Joints are not closed if there are more bodies than this, because closing them would take longer than the drawing.
 const MAX_BODIES: usize = 40;
 /// Largest number of steps of Newton's method.
 const MAX_STEPS: usize = 12;
-/// Tolerance of closed joints, as a fraction of the length of the frame.
+/// Largest gap of a joint that counts as closed, as a fraction of the length scale of the frame.
 const CLOSURE_TOL: f64 = 1e-7;
-/// Largest correction of a body's position, as a fraction of the largest displacement. If a correction is larger, the
-/// joints cannot all be closed, and the bodies keep the positions without correction.
+/// Largest accepted correction of a body's position, as a fraction of the largest displacement. With a larger
+/// correction, the joints cannot be closed sensibly, and the bodies keep the positions without correction.
 const MAX_CORRECTION: f64 = 1.0;
-/// Regularization for redundant equations, relative to the largest diagonal entry.
+/// Number that is added to each diagonal entry of the matrix, relative to the largest of these entries. Redundant
+/// equations would make the matrix singular.
 const REGULARIZATION: f64 = 1e-10;
 
 /// A condition of a closed joint.
 #[derive(Clone, Copy, Debug)]
 enum Condition {
-    /// A point is the same on both bodies: two equations.
+    /// The two bodies keep this point in common: two equations.
     Hinge(Point),
-    /// A point of the first body stays on a line of the second body. The line passes through this point; the vector is
-    /// its normal.
+    /// A point of the first body stays on a line of the second body. At the beginning, the line passes through this
+    /// point, and the vector is the normal of the line.
     OnLine(Point, Vector),
     /// The two bodies turn by the same angle.
     Parallel,
 }
 
-/// A condition between two bodies. A body at rest is `None`.
+/// A condition between two bodies. Each body is an index into the members of the linkage; `None` is a body at rest.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     bodies: [Option<usize>; 2],
     condition: Condition,
 }
 
-/// One rigid body of several blocks.
+/// A rigid body of one or more blocks.
 #[derive(Clone, Debug)]
 struct Member {
     blocks: Vec<BlockId>,
@@ -60,11 +61,12 @@ struct Member {
 pub(super) struct Linkage {
     members: Vec<Member>,
     links: Vec<Link>,
-    /// Factor between rotations in radians and translations in metres.
+    /// The length in metres by which angles are multiplied, so that they have the unit of translations.
     length: f64,
 }
 
-/// The position of a body: its translation in metres and its rotation in radians.
+/// The displacement of a body from its original position: the translation of its centre in metres, and its rotation in
+/// radians.
 #[derive(Clone, Copy, Debug)]
 struct Pose {
     way: Vector,
@@ -72,7 +74,8 @@ struct Pose {
 }
 
 impl Linkage {
-    /// Creates the linkage of a group of moving blocks. It contains those of `joints` that belong to this group.
+    /// Creates the linkage of the moving blocks in `group`, with the conditions of those of `joints` that keep a block
+    /// of the group in contact.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
         let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
         let within = |body: &Vec<Motion>| {
@@ -260,7 +263,7 @@ impl Linkage {
     }
 }
 
-/// The linearized conditions of the poses.
+/// The Jacobian matrix of all joint conditions and their residuals in metres.
 struct System {
     rows: DMatrix<f64>,
     gaps: DVector<f64>,
@@ -290,8 +293,8 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
 }
 
 /// Returns the conditions that keep a joint closed. The flag of a condition is true if its two bodies have to be
-/// exchanged: the line of [`Condition::OnLine`] then belongs to the first body of the contact. A joint that opens
-/// while it slides has no conditions.
+/// exchanged: the line of [`Condition::OnLine`] then belongs to the first body of the contact. A joint whose bodies
+/// separate, or that opens while it slides, has no conditions.
 fn conditions(
     scene: &Scene,
     bodies: [BodyId; 2],

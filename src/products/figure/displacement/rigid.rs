@@ -22,7 +22,8 @@ impl Displacement {
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         // The rotation about the instantaneous centre equals a rotation about the centroid, followed by the translation
         // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad, the first
-        // terms of the Taylor series are used, with a relative error below 2e-13. They also hold for a pure translation.
+        // terms of the Taylor series are used, with a relative error below 2e-13. They also hold for a pure
+        // translation.
         let (along, aside) = if angle.abs() < 1e-6 {
             (1.0, 0.5 * angle)
         } else {
@@ -64,7 +65,7 @@ impl Displacement {
         self.centre + d * self.cos - quarter_turn(d) * self.sin
     }
 
-    /// Returns a direction that is fixed to the block after the rotation of the block.
+    /// Rotates a vector by the rotation of the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin
     }

@@ -25,9 +25,9 @@ pub(super) fn moved_inside(polygon: &Polygon, axis: &mut [Point], widths: &[f64]
     }
 }
 
-/// Returns a Bézier curve from `a` to `b`, as a list of points. `along_a` and `along_b` are its directions there; a
-/// direction that points away from the chord is ignored. The curve is the most curved of a few that do not leave
-/// `polygon`, or straight.
+/// Returns a Bézier curve from `a` to `b`, as a list of points. `along_a` and `along_b` are its directions at these
+/// points; a direction that points away from the other end is ignored. Of a few curves, the most curved one that does
+/// not leave `polygon` is chosen. If all leave it, the curve is straight.
 pub(super) fn curve(
     polygon: &Polygon,
     [(a, along_a), (b, along_b)]: [(Point, Vector); 2],

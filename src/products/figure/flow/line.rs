@@ -110,8 +110,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns the intersection of the line through `a` and the line through `b`. Returns `b` if they are the same line,
-/// and `None` if they are parallel.
+/// Returns the intersection of the line through `a` in the direction `along_a` and the line through `b` in the
+/// direction `along_b`. Returns `b` if they are the same line, and `None` if they are two parallel lines.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);
     if sine.abs() <= PARALLEL_TOL * along_a.norm() * along_b.norm() {

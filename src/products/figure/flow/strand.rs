@@ -4,7 +4,7 @@
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
 //! action meet in the block, [`line`](super::line) computes the strands. Otherwise every force that enters is
 //! divided among the forces that leave, in proportion to their magnitudes. The widths of all strands of a force add
-//! up to its magnitude. No strand leaves its block.
+//! up to its magnitude. The axis of a strand stays in its block if possible.
 
 use super::curve::{curve, moved_inside};
 use super::line::{self, LineOfAction, TruePath};
@@ -13,7 +13,7 @@ use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
 use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
-/// If the component of a force along gravity is below this fraction of the force, the component across gravity
+/// If the component of a force along gravity is at most this fraction of the force, the component across gravity
 /// decides whether the force enters or leaves the block.
 const ALONG_GRAVITY_TOL: f64 = 1e-6;
 /// Missing forces below this fraction of the largest missing force have no strands, because the strands of a small
@@ -21,8 +21,8 @@ const ALONG_GRAVITY_TOL: f64 = 1e-6;
 const LEAST_MISSING: f64 = 0.1;
 /// Points whose distance is at most this fraction of the block's size coincide.
 const SAME_PLACE: f64 = 1e-6;
-/// Distance of the point that decides on which side of a missing force its block lies, as a fraction of the width of
-/// its strands.
+/// Distance from a missing force at which a point is tested to find the side on which the block lies. It is a fraction
+/// of the total width of the strands of this force.
 const SIDE_SHARE: f64 = 0.5;
 
 /// The origin of a force on a block.
@@ -178,7 +178,8 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
 }
 
 /// Returns the strands of a block along true lines of action. Apart from its weight and its loads, exactly two forces
-/// of contacts or robots must act on the block. Otherwise, or if no such path exists, returns `None`.
+/// must act on the block, both from contacts or robots, and no load may have a torque. Otherwise, or if no path along
+/// true lines exists, returns `None`.
 fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec<Strand>> {
     let presses = |f: &&ForceOnBlock| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
     let given = |f: &&ForceOnBlock| matches!(f.origin, Origin::Load | Origin::Weight);
@@ -282,7 +283,7 @@ struct ForceDistribution<'a> {
 
 impl ForceDistribution<'_> {
     /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
-    /// is positive, and leaves the block otherwise.
+    /// is positive, and leaves the block otherwise. For a force across gravity, its component across gravity decides.
     fn enters(&self, acting: &ForceOnBlock) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ALONG_GRAVITY_TOL * acting.force.norm() {
@@ -315,8 +316,8 @@ impl ForceDistribution<'_> {
         strands
     }
 
-    /// Returns the position of a strand at the point where the force `acting` acts, and its direction there, which is that
-    /// of `force`. The strand connects this force with `partner`. The strands to all `partners` lie next to each
+    /// Returns the position of a strand at the point where the force `acting` acts, and its direction there, which is
+    /// that of `force`. The strand connects this force with `partner`. The strands to all `partners` lie next to each
     /// other in the order of their positions across the force. `sum` is the sum of the magnitudes of all `partners`, N.
     fn end(
         &self,

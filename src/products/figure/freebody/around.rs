@@ -50,14 +50,14 @@ pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -
     view
 }
 
-/// The forces of an interface on the block at one of its ends.
+/// The forces of an interface on the block at one of the two application points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// The application point, metres.
     pub at: Point,
     /// Normal force into the block, N.
     pub normal: f64,
-    /// Friction force on the block to the left of ŝ, N.
+    /// Friction force on the block, N; positive to the left of the unit normal ŝ, which points into the block.
     pub friction: f64,
 }
 
@@ -69,8 +69,8 @@ impl Corner {
     }
 }
 
-/// Returns the forces on the block at the two ends of an interface. The end to the left of the unit normal ŝ comes
-/// first, as in figures 1 and 2 of the thesis.
+/// Returns the forces on the block at the two ends of an interface. The end to the left of the unit normal ŝ, which
+/// points into the block, comes first, as in figures 1 and 2 of the thesis.
 ///
 /// Only the sum of the two friction forces is known, because both act along the interface. The sum is divided in
 /// proportion to the normal forces, so that the forces of both ends together act at the resultant of the interface. If
@@ -196,7 +196,7 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     pads
 }
 
-/// True if a point lies outside the view, and the body also extends beyond the view on the same side.
+/// True if a point lies outside the view, and the bounding box `body` also extends beyond the view on the same side.
 pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
     at.x < view.min.x && body.min.x <= view.min.x
         || at.x > view.max.x && body.max.x >= view.max.x
@@ -204,8 +204,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// True if the diagram shows coordinates, which it does for a block with exactly one interface that no robot holds. For
-/// other blocks, the picture would not be readable.
+/// True if the diagram shows coordinates: the block has exactly one interface, and no robot holds the block. Otherwise
+/// the picture would not be readable.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

@@ -20,7 +20,7 @@ pub(super) struct Arrow {
     pub at: Point,
     /// The vector from the tail to the tip, pixels. For a torque arrow, the length of this vector is the radius.
     pub along: (f64, f64),
-    /// The angle of a torque arrow, radians; `None` for a straight arrow.
+    /// The angle through which a torque arrow turns, radians, anticlockwise positive; `None` for a straight arrow.
     pub turn: Option<f64>,
     /// The width of the shaft, pixels.
     pub width: f64,

@@ -25,7 +25,7 @@ const UNIT_NORMAL_WIDTH: f64 = 1.2;
 const FRICTION_REACH: f64 = 0.30;
 /// Least length of an arrow that shows a force, pixels. A shorter arrow would be a speck on the outline of the block.
 const LEAST_LENGTH: f64 = 14.0;
-/// The same for a missing force, whose arrow is wider.
+/// Least length of the arrow of a missing force, pixels. It is longer because this arrow is wider.
 const LEAST_MISSING_LENGTH: f64 = 20.0;
 /// Forces of interfaces and robots below this fraction of the largest force may be errors of the solver, and have no
 /// arrow.
@@ -173,8 +173,8 @@ impl Diagram<'_> {
     }
 
     /// Returns the length of the arrow of a force of `amount` newtons, pixels, at least [`least_length`]. The arrow of
-    /// the force `largest` has the full length. A very small force has no arrow if it may be an error of the solver,
-    /// unlike a weight, a load or a missing force.
+    /// the force `largest` has the full length. The result is 0 for a very small force of an interface or a robot,
+    /// because it may be an error of the solver.
     fn length(&self, force: &Force, amount: f64, largest: f64) -> f64 {
         let given = force.is_missing() || force.is_load() || force.what == "Weight";
         if !given && amount <= NOISE * largest {

@@ -22,9 +22,9 @@ impl Sheet<'_> {
         Table::new(&self.forces, body.centroid, size, self.analysis.scene.units)
     }
 
-    /// Draws the verdict, the scale, the notes and the list of forces from the height `top` (pixels) downwards.
-    /// `nameless` is the number of names for which the picture has no space. Also returns the y coordinate below the
-    /// last line, in pixels.
+    /// Draws the verdict, the scale, the notes and the list of forces, downwards from the y coordinate `top` (pixels).
+    /// Draws nothing if the options leave out keys. `nameless` is the number of names for which the picture has no
+    /// space. Also returns the y coordinate below the last line, in pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let mut group = Group::with_class("values");
@@ -146,8 +146,8 @@ impl Sheet<'_> {
         notes
     }
 
-    /// Returns a note with the forces below which arrows are longer than their forces would make them. Returns `None` if
-    /// there is no such arrow. `largest` is the force of the longest arrow, N, and `edge` the unit length in metres.
+    /// Returns a note on small forces whose arrows are longer than in proportion to their magnitudes. Returns `None`
+    /// if there is no such arrow. `largest` is the force of the longest arrow, N, and `edge` the unit length in metres.
     fn enlarged(&self, largest: f64, edge: f64) -> Option<String> {
         let units = self.analysis.scene.units;
         let longest = longest(self.analysis, self.block, &self.camera);

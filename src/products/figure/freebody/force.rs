@@ -13,7 +13,8 @@ use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause};
 /// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
 /// select another level of detail.
 const MAX_INTERFACES_BY_CORNER: usize = 3;
-/// Forces below this fraction of the largest are rounding errors of the solver.
+/// Friction forces up to this fraction of the larger of the block's weight and its largest normal force count as
+/// rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 
 /// A force on the block.
@@ -29,7 +30,7 @@ pub(super) struct Force {
     pub at: Point,
     /// The force, N.
     pub force: Vector,
-    /// The torque, N·m.
+    /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
     /// The colour of the arrow.
     pub colour: Colour,
@@ -70,9 +71,11 @@ impl Force {
 /// The level of detail of the forces of interfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// Normal and friction force at each corner, each with a separate name. Used for a block with one interface.
+    /// Normal and friction force at each end of an interface, each with a separate name. Used for a block with one
+    /// interface.
     Parts,
-    /// One force at each corner. Used for a block with few interfaces.
+    /// One force at each end of an interface. Used for a block with few interfaces, or if the options request all
+    /// corners.
     Corners,
     /// One force for each interface.
     Resultants,
@@ -189,8 +192,8 @@ impl ForceSource<'_> {
     }
 
     /// Returns the normal force and the friction force at each end of an interface. A friction force is named by its
-    /// direction: `fl` to the left, `fr` to the right. With [`Corners::All`] both names are listed, and the force that
-    /// does not act is 0.
+    /// direction seen along the unit normal into the block: `fl` to the left, `fr` to the right. With [`Corners::All`]
+    /// both names are listed, and the force that does not act is 0.
     fn normal_and_friction(&self, contact: &Contact) -> Vec<Force> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
@@ -318,8 +321,8 @@ impl ForceSource<'_> {
         numbered.collect()
     }
 
-    /// Returns the missing force or torque of a failure, still without its number. Returns `None` if it does not act on
-    /// the block.
+    /// Returns the missing force or torque of a failure; its symbol has no number yet. Returns `None` if the force does
+    /// not act on the block.
     fn missing_force(&self, failure: &Failure) -> Option<Force> {
         let own = BodyId::Block(self.block);
         let (force, torque) = failure.on(own)?;

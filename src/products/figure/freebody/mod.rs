@@ -6,8 +6,8 @@
 //! each end of the interface, named as in figure 1 of the thesis ([Vallat23](crate::doc::references) §2.0.3). A block
 //! with two or three interfaces has one force at each end of an interface, numbered as in figure 2 of the thesis. A
 //! block with more interfaces has one force for each interface. With [`Corners::All`](super::option::Corners) the
-//! arrows name every unknown force instead, even if it is zero. All arrows of the same kind then have the same
-//! length.
+//! arrows name every unknown force instead, even if it is zero. All arrows of normal forces then have the same length,
+//! and so on for each kind of force.
 //!
 //! Bodies that touch the block are outlined, and ground is hatched.
 
@@ -101,7 +101,7 @@ struct Sheet<'a> {
     width: f64,
     /// The part of the page for arrows and their names.
     picture: PageRect,
-    /// The lines above the drawing, with face and font size.
+    /// The lines above the picture, each with its font and its font size in pixels.
     heading: Vec<(String, Face, f64)>,
     forces: Vec<Force>,
     arrows: Vec<Arrow>,

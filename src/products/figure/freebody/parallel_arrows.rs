@@ -7,15 +7,15 @@ use super::arrow::{Arrow, SHAFT_WIDTH};
 use crate::drawing::Camera;
 use crate::drawing::arrow::HEAD_WIDTH;
 
-/// Arrows whose directions differ by less than this, rad, count as parallel.
+/// Arrows count as parallel if the angle between their axes is less than this, rad. Opposite arrows are parallel too.
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Arrows that overlap along their line by less than this, pixels, are not moved.
 const END_TO_END: f64 = 2.0;
 /// Distance of two axes, pixels: the width of a head and a small gap.
 const AXIS_DISTANCE: f64 = (HEAD_WIDTH + 0.8) * SHAFT_WIDTH;
 
-/// Moves each arrow that overlaps an earlier arrow sideways, by one or two arrow widths to its left or right. Without
-/// enough space, the arrow is not moved.
+/// Moves each straight arrow that overlaps an earlier arrow sideways, by one or two times [`AXIS_DISTANCE`] to its left
+/// or right. If it would overlap an arrow at each of these positions, it is not moved.
 pub(super) fn separate_arrows(arrows: &mut [Arrow], camera: &Camera) {
     for i in 1..arrows.len() {
         let (before, rest) = arrows.split_at_mut(i);

@@ -16,9 +16,9 @@ use crate::scene::format::UnitsEntry;
 const COLUMN_GAP: f64 = 14.0;
 /// Height of a row, as a multiple of the font size.
 const ROW_HEIGHT: f64 = 1.6;
-/// Largest number of lines of the origin of a force in the last column.
+/// Largest number of text lines in the last column of a row, which states the origin of a force.
 const MAX_NAME_LINES: usize = 4;
-/// Distance of these lines, as a multiple of the font size.
+/// Distance of two text lines in the last column of a row, as a multiple of the font size.
 const LINE_PITCH: f64 = 1.15;
 /// Significant digits of the largest amount of a column.
 const DIGITS: i32 = 4;
@@ -42,7 +42,7 @@ struct Row {
 /// The unit of a column, and the number of decimals.
 #[derive(Clone)]
 struct Column {
-    /// The size of the unit in the SI unit, such as 1000 for kN.
+    /// The unit as a multiple of the SI unit, such as 1000 for kN.
     size: f64,
     decimals: usize,
     /// The symbol of the unit, such as `kN`.
@@ -83,8 +83,8 @@ impl Column {
 }
 
 impl Table {
-    /// Creates the table of these forces. Moments are about `centroid`. `size` is the size of the block in metres;
-    /// moments that are tiny compared with it count as 0.
+    /// Creates the table of these forces. Moments are about `centroid`. `size` is the size of the block in metres. A
+    /// moment that is tiny compared with the largest force times this size counts as 0.
     pub(super) fn new(forces: &[Force], centroid: Point, size: f64, units: UnitsEntry) -> Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {

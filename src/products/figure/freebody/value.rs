@@ -10,7 +10,7 @@ use crate::scene::BlockId;
 /// Space between values in a row, pixels.
 const VALUE_GAP: f64 = 26.0;
 
-/// A part of a line: a symbol, text or a gap.
+/// A part of a row: a symbol, a text or a gap.
 #[derive(Clone)]
 pub(super) enum Piece {
     Symbol(Symbol),

@@ -32,7 +32,7 @@ pub(crate) struct Callout {
     pub colour: Colour,
 }
 
-/// Returns the font size of labels with magnitudes, in pixels. Small unit lengths have smaller labels.
+/// Returns the font size of labels with magnitudes, in pixels. It is smaller if the unit length is short on the page.
 fn amount_size(pen: &Pen<'_>) -> f64 {
     (0.2 * pen.unit())
         .max(MIN_SIZE)
@@ -57,8 +57,9 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     }
 }
 
-/// Returns the labels with the magnitudes of arrows. `few` is true if the frame has few blocks. Otherwise only the
-/// largest loads and missing forces have labels.
+/// Returns the labels with the magnitudes of arrows: of the largest contact force, the largest force of a robot, loads
+/// and missing forces, and of all other forces if the options request it. `few` is true if the frame has few blocks.
+/// Otherwise only the largest of these forces have labels.
 pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let marks = &pen.context.marks[pen.number];
     let options = pen.context.options;
@@ -100,7 +101,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let turns = largest(turns.collect(), |turn| turn.torque.abs());
     let turns = turns.into_iter().map(|turn| torque_label(pen, turn));
     let mut labels: Vec<Label> = straight.chain(turns).collect();
-    // The amounts of a row are placed from one end to the other.
+    // The amounts of loads in a row come first, and keep their order.
     labels.sort_by_key(|label| label.request.with_leader.is_empty());
     labels
 }
@@ -118,8 +119,8 @@ fn largest<T>(items: Vec<&T>, size: impl Fn(&T) -> f64) -> Vec<&T> {
     order.into_iter().map(|k| items[k]).collect()
 }
 
-/// Compares two arrows by the importance of their amounts, so that the least important amounts are left out if there is
-/// no space: first missing forces, and then the others, the largest first.
+/// Compares two arrows by the importance of their amounts: missing forces come first, then all other forces, each from
+/// the largest to the smallest. If there is no space, the least important amounts are left out.
 fn by_importance(a: &ForceArrow, b: &ForceArrow) -> Ordering {
     let missing = b.kind.is_failure().cmp(&a.kind.is_failure());
     missing.then(b.force.norm().total_cmp(&a.force.norm()))
@@ -210,7 +211,8 @@ fn is_written(pen: &Pen<'_>, arrow: &ForceArrow, few: bool, least: f64) -> bool 
 }
 
 /// Returns the arrow of the largest force between two bodies and the arrow of the largest force of a robot. The list is
-/// empty if arrows are too small to read or if the options exclude labels.
+/// empty if arrows are too small to read, if the frame has very many blocks, if the options exclude labels, or in the
+/// style of the thesis.
 fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
     let context = pen.context;
     let small = context.arrows_too_small(pen.camera.length(1.0));
@@ -248,8 +250,8 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
     amounts.get(MAX_AMOUNTS).copied().unwrap_or(0.0)
 }
 
-/// Returns the preferred centres of a label on the page: on both sides of the arrow's shaft, and beyond its tip. The
-/// width and height of the label are in pixels.
+/// Returns the preferred centres of a label on the page: on both sides of the arrow's shaft, and beyond its tip.
+/// `width` is the width of the shaft, and `wide` and `high` are the width and height of the label, all in pixels.
 fn centres_along(
     from: PagePoint,
     along: (f64, f64),

@@ -29,10 +29,10 @@ pub(super) struct Label {
     pub request: LabelRequest,
     /// The colour of the arrow to which the label belongs; `None` for plain text.
     pub colour: Option<Colour>,
-    /// Whether the text below the frame mentions the label. Such a label is always drawn.
+    /// Whether the text below the frame mentions this name or amount. Such a label is always drawn.
     pub named: bool,
-    /// The block that the label names; for the name of a robot, the block that it holds. The label must not lie
-    /// inside another block, because it would seem to name that block.
+    /// The block that the label names; for the name of a robot, the block that the robot holds; `None` for an amount.
+    /// The label must not lie inside another block, because it would seem to name that block.
     pub of: Option<BlockId>,
 }
 

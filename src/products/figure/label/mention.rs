@@ -1,8 +1,9 @@
 //! [`names`]: tests whether a text mentions the name of a block, even if the name is a number.
 //!
-//! Texts contain many numbers that are quantities or counts: `3 N`, `32 joints`, `at most 2`. A name that is a number is
-//! therefore found only between words that stand next to names. If such a word is missing from the lists, a named block
-//! has no label; the other error, a label on a block that the text does not mention, would mislead the reader.
+//! Texts contain many numbers that are quantities or counts: `3 N`, `32 joints`, `at most 2`. A name that is a number
+//! is therefore found only between words that stand next to names. If such a word is missing from the lists, a block
+//! that the text mentions has no label. The opposite error would be worse: a label on a block that the text does not
+//! mention would mislead the reader.
 
 use crate::drawing::text::NO_BREAK;
 

@@ -1,9 +1,9 @@
 //! [`labels`]: draws names of blocks and robots, and magnitudes of forces, at positions that avoid other shapes.
 //!
 //! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
-//! positions. A name is inside its block if there is space, otherwise next to it with a leader line. Labels that
-//! occur in the text below the verdict are placed first; if they have no free position, they are drawn over other
-//! shapes. Any other label without a free position is left out, and a note counts these labels.
+//! positions. A name is inside its block if there is space, otherwise next to it, usually with a leader line. If a
+//! label that the text below the verdict mentions has no free position, it is drawn over other shapes. Any other label
+//! without a free position is left out, and a note counts these labels.
 
 mod amount;
 mod lettering;
@@ -31,7 +31,7 @@ use crate::drawing::{Group, PagePoint, PageRect};
 use crate::geometry::Bounds;
 use crate::scene::BlockId;
 
-/// In frames with more blocks, only blocks that the text mentions have labels.
+/// In frames with more blocks than this, only blocks that the text mentions are labelled with their names.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;
 /// If a unit length is at least this long, pixels, names may be at any distance from their blocks.
 const ROOMY_UNIT_LENGTH: f64 = 26.0;
@@ -44,7 +44,8 @@ const MAX_DISTANCE: f64 = 8.0;
 /// the distance to the centroid of the named block.
 const AMBIGUITY_RATIO: f64 = 1.5;
 
-/// A lost amount, or a lost name that the text mentions, counts as much as this number of other lost names.
+/// In the count of badly placed labels, a left-out amount, or a name without a free position that the text mentions,
+/// counts as much as this number of other names.
 const LOST_AMOUNT: usize = 100;
 
 /// Two centres of a label are the same if their distance is below this, pixels.
@@ -54,8 +55,8 @@ const SAME_PLACE: f64 = 1e-6;
 pub(crate) const CLASS: &str = "labels";
 
 /// Draws the labels of a frame, with additional texts (`callouts`), which are placed before all other labels. `ink`
-/// returns the shapes that the labels must not cover; it is called only if there are labels. `view` is the shown part of
-/// the scene, metres.
+/// returns the shapes that the labels must not cover; it is called only if there are labels. `view` is the shown part
+/// of the scene, metres.
 pub(crate) fn labels(
     pen: &Pen<'_>,
     view: Bounds,
@@ -74,7 +75,8 @@ pub(crate) fn labels(
     let rects: Vec<PageRect> = places.iter().flatten().map(|placed| placed.rect).collect();
     for (label, placed) in labels.iter().zip(places) {
         let placed = placed.map(|placed| with_needed_leader(pen, label, placed));
-        // A leader across another label would make both hard to read. Amounts are more important than that.
+        // A leader across another label makes both labels hard to read, so leave the name out. Amounts, and names that
+        // the text mentions, are drawn nevertheless.
         let needed = label.named || label.class == "amount";
         let placed = placed.filter(|placed| needed || !crosses_label(placed, &rects));
         let badness = match placed {

@@ -13,11 +13,12 @@ const POSITIONS_PER_AXIS: usize = 13;
 /// Distances from a block's centroid are rounded to this fraction of the block's diagonal, so that rounding errors do
 /// not move a name.
 const DISTANCE_STEP: f64 = 1e-3;
-/// Distance of a broken name from the sides of its block, pixels.
+/// Least distance from the sides of the block for a name that is broken into several lines, pixels.
 const INSET: f64 = 4.0;
-/// Length of a block's edge for the font size of its name, as a fraction of the square root of its area.
+/// Typical length of a block's edge, as a fraction of the square root of its area. The font size of the name depends on
+/// this length.
 const EDGE_SHARE: f64 = 0.6;
-/// If the edge of a block is longer than this, in unit lengths, its name has a larger font size.
+/// If the typical edge of a block is longer than this, in unit lengths, its name has a larger font size.
 const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 
 /// Returns the font size of a block's name, in pixels. `edge` is the length of an edge of the block in pixels.

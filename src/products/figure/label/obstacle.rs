@@ -47,7 +47,7 @@ fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
     let centre = pen.camera.place(turn.at);
     for pair in points.windows(2) {
         let width = 3.0 * pen.camera.length(turn.width);
-        // Skip lines that begin at the centre of the circle.
+        // A line that begins at the centre of the circle is no part of the arrow.
         if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
             ink.line(pair[0], pair[1], width);
         }

@@ -1,6 +1,6 @@
 //! [`RowPlaces`]: positions for the amounts of loads that act next to each other, such as the loads on a beam. The
-//! amounts stand at the tails of the arrows, in the order of the loads. If they are too wide for one line, every second
-//! amount stands in a second line, with a leader.
+//! amounts stand at the tails of the arrows, in the order of the loads. If they are too wide for one line, some of them
+//! stand in further lines, with a leader.
 
 use super::super::arrow::{ArrowKind, ForceArrow};
 use super::super::pen::Pen;
@@ -12,7 +12,7 @@ const MIN_LOADS: usize = 3;
 const TAIL_GAP: f64 = 3.0;
 /// Gap between two amounts in a line, pixels. With more space, the amounts stand beside their arrows.
 const AMOUNT_GAP: f64 = 6.0;
-/// Additional lines above the first line.
+/// The number of lines beyond the first line, farther from the tails.
 const MORE_LINES: u32 = 2;
 /// Sine of the largest angle between the arrows of a row.
 const MAX_SINE: f64 = 0.35;
@@ -21,9 +21,9 @@ const MAX_SINE: f64 = 0.35;
 pub(super) struct RowPlaces {
     /// The tail of the arrow.
     pub tail: PagePoint,
-    /// The centre in the first line.
+    /// The centre of the amount in the first line, next to the tail.
     pub first: PagePoint,
-    /// The centres in the other lines.
+    /// The centres of the amount in the other lines, which need a leader.
     pub others: Vec<PagePoint>,
 }
 

@@ -14,7 +14,7 @@ use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
 use crate::scene::format::UnitsEntry;
 
-/// The end of the names of quantities that colours show. It is left out in a column of print.
+/// The last words of the names of quantities that colours show. They are left out in a column of print.
 const OF_A_BLOCK: &str = " of a block";
 /// Length of a bar of colours in a column of print, pixels.
 const NARROW_BAR: f64 = 72.0;
@@ -80,7 +80,7 @@ struct DrawnArrows<'a> {
     context: &'a FigureContext<'a>,
     /// Pixels per metre.
     scale: f64,
-    /// Whether arrows in general are too small. Then colours show the forces, and arrows are left out.
+    /// Whether arrows in general are too small to read. Colours then show the forces, and arrows are left out.
     too_small: bool,
 }
 
@@ -184,7 +184,7 @@ pub(crate) fn shared_scale(context: &FigureContext<'_>, unit: f64) -> Option<Ent
 }
 
 /// Returns the legend entry with a scale bar for a round length. The bar is at most a quarter of `content` (pixels)
-/// long; `scale` is in pixels per metre.
+/// long; `scale` is in pixels per metre. Returns `None` if there is no such length.
 pub(crate) fn metres(scale: f64, content: f64, units: UnitsEntry) -> Option<Entry> {
     let metres = round_below_in(0.25 * content / scale, units.length());
     (metres > 0.0).then(|| Entry::Metres(metres * scale, quantity(metres, units.length())))

@@ -6,10 +6,10 @@ use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
 const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
-/// The same in a column of print.
+/// The text for missing forces in a column of print.
 const SHORT_MISSING_TEXT: &str = "missing force";
-/// The same in a column of print, if arrows and fills include missing forces; with and without a larger scale of the
-/// arrows of missing forces.
+/// The texts for missing forces in a column of print, if arrows and fills include missing forces. The second text is
+/// for arrows of missing forces that have a larger scale than others.
 const INCLUDED_MISSING_TEXT: [&str; 2] = [
     "missing force; fills and arrows include it",
     "missing force, drawn larger; fills and arrows include it",
@@ -33,7 +33,7 @@ pub(crate) enum MissingWords {
 pub(crate) enum Entry {
     /// Arrow colours, each with the name of its block.
     Blocks(Vec<(Colour, String)>),
-    /// Only the arrow colours, if there are too many blocks to list, and whether they need little space.
+    /// Only the arrow colours, without the names of blocks, and whether they are drawn close together.
     Colours(Vec<Colour>, bool),
     /// The disc of a robot: its colour and its name.
     Robot(Colour, String),
@@ -53,8 +53,8 @@ pub(crate) enum Entry {
     Metres(f64, String),
     /// A note, such as on labels that are left out.
     Note(String),
-    /// An entry of a numbered list: its number, the colour of the number, its meaning, and the width of the list's columns
-    /// in pixels.
+    /// An entry of a numbered list: its number, the colour of the number, its meaning, and the width of the list's
+    /// columns in pixels.
     Numbered(usize, Colour, String, f64),
     /// A symbol: the function that draws it, its width in pixels, and its meaning. The function gets the middle of the
     /// left edge.
@@ -62,10 +62,9 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// Returns the entry in a form that fits into `room` pixels. `column` is true on a page as narrow as a column of
-    /// print. If the names of blocks do not fit, the result shows
-    /// only the colours of their arrows. A bar of colours is shortened so that its text needs one line, unless the
-    /// bar would be shorter than [`SHORTEST_BAR`].
+    /// Returns the entry in a form that fits into `room` pixels, if possible. `column` is true on a page as narrow as a
+    /// column of print. If the names of blocks do not fit, the result shows only the colours of their arrows. A bar of
+    /// colours is shortened so that its text needs one line, unless the bar would be shorter than [`SHORTEST_BAR`].
     pub(crate) fn fitted(self, room: f64, column: bool, theme: &Theme) -> Entry {
         let over = self.width(theme) - room;
         match self {

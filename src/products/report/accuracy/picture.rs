@@ -18,11 +18,11 @@ const FIRST_ROW_TOP: f64 = 138.0;
 const TIME_AXIS: (f64, f64) = (220.0, 350.0);
 /// x coordinates of the left and the right end of the error axis, pixels.
 const ERROR_AXIS: (f64, f64) = (395.0, 550.0);
-/// x coordinates of the first and the last column of wrong verdicts, pixels.
+/// x coordinates of the first and the last column of numbers of wrong verdicts, pixels. Each tolerance has a column.
 const WRONG_COLUMNS: (f64, f64) = (600.0, 730.0);
-/// x coordinates of the first and the last column of undecided verdicts, pixels.
+/// x coordinates of the first and the last column of numbers of undecided verdicts, pixels.
 const UNDECIDED_COLUMNS: (f64, f64) = (764.0, 894.0);
-/// Font size of names and numbers, and of explanations, pixels.
+/// Font sizes in pixels: first of method names and numbers of verdicts, then of all explanations and axis labels.
 const FONT_SIZES: (f64, f64) = (15.0, 13.0);
 /// Errors below this value are drawn at this value, because they are rounding errors of f64.
 const MIN_DRAWN_ERROR: f64 = 1e-16;
@@ -75,7 +75,8 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     }
 }
 
-/// Describes the picture for readers who cannot see it: times and wrong verdicts at the default tolerance.
+/// Describes the picture for readers who cannot see it: the time of each method, and its wrong and undecided verdicts,
+/// at the default tolerance.
 fn described(lines: &[Summary], frames: usize) -> String {
     let at = |line: &&Summary| is_default(line.tolerance);
     let described = lines.iter().filter(at).map(|line| {
@@ -91,7 +92,7 @@ fn described(lines: &[Summary], frames: usize) -> String {
     format!("At the default tolerance, {}.", described.join("; "))
 }
 
-/// True if a tolerance is the default of the solver, up to rounding.
+/// True if a tolerance equals the default of the solver up to about 2 %.
 fn is_default(tolerance: f64) -> bool {
     libm::log10(tolerance / DEFAULT_TOLERANCE).abs() < 0.01
 }
@@ -99,7 +100,7 @@ fn is_default(tolerance: f64) -> bool {
 /// The layout of the picture.
 struct Page<'p> {
     theme: &'p Theme,
-    /// The least and the largest time on the time axis, relative to standard.
+    /// The least and the largest time on the time axis, relative to the time of the method `standard`.
     times: (f64, f64),
     /// The tolerances of the study, the loosest first.
     tolerances: &'p [f64],
@@ -157,7 +158,7 @@ impl Page<'_> {
         items
     }
 
-    /// Draws the ticks of the two axes and the numbers above the columns of tolerances.
+    /// Draws the ticks of the two axes, and above each column the exponent of its tolerance.
     fn ticks(&self) -> Vec<Item> {
         let theme = self.theme;
         let mut items: Vec<Item> = Vec::new();
@@ -220,7 +221,7 @@ impl Page<'_> {
         found.unwrap_or(0)
     }
 
-    /// Draws the row of a method. `row` is its index from 0, and `lines` has one summary for each tolerance.
+    /// Draws the row of a method. `row` is the index of the row, from 0. `lines` has one summary for each tolerance.
     fn row(&self, row: usize, method: Method, lines: &[&Summary]) -> Vec<Item> {
         let theme = self.theme;
         let y = FIRST_ROW_TOP + ROW_HEIGHT * (row as f64 + 0.5);

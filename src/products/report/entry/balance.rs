@@ -9,12 +9,14 @@ use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
 use crate::text::line;
 use crate::wording::failure::named;
 
-/// Largest number of reactions in separate rows. If there are more, they are summed for each part of the ground.
+/// Largest number of reactions in separate rows. If there are more, they are summed for each part of the ground. It is
+/// also the largest number of missing forces in separate rows; if there are more, one row has their sum.
 const MAX_REACTIONS: usize = 8;
 /// Largest number of loads in separate rows. If there are more, one row has their sum.
 const MAX_LOADS: usize = 6;
 
-/// A torque (N·m) counts as a rounding error of the solver up to this value times (1 + force in N).
+/// The torque of a force, in N·m, counts as a rounding error of the solver up to this value times (1 + magnitude of the
+/// force in N).
 const TORQUE_TOL: f64 = 1e-9;
 
 /// A force in a table of forces.
@@ -55,7 +57,8 @@ impl Force {
 }
 
 /// Makes a table of the external forces on the supported blocks of a frame: reactions, forces of robots, missing
-/// forces, weight and loads. The last row is their sum. Moments are about the origin.
+/// forces, weight and loads. The last row is their sum. Moments are about the origin. `number` is the index of the
+/// frame.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let about = Point::origin();
@@ -81,6 +84,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
 }
 
 /// Makes a table of the forces on one block. The last row is their sum. Moments are about the centroid of the block.
+/// `number` is the index of the frame.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let own = &scene.blocks[block.0];
@@ -127,8 +131,9 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
     }
 }
 
-/// Returns the forces of the ground on the blocks, one for each joint. If there are more than [`MAX_REACTIONS`]
-/// joints, returns one force for each part of the ground.
+/// Returns the forces of the ground on the blocks, one for each joint between the ground and a block. If there are more
+/// than [`MAX_REACTIONS`] such joints, returns one force for each part of the ground. `about` is the reference point of
+/// moments.
 fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {

@@ -26,7 +26,8 @@ pub struct MarginBar {
     pub words: String,
     /// The lowest and the highest value on the scale.
     pub scale: (f64, f64),
-    /// The lowest and the highest value at which the structure stands; `None` if it does not stand at any value.
+    /// The lowest and the highest value at which the structure is known to stand. An end of the scale replaces an end
+    /// that does not exist. `None` if the structure is not known to stand at any value.
     pub safe: Option<(f64, f64)>,
     /// How the ends of `safe` are drawn.
     pub ends: (BarEnd, BarEnd),
@@ -36,11 +37,12 @@ pub struct MarginBar {
     pub position: Position,
     /// Whether this is the factor on the loads.
     pub is_load_factor: bool,
-    /// The relative distance of the current value from the nearest end: 0 at the end, 1 if there is no end.
+    /// The relative distance of the current value from the nearest end: 0 at the end, 1 if there is no end. Also 0 if
+    /// the structure is not known to stand at the current value.
     pub reserve: f64,
 }
 
-/// Returns the requested margins of a frame as bars, the headline margin first.
+/// Returns the computed margins of a frame as bars, the headline margin first.
 pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginBar> {
     stated(scene, frame_analysis)
         .iter()
@@ -111,8 +113,8 @@ impl MarginBar {
         self.position == Position::Inside
     }
 
-    /// Returns the margin in words, after the name of its parameter. The words for the load factor need no name in
-    /// front, because they mention the loads.
+    /// Returns the name of the parameter and the margin in words. The name of the load factor is left out, because the
+    /// words mention the loads.
     pub fn short(&self) -> String {
         if self.is_load_factor {
             return self.words.clone();

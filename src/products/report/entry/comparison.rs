@@ -1,12 +1,12 @@
 //! [`compared`]: makes the report entry that compares two scenes.
 //!
-//! 1. Steps are paired by their order, blocks by their ids, and interfaces by their two bodies. Several interfaces
-//!    between the same bodies are paired by their order.
-//! 2. A force counts as changed if it differs by more than 5 % of the larger force.
-//! 3. Numbers in tables are in the units of the scenes. If the scenes have different units, they are in metres and
-//!    newtons, and a note says so.
-//! 4. Changed blocks (outline, position, weight, friction, loads, robots) and changed forces are marked in both
-//!    figures.
+//! 1. Steps are paired by their order, blocks by their ids, and interfaces by their two bodies. Of several interfaces
+//!    between the same bodies, those at the same place are paired, and the others are paired by their order.
+//! 2. A force counts as changed if its difference between the scenes is more than 5 % of the larger of the two forces.
+//! 3. Numbers in tables are in the units of the scenes. If the scenes have different units, these numbers are in metres
+//!    and newtons, except margins, and a note says so.
+//! 4. Both figures mark changed forces, changed blocks (outline, position, weight, friction, loads, robots), and blocks
+//!    that only one scene has.
 
 mod force;
 mod mark;
@@ -124,7 +124,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
     (stated, sections)
 }
 
-/// Makes a section without a title that is only a note.
+/// Makes a section without a title, which contains only a note with the text `words`.
 fn note(side: Side<'_>, words: String) -> Section {
     let mut section = sheet::empty(&side.analysis.scene, 0, side.analysis.verdict());
     (section.letter, section.title) = (String::new(), String::new());
@@ -132,14 +132,14 @@ fn note(side: Side<'_>, words: String) -> Section {
     section
 }
 
-/// The units of both scenes. `None` if they differ.
+/// Returns the units of both scenes, or `None` if the units of the two scenes differ.
 fn common_units(sides: [Side<'_>; 2]) -> Option<UnitsEntry> {
     let [was, is] = sides.map(|side| side.analysis.scene.units);
     let sizes = [was, is].map(|units| [units.length().size, units.force().size]);
     (sizes[0] == sizes[1]).then_some(is)
 }
 
-/// Makes the figure of one scene. Its caption has the file name and the verdict.
+/// Makes the figure of one scene. Its caption has the path of the scene file and the verdict.
 fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Figure {
     let scale = "this figure has its own scales for arrows and colours";
     let name = line(side.file.name);
@@ -160,7 +160,7 @@ fn only_in(counts: [usize; 2], number: usize) -> &'static str {
     }
 }
 
-/// Makes the sentence and the report section for a step that only one scene has. The sentence is `why`: it states
+/// Makes the sentence and the report section for a step that only one scene has. `why` is the sentence, which states
 /// which scene has the step.
 fn unpaired_step(
     side: Side<'_>,

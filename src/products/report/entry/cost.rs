@@ -1,8 +1,8 @@
-//! [`cost`]: the table of the effects that were considered in a frame, with the unknowns of each effect and, on request,
-//! the time of each stage.
+//! [`cost`]: the table of the effects that were considered in a frame, with the number of unknowns of each effect and,
+//! on request, the time of each stage.
 //!
-//! All effects share one linear program, which is solved once. Unknowns are therefore counted by effect, but times by
-//! stage. Only margins and wedging are computed separately and have separate times.
+//! All effects share the linear programs of the frame. Unknowns are therefore counted by effect, but times by stage.
+//! Only margins and wedging are computed separately and have separate times.
 
 use super::Grid;
 use crate::analysis::{EffectName, EffectReport, FrameAnalysis, Stages};
@@ -39,7 +39,7 @@ pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
     grid
 }
 
-/// Returns the table cells of an effect, and the time of the effect.
+/// Returns the table cells of an effect, and its time in words: `shared` for an effect without a time of its own.
 fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
     let time = match described.effect {
         _ if !described.simulated => "none".to_owned(),
@@ -69,8 +69,8 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     };
     [
         stage(
-            "posing",
-            "the contributions of all effects are assembled into one linear program",
+            "setting up",
+            "the contributions of all effects are assembled together",
             stages.assembly,
         ),
         stage(
@@ -81,13 +81,13 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     ]
 }
 
-/// Returns the cells of the last row, which has the sums over all effects, and the total time.
+/// Returns the table cells of the last row, which has the sums over all effects, and the total time.
 fn sum(frame_analysis: &FrameAnalysis) -> ([String; 4], String) {
     let solve = &frame_analysis.solve;
     let simulated = frame_analysis.effects.iter().filter(|e| e.simulated);
     let unknowns: usize = simulated.map(|e| e.unknowns).sum();
     let how = format!(
-        "{}, {}; {}, of which earlier steps answered {}",
+        "{}, {}; {}, {} of them with results of earlier steps",
         counted(solve.programs, "program"),
         counted(solve.iterations, "iteration"),
         counted(solve.groups, "separate part"),

@@ -15,8 +15,8 @@ use crate::wording::{failure, proof};
 /// Frames with fewer joints have no charts, because a short table is easier to read than a chart.
 const MIN_CHART_JOINTS: usize = 8;
 
-/// Makes the appendix of a frame: all joints, all failures, effects with their cost, the proof in numbers, and
-/// charts.
+/// Makes the appendix of a frame: all joints that carry force, all failures, effects with their cost, the proof in
+/// numbers, and charts. `number` is the index of the frame.
 pub(super) fn appendix(
     analysis: &Analysis,
     number: usize,

@@ -8,7 +8,8 @@ use crate::wording::headline::headline;
 use crate::wording::margin::{Parameter, StatedMargin, stated};
 
 /// Returns the index of the governing step, from 0. This is the first step that falls. If no step falls, it is the
-/// first undecided step. If all steps stand, it is the step with the least margin.
+/// first undecided step. If all steps stand, it is the step whose headline margin
+/// has the smallest relative reserve.
 pub(super) fn governing(analysis: &Analysis) -> usize {
     let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
     let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));
@@ -17,7 +18,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
             let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
             bars.first().map_or(1.0, |bar| bar.reserve)
         };
-        // If margins are equal, the last of these steps governs, because it usually has the most blocks.
+        // If several steps have the same reserve, the last of them governs, because it usually has the most blocks.
         let steps = (0..analysis.frames.len()).rev();
         steps
             .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))
@@ -25,7 +26,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
     })
 }
 
-/// Returns the most important margin of a frame as a sentence; empty if no margin was computed.
+/// Returns the most important margin of a frame as a sentence without a full stop; empty if no margin was computed.
 pub(super) fn headline_words(
     scene: &Scene,
     number: usize,

@@ -18,7 +18,8 @@ pub struct Grid {
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The id of the mark in the figure that belongs to this row: `i3`, `r0`, `f2`. Empty for a row without a mark.
+    /// The id of the mark in the figure that belongs to this row: `i3` for a joint, `r0` for a robot, `f2` for a
+    /// failure. Empty for a row without a mark.
     pub mark: String,
     /// The cells.
     pub cells: Vec<TableCell>,

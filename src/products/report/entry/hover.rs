@@ -14,7 +14,7 @@ const POINT_TARGET_RADIUS: f64 = 11.0;
 pub struct HoverTarget {
     /// The id of the target, which is also the id of the table row.
     pub mark: String,
-    /// A description with its numbers.
+    /// The text of the tooltip: a description of the part with its numbers.
     pub words: String,
     /// The two end points of an interface, in metres. A target at a point has this point twice.
     pub ends: [Point; 2],
@@ -29,8 +29,8 @@ pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
     }
 }
 
-/// Returns a copy of the drawing with an invisible hover target for each of `touches`, on top of all other items. If
-/// the drawing contains no scene, the copy is unchanged.
+/// Returns a copy of the drawing with an invisible hover target for each of `touches`, on top of the scene. If the
+/// drawing contains no scene, the copy is unchanged.
 pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
@@ -54,7 +54,8 @@ pub(super) fn onto_scene(drawing: &mut Drawing, marks: &dyn Fn(&Camera) -> Group
     }
 }
 
-/// Adds marks to the first group that shows a scene. Returns false if no group shows a scene.
+/// Adds marks to the first group that shows a scene: `group` itself or a group inside it. Returns false if none of
+/// these groups shows a scene.
 fn add_to_scene(group: &mut Group, marks: &dyn Fn(&Camera) -> Group) -> bool {
     if let Some(camera) = group.camera {
         group.items.push(marks(&camera).into());

@@ -1,4 +1,4 @@
-//! Tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
+//! Makes the tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
 
 use super::Grid;
 use super::unit::Units;
@@ -10,7 +10,7 @@ use crate::wording::number::{amount, counted, digits, place, tenths};
 /// Largest number of loads, robots or pairs of materials in a table.
 const MAX_ROWS: usize = 12;
 
-/// The lowest and the highest of some values.
+/// The lowest and the highest of several values.
 #[derive(Clone, Copy)]
 struct ValueRange(f64, f64);
 
@@ -140,7 +140,8 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-/// Describes the direction of a force: `downwards`, `to the right`, `down and right, 30.0° from the vertical`.
+/// Describes the direction of a force: `downwards`, `to the right`, `down and right, 30.0° from the vertical`. Returns
+/// `–` for a force of 0.
 fn direction(force: Vector) -> String {
     let negligible = 1e-9 * force.norm();
     let across = match force.x {
@@ -164,7 +165,8 @@ fn direction(force: Vector) -> String {
     }
 }
 
-/// Makes a table of the robots that hold blocks in a frame, with the limits of their forces and torques.
+/// Makes a table of the robots that hold blocks in a frame, with the limits of their forces and torques. Robots after
+/// the first [`MAX_ROWS`] are only counted.
 pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new(
@@ -206,7 +208,8 @@ fn limits(limits: Limits, units: Units) -> String {
     parts.join(", ")
 }
 
-/// Makes a table of the other inputs: gravity, thickness, ground, friction of pairs, kernel, corners and tolerance.
+/// Makes a table of the other inputs: gravity, thickness, joints, ground, friction of pairs of materials, kernel,
+/// corner contacts, tolerance and units.
 pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
     let mut grid = Grid::new("", &["input", "value"]);
     let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);

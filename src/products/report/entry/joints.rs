@@ -1,5 +1,5 @@
-//! [`Ranking`]: the joints of a frame that carry force, those nearest to opening or sliding first. [`robots`] makes
-//! the table of the robots, with their forces and the largest fraction of a limit that each of them uses.
+//! [`Ranking`]: the joints of a frame that carry force, sorted by how near they are to opening or sliding. [`robots`]
+//! makes the table of the robots, with their forces and the largest fraction of a limit that each of them uses.
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
@@ -11,11 +11,11 @@ use crate::text::line;
 use crate::wording::failure;
 use crate::wording::number::percent;
 
-/// Largest number of joints that a sheet lists.
+/// Largest number of joints in the table of a report that is not full.
 const MAX_JOINTS: usize = 12;
-/// Forces up to this fraction of the largest force are rounding errors of the solver.
+/// Forces up to this fraction of the largest force at a joint count as rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
-/// Cells with at least this utilisation are emphasised.
+/// Table cells with at least this utilisation are emphasised.
 const HIGH_UTILISATION: f64 = 0.8;
 /// Figures of frames with more joints have no hover targets, because the page would become too large.
 const MAX_JOINTS_WITH_TARGETS: usize = 3000;
@@ -74,8 +74,8 @@ impl<'a> Ranking<'a> {
         }
     }
 
-    /// Returns the governing block, for which the report lists all forces. It belongs to the largest failure or,
-    /// without failures, to the joint with the highest utilisation. If two blocks meet there, it is the heavier
+    /// Returns the governing block, for which the report lists all forces. It is a block at the largest failure or, if
+    /// there are no failures, at the joint with the highest utilisation. If two blocks meet there, it is the heavier
     /// block. Returns `None` if there is no failure and no joint carries force.
     pub fn block(&self) -> Option<BlockId> {
         let bodies = match failure::by_amount(self.frame_analysis).first() {
@@ -113,8 +113,8 @@ impl<'a> Ranking<'a> {
         Some(format!("{}: {why}", name(self.scene, contact)))
     }
 
-    /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, it has only
-    /// the first [`MAX_JOINTS`] joints.
+    /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, the table has
+    /// only the first [`MAX_JOINTS`] joints.
     pub fn table(&self, all: bool) -> Grid {
         let shown: &[UsedJoint] = match all {
             true => &self.used,
@@ -177,7 +177,7 @@ impl<'a> Ranking<'a> {
         grid
     }
 
-    /// Explains the columns of the table, and states how many joints it lists.
+    /// Explains the columns of the table of joints, and states how many joints the short table lists.
     pub fn words(&self) -> String {
         let count = self.frame_analysis.contacts.len();
         let shown = self.used.len().min(MAX_JOINTS);
@@ -246,7 +246,7 @@ impl<'a> Ranking<'a> {
     }
 }
 
-/// Describes a failure in a sentence. Forces and torques have the units of the report sheet.
+/// Describes a failure in a sentence. Forces and torques are written in the units `units`.
 pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
     let write = |value: f64, unit: Unit| units.words(value, unit);
     failure::missing_sentence(scene, failed, &write)
@@ -269,7 +269,8 @@ pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
 }
 
 /// Returns the distance of a resultant from the middle of its joint, m, and the ratio of this distance to the largest
-/// allowed distance, at most 1. Returns `None` for a corner or a joint of length 0.
+/// allowed distance, at most 1. `kernel` is the safety kernel, which reduces the allowed distance. Returns `None` for a
+/// corner or a joint of length 0.
 fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     let interface = &contact.interface;
     let half = 0.5 * interface.length() * (1.0 - kernel);

@@ -1,8 +1,9 @@
 //! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
-//! An entry is made once from an analysis. It consists of [`Section`]s of [`SheetPart`]s. The writers for HTML,
-//! Markdown and PDF read only the entry, so their contents agree. Text from scene files is reduced to one safe line
-//! here ([`text::line`]), and each writer escapes it for its format.
+//! An entry is made once from an analysis. Its main content is a list of [`Section`]s, which consist of [`SheetPart`]s.
+//! The writers for HTML, Markdown and PDF read only the entry, so their contents agree. Names and titles from scene
+//! files become one line without control characters here ([`text::line`]). Each writer then escapes them for its
+//! format.
 
 mod balance;
 mod bullet;
@@ -41,13 +42,15 @@ use crate::text;
 pub struct ReportOptions {
     /// The theme of the figures.
     pub theme: Theme,
-    /// The theme of a second drawing of each figure, for readers whose system is dark.
+    /// The theme of a second drawing of each figure, for readers whose system uses dark colours. `None` for a report
+    /// without second drawings.
     pub dark: Option<Theme>,
-    /// The name of the theme if the user chose one; the commands in the report repeat it.
+    /// The name of the theme if the user chose one. The commands that make figures repeat it.
     pub theme_name: Option<String>,
     /// Whether the report contains solving times.
     pub timing: Timing,
-    /// Whether an appendix lists all other results.
+    /// Whether an appendix for each step lists all joints, failures and effects, and the numbers of the proof. A report
+    /// that compares two scenes has no appendix.
     pub full: bool,
 }
 
@@ -77,18 +80,19 @@ pub struct File<'f> {
 pub struct Entry {
     /// The row of the scene in the table of all scenes.
     pub row: Row,
-    /// Project, author and date, if the scene states them.
+    /// Project, author and date, if the scene states them: `Project: …`. Empty for a comparison.
     pub details: Vec<String>,
     /// The sections of the report.
     pub sections: Vec<Section>,
-    /// The version of drystone and a hash of the scene file, in one line.
+    /// The version of drystone and a hash of the scene file, in one line. A comparison has the hashes of both files.
     pub origin: String,
     /// Commands that make the figures, the full report and the numbers again. Each pair has the purpose of a command
     /// and the command.
     pub commands: Vec<(String, String)>,
-    /// The scene file for copying: the same values, with escaped characters.
+    /// The text of the scene file, for copying. JSON escapes replace invisible characters in it. Empty for a
+    /// comparison.
     pub source: String,
-    /// The JSON objects that `check --json` writes, one line for each scene.
+    /// For each scene, the JSON object that `check --json` writes, but on one line.
     pub results: Vec<String>,
     /// The changes of a comparison, one sentence for each step; empty for a single scene.
     pub changes: Vec<String>,
@@ -124,8 +128,8 @@ impl Entry {
         }
     }
 
-    /// Replaces the figures by those of `other`. `other` is an entry of the same scene, in which code points replace
-    /// all characters that the fonts of drystone lack.
+    /// Replaces the figures by those of `other`, an entry of the same scene. In the figures of `other`, code points
+    /// such as `U+4E2D` replace all characters that the fonts of drystone lack.
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
@@ -142,7 +146,7 @@ impl Entry {
         }
     }
 
-    /// Adds the accuracy study of the scene.
+    /// Adds the accuracy study of the scene: a section with its picture, and its numbers in the JSON result.
     ///
     /// # Errors
     /// If the text of the picture cannot be laid out.
@@ -209,8 +213,8 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
     commands
 }
 
-/// Makes the table of all scenes, with links to the scenes. `pages` has the page numbers of the scenes, for a report
-/// with numbered pages.
+/// Makes the table of all scenes, with links to the scenes. `compares` is true if each row compares two scenes. `pages`
+/// has the page numbers of the scenes, in the order of their numbers; `None` for a report without numbered pages.
 pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -> Grid {
     let fails = if compares {
         "what changed"

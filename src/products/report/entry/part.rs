@@ -36,7 +36,7 @@ pub struct Badge {
     pub verdict: Verdict,
     /// The most important margin as a sentence; empty if no margin was computed.
     pub headline: String,
-    /// The same margin as a bar.
+    /// The same margin as a bar; `None` if no margin was computed.
     pub bar: Option<MarginBar>,
     /// The verdict with its reasons.
     pub sentence: String,
@@ -45,11 +45,11 @@ pub struct Badge {
 /// Parts about one step, or about the whole scene.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// The letter of the step; empty for a scene of one step and for the whole scene.
+    /// The letter of the step. Empty if the scene has only one step, or if the section is about the whole scene.
     pub letter: String,
     /// The heading; empty if the heading of the scene is sufficient.
     pub title: String,
-    /// The verdict of the step.
+    /// The verdict of the step, or of the whole scene.
     pub verdict: Verdict,
     /// Whether the section begins on a new page in print.
     pub begins_page: bool,
@@ -64,7 +64,7 @@ pub struct Figure {
     pub caption: String,
     /// The figure.
     pub drawing: Drawing,
-    /// The same figure for a dark page, if the page follows the reader's system.
+    /// The same figure in dark colours, if the page follows the colours of the reader's system; otherwise `None`.
     pub dark: Option<Drawing>,
     /// The parts of the figure that are highlighted together with rows of tables.
     pub touches: Vec<HoverTarget>,

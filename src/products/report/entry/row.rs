@@ -19,7 +19,7 @@ const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);
 /// not distinguish all of them.
 const MAX_THUMBNAIL_BLOCKS: usize = 400;
 
-/// A summary of a scene.
+/// The row of a scene in the table of all scenes.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The number of the scene in its report, from 1.
@@ -28,18 +28,18 @@ pub struct Row {
     pub name: String,
     /// The title of the scene, or the name of its file.
     pub title: String,
-    /// The worst verdict of the steps.
+    /// The worst verdict of the steps; in a comparison, of the second scene.
     pub verdict: Verdict,
-    /// The verdict of the first scene in a comparison.
+    /// In a comparison, the verdict of the first scene; otherwise `None`.
     pub before: Option<Verdict>,
-    /// The number of steps that stand, and the number of steps.
+    /// The number of steps that stand, and the number of all steps.
     pub stand: (usize, usize),
     /// The number of different blocks that the steps place.
     pub blocks: usize,
     /// The most important margin of the governing step as a sentence; empty if no margin was computed.
     pub headline: String,
-    /// The relative distance to the end of this margin, 0 … 1. It is −1 for a falling scene whose most important
-    /// margin is not the load factor, and 2 if no margin was computed.
+    /// The relative distance of the current value from the nearest end of this margin, 0 … 1. It is −1 for a falling
+    /// scene whose most important margin is not the load factor, and 2 if no margin was computed.
     pub reserve: f64,
     /// The largest utilisation of friction at an interface (0 … 1), among the steps that stand. `None` if no step
     /// stands, because the forces of a falling step include the missing forces.
@@ -48,8 +48,8 @@ pub struct Row {
     pub largest: Option<f64>,
     /// The units in which the forces are written.
     pub units: UnitsEntry,
-    /// The largest failure of the first step that does not stand; in a comparison, the changes. Empty if all steps
-    /// stand.
+    /// What fails in the first step that does not stand: its unsupported blocks, otherwise its largest failure,
+    /// otherwise the reason for the doubt. Empty if all steps stand. In a comparison, the changes of the first step.
     pub fails: String,
     /// A small picture.
     pub thumbnail: Thumbnail,
@@ -163,7 +163,7 @@ pub(super) fn file_name(name: &str) -> String {
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-/// Draws a small picture of the given blocks and the ground.
+/// Draws a small picture of the given blocks and the ground. The picture is empty if there are no blocks.
 pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     let polygon = |id: BlockId| &scene.blocks[id.0].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());

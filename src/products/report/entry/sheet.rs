@@ -1,5 +1,5 @@
-//! [`sheet`]: the two report pages about one frame. The first page has the verdict, pictures and inputs. The second
-//! page has joints, balance, margins and assumptions.
+//! [`sheet`]: the main section of a report, about one frame. It fills about two pages: first verdict, pictures and
+//! inputs, then balance, joints, margins and assumptions.
 
 use super::governing::headline_words;
 use super::joints::{Ranking, robots};
@@ -37,7 +37,8 @@ pub(super) fn options(report_options: &ReportOptions) -> Options {
     }
 }
 
-/// Makes a section without parts. Its title is the title of the step, with a letter if there are several steps.
+/// Makes a section without parts for the step with index `number`. Its title is the title of the step. It has a letter
+/// only if there are several steps.
 pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
@@ -57,7 +58,8 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     }
 }
 
-/// Makes the two report pages about a frame. `steps` is the table of all steps, if the scene has several.
+/// Makes the main section of a report, about the frame with index `number`. `steps` is the table of all steps if the
+/// scene has several, otherwise `None`.
 pub(super) fn sheet(
     analysis: &Analysis,
     number: usize,
@@ -104,8 +106,8 @@ pub(super) fn sheet(
     section
 }
 
-/// Describes the steps `numbers`, which do not stand, in two columns. For each step, it shows the first figure and
-/// the reason for the verdict.
+/// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
+/// figure and the reason for its verdict.
 pub(super) fn others(
     analysis: &Analysis,
     numbers: &[usize],
@@ -141,7 +143,7 @@ pub(super) fn others(
         .collect()
 }
 
-/// Returns a sentence with the verdict and its reasons. Forces and torques have the units of the report sheet.
+/// Returns a sentence with the verdict and its reasons. Forces and torques have the units of the report on this frame.
 fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let units = Units::new(scene, frame_analysis);
     let write = |value: f64, unit: Unit| units.words(value, unit);
@@ -159,8 +161,9 @@ fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge 
     }
 }
 
-/// Draws the figures of a frame. If the frame falls, they show the collapse and the forces. If it stands, they show
-/// the force flow, and how the frame would fall beyond its margin. If it is undecided, they show the forces.
+/// Draws the figures of a frame. For a falling frame, they show the collapse and the forces. For a standing frame, they
+/// show the force flow, and how the frame would fall beyond its margin. For an undecided frame, they show the forces.
+/// A collapse or fall that is not known has no figure. Without interfaces, forces replace the force flow.
 fn figures(
     analysis: &Analysis,
     number: usize,
@@ -238,7 +241,7 @@ fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)>
     kinds
 }
 
-/// Describes where the frame fails first, and what would change its verdict.
+/// Describes where the frame fails or would fail first, and what would change its verdict.
 fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let column = |heading: &str, words: Vec<String>| {
@@ -273,7 +276,7 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     }
 }
 
-/// Makes two columns with the inputs of a frame.
+/// Makes two columns with the inputs of the frame with index `number`.
 fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
         true => Vec::new(),
@@ -340,8 +343,8 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns the remarks at the end of the sheet: the result of the test for wedging, unless the structure stands
-/// without wedging, and the notices of the analysis.
+/// Returns the remarks at the end of the main section. They are the result of the test for wedging, if the test was
+/// made and did not show that the structure stands without wedging, and the notices of the analysis.
 fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
     let wedging = frame_analysis
         .effects

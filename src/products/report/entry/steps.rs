@@ -1,5 +1,5 @@
-//! [`sections`]: a table of all steps, the sheet of the governing step, and pictures of other steps that do not
-//! stand.
+//! [`sections`] makes the sections of a report on a scene: the main section about the governing step, with a
+//! table of all steps, then pictures of other steps that do not stand, and in a full report an appendix for each step.
 
 use super::governing::{governing, headline_words};
 use super::joints::Ranking;
@@ -11,7 +11,8 @@ use crate::text::line;
 use crate::wording::number::letter;
 use crate::wording::verdict::plain;
 
-/// Largest number of steps that do not stand and are drawn in addition to the governing step.
+/// Largest number of steps that do not stand and are drawn in addition to the governing step. A full report draws all
+/// of them.
 const MAX_FALLING_STEPS: usize = 4;
 
 /// Makes the sections of a report on a scene.

@@ -1,5 +1,5 @@
-//! [`Units`]: the SI prefix for all forces and torques of a sheet. [`Column`]: the number of decimals for all numbers
-//! of a column.
+//! [`Units`]: the SI prefix for all forces and torques in the report on a frame. [`Column`]: the unit and the number of
+//! decimals for all numbers of a table column.
 
 use crate::analysis::FrameAnalysis;
 use crate::scene::format::UnitsEntry;
@@ -7,7 +7,7 @@ use crate::scene::{Scene, Unit};
 use crate::wording::failure;
 use crate::wording::number::three;
 
-/// The format of the numbers of a column.
+/// The format of the numbers of a table column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
     /// The unit with its prefix.
@@ -16,10 +16,11 @@ pub(super) struct Column {
     decimals: usize,
 }
 
-/// Significant digits of the largest number of a column.
+/// The number of significant digits with which the largest number of a column is written.
 const SIGNIFICANT_DIGITS: i32 = 4;
 
-/// The SI prefix that all forces and torques of a sheet share. Units that the scene chooses have no prefix.
+/// The SI prefix that all forces and torques in the report on a frame share. Units that the scene chooses have no
+/// prefix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
     prefix: &'static str,
@@ -28,8 +29,8 @@ pub(super) struct Units {
 }
 
 impl Units {
-    /// Chooses the prefix for the largest force, weight or load: M, k, m, µ or no prefix. Above 1000 N the prefix is
-    /// k, above 10⁸ N it is M. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
+    /// Chooses the prefix for the largest force, missing force, weight or load: M, k, m, µ or no prefix. Above 1000 N
+    /// the prefix is k, above 10⁸ N it is M. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
     pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
         let contacts = frame_analysis
             .contacts
@@ -72,7 +73,8 @@ impl Units {
         self.column(numbers, self.scene.torque())
     }
 
-    /// Returns the unit symbols of lengths, forces and torques. The symbols of forces and torques include the prefix.
+    /// Returns the unit symbols of lengths, forces and torques. The symbols of forces and torques include the prefix,
+    /// unless the scene chooses these units.
     pub fn symbols(self) -> [String; 3] {
         let length = self.scene.length().symbol();
         let [force, torque] = [self.scene.force(), self.scene.torque()].map(|u| self.symbol(u));
@@ -154,7 +156,7 @@ impl Column {
         format!("{} {}", self.write(value), self.unit)
     }
 
-    /// Returns the head of the column with its unit: `#normal force, kN`.
+    /// Returns the head of the column with its unit: `#normal force, kN`. The `#` marks a column of numbers.
     pub fn head(&self, what: &str) -> String {
         format!("#{what}, {}", self.unit)
     }
@@ -166,7 +168,7 @@ fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     finite.fold(0.0, f64::max)
 }
 
-/// Returns the number of decimals, at most 9, that shows `largest` with [`SIGNIFICANT_DIGITS`] digits.
+/// Returns the number of decimals, at most 9, with which `largest` has [`SIGNIFICANT_DIGITS`] significant digits.
 fn decimals(largest: f64) -> usize {
     if largest <= 0.0 {
         return 0;

@@ -1,5 +1,5 @@
-//! [`fails_first`] and [`changes_of_verdict`]: sentences about the first failure of a frame, and about changes that
-//! would change its verdict.
+//! [`fails_first`] and [`changes_of_verdict`]: sentences about how a frame falls or would fall, and about changes of
+//! inputs that would change its verdict.
 
 use super::joints::name;
 use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
@@ -10,7 +10,7 @@ use crate::wording::failure::{shortened, unsupported_phrase};
 use crate::wording::margin::{Parameter, Position, StatedMargin, stated};
 use crate::wording::number::{counted, listed, place, three, three_down, three_up};
 
-/// Largest number of joints or blocks that a sentence names.
+/// Largest number of joints of one kind that a sentence names.
 const MAX_NAMED: usize = 4;
 
 /// Returns the margin whose end shows how a standing frame would fall. The order of preference is load factor, tilt,
@@ -33,7 +33,7 @@ pub(super) fn toward(frame_analysis: &FrameAnalysis) -> Option<Toward> {
 }
 
 /// Describes how the frame falls, or how it would fall at the end of its margin. Returns `None` if the frame is
-/// undecided or if no mechanism is known.
+/// undecided, or if neither a mechanism nor an unsupported block is known.
 pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     match frame_analysis.verdict {
@@ -123,7 +123,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     })
 }
 
-/// Makes an analysis that contains only this frame.
+/// Makes an analysis that contains only the frame with index `number`.
 fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
     Analysis {
         scene: analysis.scene.clone(),
@@ -132,8 +132,8 @@ fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
     }
 }
 
-/// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns at
-/// most one sentence for each computed margin.
+/// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns
+/// at most one sentence for each computed margin.
 pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     stated(scene, frame_analysis)
         .iter()
@@ -150,7 +150,7 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     let ends = [margin.interval.low(), margin.interval.high()];
     let is_unconfirmed = |end: &&End| matches!(end, End::Unconfirmed { .. });
     if ends.iter().flatten().any(is_unconfirmed) {
-        // The value where the structure begins to fall is not known.
+        // The value at which the structure begins to fall is not known, so state only where it is known to stand.
         let (name, sentence) = (&margin.name, margin.sentence());
         return Some(format!("For the {name}, the structure {sentence}."));
     }

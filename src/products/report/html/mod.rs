@@ -1,10 +1,11 @@
-//! Writes a report as HTML. The page needs no other file, no network and no scripts.
+//! Writes a report as HTML. A page contains all of its figures and styles, and is readable without network and without
+//! scripts.
 //!
-//! `maud` escapes all text. Text from files was reduced to one safe line before. Only figures, charts, the style
-//! sheet, the script and finished parts of the page are inserted without escaping. Scripts add sorting and filtering,
-//! marks that follow the mouse, and buttons that enlarge a figure or copy the scene file. The body of a scene is in a
-//! `noscript` element. With scripts, the body stays plain text until the reader opens the scene, so that a page with
-//! a thousand scenes opens at once. Without scripts, the browser shows the body.
+//! `maud` escapes all text. Only figures, charts, the style sheet, the scripts and finished parts of the page are
+//! inserted without escaping. Scripts add sorting and filtering, marks that follow the mouse, and buttons that enlarge
+//! a figure or copy the scene file. The body of a scene is in a `noscript` element. With scripts, the body stays plain
+//! text until the reader opens the scene, so that a page with a thousand scenes opens at once. Without scripts, the
+//! browser shows the body.
 
 mod bar;
 mod part;
@@ -22,7 +23,7 @@ use crate::wording::verdict::plain;
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
-/// The content security policy of a page, which forbids all requests.
+/// The content security policy of a page. It forbids all network requests.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 /// The content security policy of a page with interactive figures. Their script starts web workers from its own
@@ -30,7 +31,7 @@ const POLICY: &str =
 const INTERACTIVE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' blob: 'wasm-unsafe-eval'; \
      worker-src blob:; img-src data:";
 
-/// If a report has more scenes than this, they are collapsed when the page opens.
+/// If a page has more scenes than this, they are collapsed when the page opens.
 const MAX_OPEN_SCENES: usize = 12;
 
 /// Writes one page with all scenes. `bodies` has the HTML of each scene from [`section`].

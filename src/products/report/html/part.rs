@@ -76,15 +76,15 @@ fn step(section: &Section, (number, place): (usize, usize)) -> Markup {
 
 /// Writes the parts of a section and numbers its figures.
 struct Writer {
-    /// The prefix of all ids in the figures, which must be unique on the page.
+    /// The prefix of all ids in the figures of the section. It makes these ids unique on the page.
     mark: String,
     /// The numbers of the scene and of the section: `3.1`.
     place: String,
-    /// The level of the headings of parts.
+    /// The level of the HTML headings above parts: 3 or 4.
     level: u8,
-    /// The number of drawings so far.
+    /// The number of drawings written so far.
     figures: usize,
-    /// The number of tables so far.
+    /// The number of tables written so far.
     tables: usize,
 }
 
@@ -180,7 +180,7 @@ fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
         mark: Some(mark.to_owned()),
         ..Options::default()
     };
-    // Text that names its fonts needs no layout, so this call cannot fail.
+    // These options write text with font names, not as outlines. Such text needs no layout, so this call cannot fail.
     PreEscaped(svg::write_with(&drawing, &options).unwrap_or_else(|_| svg::write(&drawing)))
 }
 
@@ -206,7 +206,7 @@ fn chart(of: &Chart) -> Markup {
             figure.chart.study { div.paper.always { (PreEscaped(&of.svg)) } figcaption { (of.caption) } }
         };
     }
-    // The chart uses the text colour of the page, which may be light on dark.
+    // Let the chart use the colours of the page, which may be light on dark.
     let svg = of
         .svg
         .replace(chart::INK, "currentColor")
@@ -236,7 +236,7 @@ fn again(entry: &Entry, number: usize) -> Markup {
             @if !entry.source.is_empty() {
                 p { label for=(format!("source-{number}")) { "The scene file, to copy:" } }
                 textarea.source id=(format!("source-{number}")) readonly rows="12" spellcheck="false" {
-                    // Browsers ignore the first line feed of a text area.
+                    // Browsers ignore the first line feed of a text area. Add one, so that the source stays complete.
                     "\n" (entry.source)
                 }
             }

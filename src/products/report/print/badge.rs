@@ -1,4 +1,4 @@
-//! Draws the verdict of a report sheet with the headline margin.
+//! Draws the verdict of a frame, with its reasons and the headline margin, on a page of a PDF.
 
 use super::bar;
 use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, SMALL_TEXT_SIZE};
@@ -44,7 +44,7 @@ impl BadgeTexts {
 }
 
 impl Flow {
-    /// Draws the verdict with the headline margin, on a tinted panel.
+    /// Adds a tinted panel with the verdict, its reasons and the headline margin.
     pub fn badge(&mut self, badge: &Badge) {
         let (left, room) = (self.left, self.room);
         let inner = room - WORD_WIDTH - COLUMN_GAP;

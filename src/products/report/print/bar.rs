@@ -51,8 +51,8 @@ impl BarPlace<'_> {
     }
 
     /// Draws the part of the bar for the values at which the structure stands. An end is a stroke if it is confirmed,
-    /// a dashed stroke if not, and an arrow if the values have no end. An end at the limit of the parameter's domain
-    /// has no mark.
+    /// a dashed stroke if it is not confirmed, and an arrow if the structure stands at all values beyond. An end at the
+    /// limit of the parameter's domain has no mark.
     fn safe_part(&self, flow: &mut Flow) {
         let Some((from, to)) = self.bar.safe else {
             return;
@@ -83,7 +83,8 @@ impl BarPlace<'_> {
     }
 
     /// Draws the current value: a disc in the safe part, a cross outside it, or a ring if its position is unknown. If
-    /// only two bounds of the value are known, both bounds are drawn.
+    /// there are several current values, such as the friction of different interfaces, the least and the largest value
+    /// are drawn.
     fn present_value(&self, flow: &mut Flow) {
         let Some((least, most)) = self.bar.now else {
             return;

@@ -14,11 +14,11 @@ use crate::text::line;
 pub(super) const PAGE_SIZE: (f64, f64) = (793.7, 1122.5);
 /// The margin of a page in pixels: 15 mm.
 pub(super) const MARGIN: f64 = 56.7;
-/// The y coordinate of the lower end of the text, pixels.
+/// The y coordinate of the lower end of the text area of a page, pixels.
 pub(super) const TEXT_BOTTOM: f64 = PAGE_SIZE.1 - MARGIN - 8.0;
-/// The font size in pixels: 9 pt.
+/// The font size of paragraphs in pixels: 9 pt.
 pub(super) const TEXT_SIZE: f64 = 12.0;
-/// The font size of tables in pixels: 7.9 pt.
+/// The font size of tables, notes and captions in pixels: 7.9 pt.
 pub(super) const SMALL_TEXT_SIZE: f64 = 10.5;
 /// The line height relative to the font size.
 pub(super) const LINE_HEIGHT: f64 = 1.38;
@@ -42,13 +42,13 @@ pub(super) struct Flow {
     pub left: f64,
     /// The width of the column, pixels.
     pub room: f64,
-    /// The number of tables so far.
+    /// The number of tables added so far.
     pub tables: usize,
     pub theme: Theme,
     fonts: Fonts,
     /// The line at the foot of every page.
     foot: String,
-    /// The items since the last closed group.
+    /// The items that were added since the last call of [`Flow::close`].
     open: Vec<Item>,
 }
 
@@ -82,7 +82,7 @@ impl Flow {
         &mut self.pages[self.current]
     }
 
-    /// Starts a new page, unless the current page is empty.
+    /// Continues at the top of the next page, unless the current page is empty.
     pub fn new_page(&mut self) {
         if self.y > MARGIN {
             self.current += 1;
@@ -91,7 +91,7 @@ impl Flow {
         }
     }
 
-    /// Starts a new page if less than `height` pixels are left.
+    /// Continues on the next page if less than `height` pixels are left on this page.
     pub fn reserve(&mut self, height: f64) {
         if self.y + height > TEXT_BOTTOM {
             self.new_page();
@@ -119,6 +119,7 @@ impl Flow {
     }
 
     /// Moves the items that were added since the last call of this function to the page, as one group with this role.
+    /// Does nothing if there are no such items.
     pub fn close(&mut self, role: Role) {
         let items = std::mem::take(&mut self.open);
         if items.is_empty() {
@@ -139,12 +140,13 @@ impl Flow {
         self.close(Role::Artifact);
     }
 
-    /// Replaces characters that the fonts do not have by their code points.
+    /// Returns the text on one line. Code points replace characters that the fonts do not have.
     pub fn legible(&self, words: &str) -> String {
         self.fonts.spelled(&line(words)).into_owned()
     }
 
-    /// Adds text, broken into lines that fit the column. A short text stays on one page.
+    /// Adds text, broken into lines that fit the column. A text of at most [`MAX_UNBROKEN_LINES`] lines stays on one
+    /// page. `size` is the font size in pixels.
     pub fn words(&mut self, words: &str, face: Face, size: f64, colour: Colour, role: &Role) {
         let words = self.legible(words);
         let rows = wrap(&words, face, size, self.room);
@@ -269,7 +271,8 @@ impl Flow {
         self.y = end + 0.4 * TEXT_SIZE;
     }
 
-    /// Adds a caption below a picture. Returns the y coordinate of its lower end, in pixels.
+    /// Adds a caption at the current y coordinate, with its left edge at `x` and a width of `wide` pixels. Returns the
+    /// y coordinate of its lower end, in pixels.
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
         for row in wrap(&words, Face::Sans, SMALL_TEXT_SIZE, wide) {

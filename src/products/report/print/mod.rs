@@ -1,8 +1,8 @@
 //! Writes a report as PDF: A4 pages with figures, links, bookmarks and tagged text.
 //!
-//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing. Its groups have roles, such as heading
-//! or table cell, and figures are placed on it. Tables break between rows and repeat their column heads. Figures are
-//! scaled down if they do not fit, and are never cut.
+//! A [`Flow`] places parts on pages from top to bottom. A page is a drawing with figures on it. The groups of the
+//! drawing have roles, such as heading or table cell. Tables break between rows and repeat their column heads. Figures
+//! are scaled down if they do not fit, and are never cut.
 
 mod badge;
 mod bar;
@@ -35,8 +35,8 @@ pub(super) struct Page {
     foot: String,
 }
 
-/// Makes the pages before the scenes: title, summary and contents. `numbers` has the page on which each scene begins,
-/// counted from 1.
+/// Makes the pages before the scenes: title, summary, invalid files and contents. `numbers` has the page on which each
+/// scene begins, counted from 1.
 pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
     let mut flow = Flow::new(String::new());
     flow.heading(head.title, 24.0, 1);
@@ -87,8 +87,8 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     flow.pages
 }
 
-/// Returns the line at the foot of every page: the version of drystone, a hash of the scene, and the names of its
-/// files without folders.
+/// Returns the line at the foot of every page: the version of drystone, a hash of the scene file, and its name without
+/// folders. A comparison has two hashes and two names.
 fn foot(entry: &Entry) -> String {
     let names = entry.row.name.split(" → ");
     let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));
@@ -101,7 +101,7 @@ fn foot(entry: &Entry) -> String {
 
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     for (number, part) in parts.iter().enumerate() {
-        // Keep a heading on the same page as the table below it.
+        // Keep a heading on the same page as the table below it, or at least as the first rows of this table.
         if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
         {
             flow.reserve(HEADING_HEIGHT + flow.least(grid));
@@ -119,7 +119,7 @@ fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     }
 }
 
-/// Numbers the pages and writes them as PDF. `starts` has the page on which each scene begins, counted from 0.
+/// Numbers the pages and writes them as PDF. `starts` has the index of the page on which each scene begins, from 0.
 pub(super) fn written(
     pages: &mut [Page],
     title: &str,
@@ -157,7 +157,8 @@ pub(super) fn written(
     Ok(pdf::write_sheets(&sheets, &heading, &bookmarks)?)
 }
 
-/// Returns the drawing of a page with the line at its foot. `number` counts from 0.
+/// Returns the drawing of a page with the line at its foot. `number` is the index of the page, from 0, and `count` is
+/// the number of pages.
 fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Drawing {
     let theme = Theme::thesis();
     let y = PAGE_SIZE.1 - MARGIN + 12.0;

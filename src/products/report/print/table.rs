@@ -7,20 +7,20 @@ use crate::drawing::{Anchor, Face, PagePoint, PageRect};
 use crate::output::pdf::Role;
 use crate::report::entry::{Grid, TableCell, Thumbnail};
 
-/// A table stays on one page if its rows are lower than this fraction of the page height.
+/// A table stays on one page if the total height of its rows is below this fraction of the height of the text area.
 const MAX_UNBROKEN_SHARE: f64 = 0.3;
 /// Width of a bar in a table, pixels.
 const BAR_WIDTH: f64 = 160.0;
 /// Width and height of a small picture in a table, pixels.
 const PICTURE_SIZE: (f64, f64) = (64.0, 40.0);
-/// Largest width that is added to each column if a table is narrower than its page, pixels.
+/// Largest width that is added to each column if a table is narrower than the space for it, pixels.
 const MAX_SPREAD: f64 = 45.0;
 /// Width of the SVG document of a small picture, before it is scaled to [`PICTURE_SIZE`], pixels.
 const DRAWN_PICTURE_WIDTH: f64 = 96.0;
 
 /// The layout of a table.
 struct Layout {
-    /// The number of the table in the document.
+    /// The number of the table among all tables of its [`Flow`], from 1.
     number: usize,
     head: Vec<TableCell>,
     rows: Vec<Vec<TableCell>>,
@@ -31,8 +31,8 @@ struct Layout {
 }
 
 impl Flow {
-    /// Adds a table. It starts on a new page if the current page has too little space. A table without rows is left
-    /// out.
+    /// Adds a table. The table starts on a new page if the current page has too little space. A table without rows is
+    /// left out.
     pub fn grid(&mut self, grid: &Grid) {
         if grid.lines.is_empty() {
             return;
@@ -55,7 +55,8 @@ impl Flow {
         self.y += 0.5 * TEXT_SIZE;
     }
 
-    /// Returns the height, in pixels, that must be free on a page for a table to begin there.
+    /// Returns the height, in pixels, that must be free on a page for a table to begin there; 0 for a table without
+    /// rows.
     pub fn least(&self, grid: &Grid) -> f64 {
         match grid.lines.is_empty() {
             true => 0.0,
@@ -134,7 +135,7 @@ impl Flow {
         let top = self.y;
         let face = face(cell);
         let colour = self.theme.ink;
-        // A cell that is taller than a page is cut. The other forms of the report have the whole text.
+        // Cut the text of a cell that is taller than a page. The other forms of the report have the whole text.
         let most = ((TEXT_BOTTOM - MARGIN) / (LINE_HEIGHT * SMALL_TEXT_SIZE)) as usize - 4;
         for part in wrap(&cell.words, face, SMALL_TEXT_SIZE, wide)
             .into_iter()

@@ -25,7 +25,7 @@ const MIN_GROUPED: usize = 4;
 /// A change of one element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Event {
-    /// A description of the element.
+    /// The name of the element in messages.
     element: String,
     /// A description of the change.
     change: String,

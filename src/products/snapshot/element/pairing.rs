@@ -6,7 +6,8 @@
 //! 2. Between those pairs, pair elements with the same tag, class, label, text and number of path commands.
 //! 3. Between those, pair elements with the same tag, class and label.
 //!
-//! The other elements are paired by tag and class, if both lists have equally many elements of this kind.
+//! Remaining elements with the same tag and class are paired in their order, if both drawings have equally many of
+//! them.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 

@@ -15,9 +15,9 @@ pub(super) enum Movement {
     Moved(f64, f64),
     /// A rotation in degrees anticlockwise, perhaps with a translation.
     Turned(f64),
-    /// Another outline with the same number of points: the largest change of a coordinate, in pixels.
+    /// Another outline with the same path commands. The number is the largest change of a coordinate, in pixels.
     Reshaped(f64),
-    /// An outline with other segments.
+    /// An outline with other path commands, or an outline that cannot be read.
     Redrawn,
 }
 
@@ -138,8 +138,8 @@ fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     [sum[0] / count, sum[1] / count]
 }
 
-/// Returns the points that define the shape of an element, and the letters of its path commands. Returns `None` if a
-/// number cannot be read.
+/// Returns the points that define the shape of an element, and a text of its other properties: the letters of its path
+/// commands, or the radius of a circle. Returns `None` if a number cannot be read.
 fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
     let mut points = Vec::new();
     let mut letters = String::new();

@@ -29,11 +29,11 @@ pub(super) struct Element {
     pub tag: String,
     /// The class of the element; empty if it has no class.
     pub class: String,
-    /// The text of its `<title>`, or its `aria-label`.
+    /// The text of its `<title>`, or its `aria-label`; empty if it has neither.
     pub title: String,
-    /// The text of its `<desc>`.
+    /// The text of its `<desc>`; empty if it has none.
     pub description: String,
-    /// The text of a `<text>` or `<style>` element.
+    /// The text of a `<text>` or `<style>` element; empty for all other elements.
     pub words: String,
     /// Attributes for position and size.
     pub shape: Vec<(String, String)>,

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-/// A difference.
+/// A difference between two lists of facts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// A description on one line.
     pub words: String,
-    /// The weight for sorting. Changes of the scene itself have the largest weight, because they cause the other
-    /// changes. Then come verdicts, falling blocks, objects that appear or vanish, failures, and numbers. The weight
-    /// of a number is its change in units of its last digit.
+    /// The weight for sorting; the change with the largest weight comes first. Changes of the scene itself have the
+    /// largest weights, because they cause the other changes. Then come verdicts, falling blocks, objects that appear
+    /// or vanish, failures, and numbers. The weight of a number is its change in units of its last digit.
     pub(super) weight: f64,
 }
 
@@ -18,7 +18,7 @@ pub(super) const MAX_SINGLE_CHANGES: usize = 4;
 
 /// If more than [`MAX_SINGLE_CHANGES`] facts of a kind changed in the same way, reports them in one line, such as
 /// `20 blocks: μ 0.7 → 0.5` for the kind `block`. Considers the changes from index `from` on. Their words begin with
-/// `place`, which is the frame or empty.
+/// `place`, which names the frame or is empty.
 pub(super) fn group_equal(from: usize, place: &str, kind: &str, changes: &mut Vec<Change>) {
     let how = |words: &str| -> Option<String> {
         let words = words.strip_prefix(place)?.strip_prefix(kind)?;

@@ -6,18 +6,18 @@ use super::change::{Change, MAX_SINGLE_CHANGES, group_equal};
 use super::round::{UNITLESS_STEP, last_digit, short};
 use super::{Fact, Facts, Section, Value};
 
-/// The kind of the fact that a block falls.
+/// The kind of a fact which states that a block falls.
 const FALLING_FACT: &str = "falling";
 /// Added to the weight of a change of the scene: a block, a load, friction, a robot's limits, gravity, the kernel, the
 /// title.
 const CAUSE_WEIGHT: f64 = 5e9;
-/// Weight of a changed verdict. Changes of numbers usually have weights below 1e6, far below these constants.
+/// Weight of a changed verdict. Changes of numbers usually have weights of at most 1e6, far below the weights here.
 const VERDICT_WEIGHT: f64 = 4e9;
 /// Weight of a block that begins to fall, or no longer falls.
 const FALL_WEIGHT: f64 = 3e9;
-/// Weight of an object that appears or vanishes.
+/// Weight of an object, other than a failure, that appears or vanishes.
 const PRESENCE_WEIGHT: f64 = 2e9;
-/// Weight of a failure.
+/// Weight of a failure that appears or vanishes, and of a changed title. Added to the weight of a failure that changes.
 const FAILURE_WEIGHT: f64 = 1e9;
 
 pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
@@ -120,7 +120,8 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
     }
 }
 
-/// Compares the headings of two sections: their titles, and the verdicts if they are frames.
+/// Compares the headings of two sections: their titles, and their values. The value of a frame is its verdict. The
+/// values of a scene are gravity and kernel.
 fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>) {
     let what = if is_frame {
         heading(new)
@@ -218,7 +219,7 @@ fn called((kind, names, number): &Key) -> String {
         n => format!(" (no. {})", n + 1),
     };
     let names = match kind.as_str() {
-        // The pair of materials.
+        // The names are the two materials of a pair.
         "friction" => names.join(" on "),
         "robot" | "failure robot" => names.join(" on "),
         _ => names.join("–"),

@@ -1,7 +1,7 @@
-//! [`Facts`]: the results of a scene as text that people can read, store and compare.
+//! [`Facts`]: the main inputs and the results of a scene, as text that people can read, store and compare.
 //!
-//! Each fact is one line, under a heading for its frame. The object and its names are before the colon, the results
-//! are after it.
+//! Each fact is one line, under the heading of the scene or of its frame. The object and its names are before the
+//! colon, its values are after the colon.
 //!
 //! ```text
 //! drystone facts 2
@@ -14,9 +14,10 @@
 //!   interface "a" "ground": N 8.00000 N, T 0.00000 N, N at its ends 4.00000 4.00000 N, μ 0.7
 //! ```
 //!
-//! Numbers are rounded so that the largest load has [`DIGITS`] significant digits. Two numbers count as equal if they
-//! differ by at most 1.5 units of the last digit: rounding errors of the solver are smaller, and a change by one
-//! percent is far larger. Frames that are undecided have no proof, so their forces are not reported.
+//! Forces are rounded so that the largest weight or load has [`DIGITS`] significant digits. Lengths and torques are
+//! rounded in the same way. Two numbers with a unit count as equal if they differ by at most 1.5 units of the last
+//! digit: rounding errors of the solver are smaller, and a change by one percent is far larger. Frames that are
+//! undecided have no proof, so their forces are not reported.
 
 mod change;
 mod compare;
@@ -33,8 +34,8 @@ use crate::analysis::Analysis;
 /// The version of the format. The first line of a facts file states it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
-    /// Without the friction coefficients of blocks, pairs of materials and listed contacts, without the limits of robots,
-    /// and without loads.
+    /// Without the friction coefficients of blocks, pairs of materials and listed contacts, without the limits of
+    /// robots, and without loads.
     One,
     /// With all of these.
     Two,
@@ -51,7 +52,7 @@ impl Version {
     }
 }
 
-/// The results of a scene as lines of text.
+/// The main inputs and the results of a scene, as lines of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
     version: Version,
@@ -67,7 +68,7 @@ struct Section {
     facts: Vec<Fact>,
 }
 
-/// One line: an object and its results.
+/// One line: an object and its values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Fact {
     /// The kind of object: `block`, `interface`, `failure tension`.
@@ -77,20 +78,20 @@ struct Fact {
     values: Vec<Value>,
 }
 
-/// One result: a word, or a quantity with numbers and a unit.
+/// One value of an object: a word, or a quantity with its numbers and perhaps a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Value {
     /// The name of the quantity; empty for a word.
     name: String,
     /// The numbers as text; empty for a word.
     numbers: Vec<String>,
-    /// The unit, or the word.
+    /// The unit, or the word. Empty for a quantity without a unit.
     unit: String,
 }
 
 impl Facts {
-    /// Collects the facts of an analysis. Forces are rounded so that the largest load has `digits` significant
-    /// digits, usually [`DIGITS`]. All other forces have the same number of decimals.
+    /// Collects the facts of an analysis. Forces are rounded so that the largest weight or load has `digits`
+    /// significant digits, usually [`DIGITS`]. All other forces have the same number of decimals.
     ///
     /// ```
     /// use drystone::{Analysis, Scene, snapshot::fact::{DIGITS, Facts}};
@@ -118,20 +119,20 @@ impl Facts {
     /// Reads facts from the text of a reference file.
     ///
     /// # Errors
-    /// [`FactsError`] if the text is not a list of facts. It names the first line that is not a fact.
+    /// [`FactsError`] if the text is not a list of facts. If lines cannot be read, the error names the first of them.
     pub fn read(text: &str) -> Result<Facts, FactsError> {
         read::facts(text)
     }
 
     /// Describes how the facts `found` differ from these facts. Changes of the scene come first. Then come changes of
-    /// the results, the most important first. Empty if there is no difference.
+    /// the results, the most important first. The list is empty if there is no difference.
     ///
-    /// If these facts were read from a file of version 1, what that version does not contain is no difference.
+    /// If these facts were read from a file of version 1, facts that version 1 does not contain are not compared.
     pub fn changes(&self, found: &Facts) -> Vec<Change> {
         compare::changes(self, found)
     }
 
-    /// These facts without those that a version of the format does not contain.
+    /// Returns these facts without those that the given version of the format does not contain.
     fn in_version(&self, version: Version) -> Facts {
         let mut facts = self.clone();
         if version == Version::One {

@@ -21,9 +21,9 @@ pub enum FactsError {
     /// A line that cannot be read.
     #[error("line {line} is not a fact: {text}")]
     Line {
-        /// The line, counted from 1.
+        /// The number of the line, counted from 1.
         line: usize,
-        /// The beginning of its text.
+        /// The beginning of the line.
         text: String,
     },
 }

@@ -7,15 +7,15 @@ use crate::geometry::{Point, Vector};
 use crate::scene::{BlockId, BodyId, Load, RobotId, Scene};
 use crate::text;
 
-/// The significant digits of a force as large as the largest load.
+/// The significant digits of a force that is as large as the largest weight or load.
 pub const DIGITS: usize = 6;
 /// The first line of a facts file, without the version of the format.
 pub(super) const FIRST_WORDS: &str = "drystone facts ";
-/// Blocks slower than this, relative to the fastest block, are not reported as falling. Another optimum of the same
-/// program may leave such a block at rest, so the fact would not be reproducible.
+/// Blocks slower than this are not reported as falling; the fastest point of a mechanism has speed 1. Another optimum
+/// of the same linear program may leave such a slow block at rest, so the fact would not be reproducible.
 const MIN_FALLING_SPEED: f64 = 1e-3;
 
-/// The roundings for the quantities of one scene.
+/// The decimal places to which the quantities of one scene are rounded.
 struct Roundings {
     force: Rounding,
     length: Rounding,
@@ -65,7 +65,8 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
     }
 }
 
-/// The facts of the scene itself: what a user edits, and what therefore causes changes of the results.
+/// Returns the facts of the scene itself, such as blocks and loads. A user edits them, so they cause the changes of the
+/// results.
 fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
     let blocks = scene.blocks.iter().map(|block| Fact {
         kind: "block".into(),
@@ -106,7 +107,7 @@ fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
     (blocks.chain(pairs).chain(listed).chain(robots).chain(loads)).collect()
 }
 
-/// A fact that is only a friction coefficient.
+/// Makes a fact whose only value is a friction coefficient.
 fn coefficient(kind: &str, names: Vec<String>, friction: f64) -> Fact {
     Fact {
         kind: kind.into(),

@@ -10,8 +10,9 @@ pub struct PixelTolerance {
     /// The largest allowed difference of a channel, 0 … 255. Colours of transparent pixels are multiplied by alpha
     /// first. The default is 1: another processor or compiler may round a blended colour to the neighbouring value.
     pub channel: u8,
-    /// If given, a pixel that differs by more than `channel` must also look different. Its colour distance must
-    /// exceed this threshold (0 … 1), and it must not be antialiasing of the same edge. pixelmatch uses 0.1.
+    /// If given, a pixel that differs by more than `channel` counts as different only if it also looks different. Its
+    /// colour distance must exceed this threshold (0 … 1), and it must not be antialiasing of the same edge. The tool
+    /// pixelmatch uses 0.1.
     pub perceptual: Option<f64>,
 }
 
@@ -28,10 +29,10 @@ impl Default for PixelTolerance {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PixelMark {
     Same,
-    /// Different only in antialiasing, so that it counts as equal.
+    /// The pixels differ only in antialiasing, so they count as equal.
     Smoothed,
     Changed,
-    /// Outside one of the pictures.
+    /// The position is outside one of the pictures.
     Beyond,
 }
 
@@ -61,8 +62,8 @@ impl PixelPair<'_> {
         if !differ(a, b, threshold) {
             return None;
         }
-        // Antialiasing is detected from neighbouring pixels. The neighbours correspond only in pictures of equal
-        // size.
+        // Antialiasing is detected from neighbouring pixels. Neighbours at the same position can be
+        // compared only in pictures of equal size.
         let same_size = (expected.width, expected.height) == (found.width, found.height);
         let antialiased = same_size
             && (is_antialiased(expected, found, self.x, self.y)
@@ -85,11 +86,11 @@ pub struct Difference {
     pub smoothed: u64,
     /// The number of pixels in the area that both pictures share.
     pub of: u64,
-    /// The largest difference of a channel, 0 … 255.
+    /// The largest difference of a channel among the pixels that differ, 0 … 255.
     pub largest: u8,
     /// Left, top, width and height of the bounding box of the pixels that differ; `None` if no pixel differs.
     pub bounds: Option<[u32; 4]>,
-    /// The sizes of the expected and of the found picture: width and height.
+    /// Width and height of the expected picture, then of the found picture, in pixels.
     pub sizes: [(u32, u32); 2],
     marks: Vec<PixelMark>,
 }
@@ -129,7 +130,7 @@ impl Difference {
                 let begin = y as usize * p.width as usize;
                 begin..begin + width as usize
             };
-            // 1. Skip equal rows and equal pixels. Most of them are equal.
+            // 1. Skip equal rows and equal pixels, because most pixels are usually equal.
             let (a, b) = (&expected.rgba[row(expected)], &found.rgba[row(found)]);
             if a == b {
                 continue;

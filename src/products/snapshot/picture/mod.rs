@@ -30,7 +30,7 @@ const LFS_POINTER_START: &[u8] = b"version https://git-lfs";
 /// The first bytes of a PNG.
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// The subject of a reference.
+/// What a reference picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A scene file next to the reference.
@@ -92,9 +92,9 @@ pub struct Picture {
     /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha
     /// is 0, the other channels are 0 too, because they are invisible.
     rgba: Vec<[u8; 4]>,
-    /// For each colour that was rounded, the largest rounding of a channel.
+    /// For each colour of the palette, the largest rounding error of a channel. Empty if the file stores no roundings.
     rounding: BTreeMap<[u8; 4], u8>,
-    /// The subject that is stored in the file.
+    /// The subject that the file states; `None` if it states none.
     pub subject: Option<Subject>,
 }
 
@@ -179,8 +179,9 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Encodes the picture as a small PNG. An opaque picture gets a palette of at most 256 colours. Frequent colours
-    /// are exact. Other colours are rounded as little as possible, and the file stores the rounding of each colour.
+    /// Encodes the picture as a small PNG with a palette of at most 256 colours. If an opaque picture has more colours,
+    /// frequent colours stay exact. Other colours are rounded as little as possible, and the file stores the rounding
+    /// of each colour. If a picture with transparent pixels has more colours, it is stored exactly, without a palette.
     ///
     /// # Errors
     /// The message of the PNG encoder.

@@ -4,9 +4,10 @@
 //! Figures are flat: a few colours cover nearly all of the page, and hundreds occur along antialiased edges. The
 //! algorithm is a variant of median cut (Heckbert 1982) that minimises the largest error:
 //!
-//! 1. Frequent colours stay exact, so that even a small change of such a colour is found.
-//! 2. The other colours start in one box. The box with the widest channel is cut in half until the palette is full.
-//! 3. Each box is represented by its colour that is nearest to its centre.
+//! 1. The most frequent colours stay exact, so that even a small change of such a colour is found.
+//! 2. The other colours start in one box. The box with the widest range of a channel is cut in half, again and again,
+//!    until the palette is full.
+//! 3. In each box, the colour nearest to its centre replaces all colours of the box.
 //!
 //! The file stores the rounding error of each colour of the palette as two hexadecimal digits. Without these numbers,
 //! the comparison would have to allow the largest rounding error for every pixel.
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 
 use super::{Picture, ROUNDING_KEYWORD, SUBJECT_KEYWORD, Subject};
 
-/// The size of a PNG palette.
+/// The largest number of colours in a PNG palette.
 const MAX_COLOURS: usize = 256;
 /// Largest number of frequent colours that stay exact. The rest of the palette is for groups of similar colours.
 const MAX_EXACT_COLOURS: usize = 128;
@@ -29,7 +30,7 @@ pub(super) struct Palette {
     colours: Vec<[u8; 4]>,
     /// The largest rounding of a channel, for each colour of the palette.
     rounding: Vec<u8>,
-    /// The index in the palette for each colour of the picture.
+    /// For each colour of the picture, the index of the palette colour that replaces it.
     index: BTreeMap<[u8; 4], u8>,
 }
 
@@ -178,7 +179,7 @@ fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     nearest.copied().unwrap_or(centre)
 }
 
-/// Encodes a PNG with a palette, or with true colours if `palette` is `None`.
+/// Encodes a picture as PNG with a palette. If `palette` is `None`, each pixel has its own red, green, blue and alpha.
 pub(super) fn encode(
     picture: &Picture,
     palette: Option<&Palette>,

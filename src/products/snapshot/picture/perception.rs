@@ -2,7 +2,7 @@
 //!
 //! Colour distance: Kotsarenko and Ramos (2010), in the YIQ colour space. Antialiasing: Vyšniauskas (2009). A pixel
 //! is antialiased if it has a darker and a brighter neighbour, and one of these lies in an area of one colour in both
-//! pictures. pixelmatch uses the same two rules; a test compares with its counts.
+//! pictures. The tool pixelmatch uses the same two rules, and a test compares the numbers of differing pixels.
 
 use super::Picture;
 
@@ -20,8 +20,8 @@ fn brightness([r, g, b]: [f64; 3]) -> f64 {
     0.298_895_31 * r + 0.586_622_47 * g + 0.114_482_23 * b
 }
 
-/// True if two colours look different. The threshold of their colour distance ranges from 0 (any difference counts)
-/// to 1 (the distance between black and white).
+/// True if the distance of two colours exceeds a threshold, so that they look different. The threshold ranges from 0
+/// (any difference counts) to 1 (the distance between black and white).
 pub(super) fn differ(a: [u8; 4], b: [u8; 4], threshold: f64) -> bool {
     distance(a, b) > MAX_DISTANCE * threshold * threshold
 }

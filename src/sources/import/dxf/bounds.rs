@@ -28,8 +28,8 @@ pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     }
 }
 
-/// True if the box `own` coincides with one of `boxes`, within a millionth of its diagonal. `boxes` must be sorted by
-/// `min.x`.
+/// True if the box `own` coincides with one of `boxes`, within a millionth of the diagonal of `own`. `boxes` must be
+/// sorted by `min.x`.
 pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
     let tolerance = COINCIDENCE_TOL * own.diagonal();
     let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);

@@ -9,20 +9,20 @@ use std::collections::BTreeMap;
 use crate::geometry::Point;
 use crate::import::subpath::{Segment, Subpath};
 
-/// An open curve with the description of its entity.
+/// An open curve, with text that describes its entity to the user.
 #[derive(Clone, Debug)]
 pub(super) struct OpenCurve {
     pub(super) curve: Subpath,
     pub(super) element: String,
 }
 
-/// The loops of a layer, and the curves that belong to none.
+/// The loops of a layer, and the curves that belong to no loop.
 #[derive(Debug, Default)]
 pub(super) struct Chains {
     /// The loops, each with the description of its first curve.
     pub(super) loops: Vec<(Subpath, String)>,
     pub(super) left: Vec<OpenCurve>,
-    /// The first point where more than two curves meet.
+    /// The first point where more than two ends of curves meet; `None` if there is no such point.
     pub(super) branch: Option<Point>,
 }
 

@@ -16,12 +16,12 @@ pub(super) enum Shape {
     Curve(Subpath),
     /// The grip point of a robot.
     Point(Point),
-    /// No outline, with the reason.
+    /// The entity has no outline that can be read. The text is the reason.
     Unreadable(&'static str),
 }
 
 /// Converts an entity to a curve or a point. `vertices` are the `VERTEX` records that follow a `POLYLINE` entity.
-/// Returns `None` for kinds of entities that have no outline.
+/// Returns `None` for kinds of entities that this function does not know, such as text.
 pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
     let shape = match entity.kind {
         "LINE" => Shape::Curve(open(
@@ -67,8 +67,8 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve))
             if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
         {
-            // If the normal of a curve points down, its x axis points to the left. Only LINE and ELLIPSE always use the
-            // axes of the drawing.
+            // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE and
+            // ELLIPSE are not mirrored, because they always use the axes of the drawing.
             Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
@@ -154,11 +154,11 @@ pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
     })
 }
 
-/// Returns the segment between two corners. The bulge is the tangent of a quarter of the arc's angle. It is positive
-/// if the arc turns anticlockwise from `from` to `to`.
+/// Returns the segment between two corners: an arc, or a straight line if the bulge is negligible. The bulge is the
+/// tangent of a quarter of the arc's angle, and is positive if the arc turns anticlockwise from `from` to `to`.
 ///
-/// With half the chord c and bulge b, the sagitta is b·c, the radius c·(1 + b²) / 2|b|, and the centre lies c·(1 − b²) / 2b to
-/// the left of the middle of the chord.
+/// With half the chord c and the bulge b, the sagitta is b·c and the radius is c·(1+b²)/(2|b|). The centre lies
+/// c·(1−b²)/(2b) to the left of the middle of the chord.
 fn segment(from: Point, to: Point, bulge: f64) -> Segment {
     let half = (to - from) / 2.0;
     if !(bulge.abs() > MIN_BULGE) || half.norm() == 0.0 {

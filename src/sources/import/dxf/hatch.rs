@@ -94,7 +94,7 @@ impl<'t> Groups<'_, 't> {
     }
 
     /// Reads a boundary that is stored as edges: lines and arcs. Group code 93 is the number of edges, and code 72 the
-    /// type of each edge.
+    /// type of each edge. Returns `None` if there are no edges.
     fn edges(&mut self) -> Result<Option<Subpath>, &'static str> {
         let edges = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut curve: Option<Subpath> = None;
@@ -146,8 +146,8 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Appends an edge to a curve. Reverses the edge if only its end meets the curve. A curve of a single edge is also
-/// reversed if only its start meets the edge. Returns an error message if the two do not meet.
+/// Appends an edge to the end of a curve. Reverses the edge if only its end meets the curve. A curve of a single edge
+/// is also reversed if only its start meets the edge. Returns an error message if the curve and the edge do not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

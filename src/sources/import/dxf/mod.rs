@@ -4,7 +4,7 @@
 //! |---|---|
 //! | 1. split the text into records of group codes and values | `record` |
 //! | 2. find the header, the layers, the blocks and the entities | `document` |
-//! | 3. convert each entity to curves in the plane of its insertion | `entity`, `hatch` |
+//! | 3. convert each entity to curves in its own coordinates | `entity`, `hatch` |
 //! | 4. insert blocks with their transform, and sort the curves by layer | `walk` |
 //! | 5. join open curves that meet into loops | `chain` |
 //!

@@ -1,7 +1,7 @@
 //! [`records`]: splits the text of a DXF file into records.
 //!
-//! A DXF file is a list of groups: a line with a code, and a line with a value. A group with code 0 begins a record; the
-//! groups up to the next code 0 belong to it.
+//! A DXF file is a list of groups: a line with a code, and a line with a value. A group with code 0 begins a record;
+//! the groups up to the next code 0 belong to it.
 
 use super::super::limit::MAX_BODIES;
 

@@ -178,7 +178,8 @@ impl<'d> DxfWalk<'d> {
         self.draft.parts.push(new_part(place, form, element));
     }
 
-    /// Reads the entities of the block that an INSERT entity inserts, once for each of its rows and columns.
+    /// Reads the entities of the block that an INSERT entity inserts, once for each place in its grid of rows and
+    /// columns.
     fn insert(&mut self, insert: &Record<'_>, around: &EntityContext) -> Result<(), String> {
         let name = insert.text(2).unwrap_or("");
         let element = described(insert, around);
@@ -316,7 +317,7 @@ impl<'d> DxfWalk<'d> {
             .remark(format!("{}{more}", first.element), why, help);
     }
 
-    /// Adds hatches as outlines, unless they fill outlines that are drawn.
+    /// Adds the boundaries of hatches as outlines, unless they coincide with outlines that are drawn.
     fn add_hatches(&mut self) {
         let mut drawn: Vec<Bounds> = self.draft.parts.iter().filter_map(part_box).collect();
         drawn.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));

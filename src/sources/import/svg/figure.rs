@@ -51,8 +51,8 @@ fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String
 }
 
 impl<'a, 'd> SvgWalk<'a, 'd> {
-    /// Reads one frame of a figure; `frame` is counted from 0, and the default is the last frame. Returns a message if
-    /// there is no such frame.
+    /// Reads one frame of a figure; `frame` is counted from 0, and the default is the last frame. Returns an error
+    /// message if there is no such frame, or if its scale cannot be read.
     pub(super) fn figure(
         &mut self,
         pictures: &[Node<'a, 'd>],
@@ -95,7 +95,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     fn read_groups(&mut self, node: Node<'a, 'd>, around: &Context) {
-        // Figures that drystone draws have no deeper nested groups.
+        // Stop at this depth, because figures that drystone draws have no groups that are nested more deeply.
         if around.depth > 4 {
             return;
         }

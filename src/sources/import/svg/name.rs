@@ -5,7 +5,7 @@ use roxmltree::Node;
 const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
 /// Returns the name that the user gave to an element: the label of Inkscape, the name of Illustrator, or an id that
-/// no program generated.
+/// no program generated. `None` if there is no such name.
 pub(super) fn user_name(node: Node<'_, '_>) -> Option<String> {
     label(node).or_else(|| {
         let id = node.attribute("id").filter(|id| !is_generated(node, id))?;
@@ -13,7 +13,7 @@ pub(super) fn user_name(node: Node<'_, '_>) -> Option<String> {
     })
 }
 
-/// Returns the name that the user gave to an element, or else its generated id.
+/// Returns the name that the user gave to an element, or else its generated id; `None` if it has neither.
 pub(super) fn any_name(node: Node<'_, '_>) -> Option<String> {
     user_name(node).or_else(|| {
         let id = node.attribute("id")?;
@@ -79,7 +79,7 @@ fn unescaped(id: &str) -> String {
     out + rest
 }
 
-/// The offsets of lines, for the line numbers of elements without a name.
+/// The byte offsets at which lines begin, for the line numbers of elements without a name.
 pub(super) struct Lines(Vec<usize>);
 
 impl Lines {

@@ -44,8 +44,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         self.draft.parts.push(part);
     }
 
-    /// Returns the fill colour of a shape. `None` if the shape has no fill. A fill that cannot be a material is
-    /// reported, and the result is also `None`.
+    /// Returns the fill colour of a shape. `None` if the drawing specifies no fill colour. A fill that cannot be a
+    /// material is reported, and the result is also `None`.
     fn fill(&mut self, node: Node<'a, 'd>, around: &Context) -> Option<[u8; 3]> {
         let (kind, why, help) = match around.style.fill {
             Fill::Colour(fill) => return Some(fill),

@@ -1,4 +1,4 @@
-//! [`Viewport`]: converts the lengths and view boxes of an SVG, and finds its physical size.
+//! Converts the lengths and view boxes of an SVG to user units, and finds the physical size of its page.
 
 use core::str::FromStr;
 

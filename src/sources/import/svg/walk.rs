@@ -133,8 +133,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         false
     }
 
-    /// Reads an element and its children. `around` is the context of the element, and `inner` the context of its
-    /// children.
+    /// Reads an element and its children. `around` is the context around the element, and `inner` also has the
+    /// element's own properties.
     fn draw(&mut self, node: Node<'a, 'd>, around: &Context, mut inner: Context) {
         let tag = node.tag_name().name();
         match tag {
@@ -267,7 +267,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         }
     }
 
-    /// For each kind of remarks that are not all listed, adds a remark or note with the number of the unlisted ones.
+    /// For each kind of remarks that are not all listed, adds a remark or note with the number of unlisted remarks.
     pub(super) fn count_unlisted(&mut self) {
         for (kind, times) in &self.remarked {
             let Some(more) = times

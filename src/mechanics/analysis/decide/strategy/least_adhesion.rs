@@ -1,5 +1,5 @@
-//! Program of least adhesion: minimises the sum of the forces by which contacts or robots exceed their limits. Near
-//! the limit of stability, this sum shows more reliably than the solver's status whether it is zero or almost zero.
+//! Program of least adhesion: minimises the sum of the forces by which contacts or robots exceed their limits. Near the
+//! limit of stability, this sum shows more reliably than the solver's status whether the component stands.
 
 use super::Attempt;
 use crate::program::Program;

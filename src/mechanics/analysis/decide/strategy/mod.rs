@@ -1,5 +1,5 @@
-//! The strategies of route 3 and their order. The first one is a closed form; each of the others solves one program for
-//! forces, a motion, or both.
+//! The strategies that decide a component by linear programs (route 3), and their order. The first strategy is a closed
+//! form. Each other strategy solves one program for forces, a motion, or both.
 
 mod determinate;
 mod least_force;
@@ -26,7 +26,7 @@ pub enum Method {
     LeastForce,
     /// By the same program with the solver's own scaling and refinement.
     LeastForceRefined,
-    /// By the program of least residual.
+    /// By the program of least residual, or by the program that finds any balancing forces.
     LeastResidual,
     /// By the program of least adhesion. Its name in results is `least sticking`.
     LeastSticking,
@@ -56,7 +56,7 @@ impl fmt::Display for Method {
 pub(in crate::mechanics::analysis) enum LimitDistance {
     /// Nothing is known.
     Unknown,
-    /// At the limit of stability.
+    /// The component is at its limit of stability, or very near it.
     AtLimit,
 }
 
@@ -65,15 +65,15 @@ pub(in crate::mechanics::analysis) enum LimitDistance {
 pub(super) enum Strategy {
     /// Closed form: forces that balance alone determines, and the mechanism if they are not admissible.
     Determinate,
-    /// Least force, stopped after a few iterations; for large programs.
+    /// The program of least force, stopped after a few iterations; for large programs.
     FirstLook(SolverSettings),
-    /// Least force.
+    /// The program of least force, solved to the end.
     Force(SolverSettings),
-    /// Any forces that balance, regardless of their sum, or a motion.
+    /// The program of any balance: forces that balance, regardless of their sum, or a motion.
     AnyBalance,
-    /// Forces with the least imbalance.
+    /// The program of least residual: the forces with the least imbalance, and a motion.
     Residual,
-    /// Least adhesion.
+    /// The program of least adhesion.
     Adhesion(SolverSettings),
 }
 

@@ -1,4 +1,4 @@
-//! Finds the value nearest to the present one at which a component stands.
+//! Finds the value of a parameter nearest to its present value at which a component stands.
 
 use super::{
     CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH,
@@ -75,7 +75,8 @@ impl Line<'_> {
             .flat_map(|step| [step, -step])
             .map(|step| value + step * self.size(value));
         let mut last = Vec::new();
-        // A range as narrow as rounding may contain only its own ends, such as the factor 0.
+        // If the range from `low` to `high` is as narrow as rounding, no value between them may be left. Try both ends
+        // too.
         let is_near = |end: &f64| (end - value).abs() <= END_TOL * self.size(value);
         let ends = [low, high].into_iter().filter(is_near);
         let away = away.filter(|at| (low..=high).contains(at));

@@ -19,7 +19,7 @@ pub(super) struct SharedForces<'a> {
 }
 
 impl<'a> SharedForces<'a> {
-    /// Pairs the interfaces of both frames; see [`shared_forces`].
+    /// Pairs the interfaces of the two frames with index `number`; see [`shared_forces`].
     pub fn new(sides: [Side<'a>; 2], number: usize) -> SharedForces<'a> {
         let [was, is] = sides.map(|side| {
             let analysis = side.analysis;

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// The smallest and largest radius of the ring around a changed force, in pixels.
 const RING_RADIUS_LIMITS: (f64, f64) = (3.0, 9.0);
 
-/// Returns the radius of the rings in pixels. It is smaller if many rings would overlap.
+/// Returns the radius of the rings in pixels. It is smaller if many rings would overlap. `places` has their centres.
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING_RADIUS_LIMITS;
     let span = |of: fn(&PagePoint) -> f64| {

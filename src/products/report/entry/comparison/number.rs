@@ -1,4 +1,5 @@
-//! Tables that compare two frames in numbers: weight, sums of forces, largest force at an interface, and margins.
+//! Makes the tables that compare two frames in numbers: weight, sums of forces, largest force at an interface, and
+//! margins.
 
 use super::Side;
 use crate::analysis::FrameAnalysis;
@@ -44,7 +45,8 @@ pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntr
     grid
 }
 
-/// Makes a table that compares the margins of two frames, with one row for each margin.
+/// Makes a table that compares the margins of two frames, with one row for each margin. `number` is the index of both
+/// frames.
 pub(super) fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
     let [first, second] =

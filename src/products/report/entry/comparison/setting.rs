@@ -1,5 +1,5 @@
-//! [`Settings`]: differences between the inputs of two frames, apart from their blocks: gravity, kernel, corner
-//! contacts, friction of pairs, loads and robots.
+//! [`Settings`]: the inputs that differ between two frames, apart from their blocks: gravity, kernel, corner contacts,
+//! friction of pairs of materials, loads and robots.
 
 use super::Side;
 use crate::report::entry::Grid;
@@ -13,19 +13,21 @@ use crate::wording::number::{amount, digits, listed, place};
 /// Largest number of differences that a sentence names.
 const MAX_NAMED_DIFFERENCES: usize = 4;
 
-/// The inputs of one frame. Each has a name, a value in words, and the index of the block on which it acts, if any.
+/// The inputs of one frame. Each input has a name, a value in words, and the index of the block on which it acts
+/// (`None` if it acts on no single block).
 type FrameInputs = Vec<(String, String, Option<usize>)>;
 
-/// The inputs that differ, apart from the blocks.
+/// The inputs that differ between two frames, apart from the blocks.
 pub(super) struct Settings {
-    /// The name of an input, its value in the first frame, and its value in the second frame.
+    /// For each input that differs: its name, its value in the first frame, and its value in the second frame.
     lines: Vec<[String; 3]>,
     /// The indices of the blocks whose loads or robots differ, in the first and in the second frame.
     pub blocks: [Vec<usize>; 2],
 }
 
 impl Settings {
-    /// `units` are the units of the values in words. Both sides need the same, because the words are compared.
+    /// Compares the inputs of the two frames with index `number`. `units` are the units of the values in words. They
+    /// are the same for both sides, because the words are compared.
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Settings {
         let [then, now] = sides.map(|side| given(&side.analysis.scene, number, units));
         let mut settings = Settings {

@@ -1,4 +1,5 @@
-//! [`Shapes`]: the blocks that only one of two frames has, and how blocks of the same name differ.
+//! [`Shapes`]: the differences between the blocks of two frames: blocks that only one frame has, and blocks with the
+//! same id that differ.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,8 @@ use crate::text::line;
 use crate::wording::failure::shortened;
 use crate::wording::number::{amount, digits, listed, place};
 
-/// A block counts as moved if its centroid moved by more than `MOVE_TOL` times the largest absolute coordinate in
-/// both scenes.
+/// A block counts as moved if its centroid moved by more than `MOVE_TOL` times the largest absolute coordinate of all
+/// block corners in the two scenes.
 const MOVE_TOL: f64 = 1e-6;
 /// Largest number of blocks that a sentence names.
 const MAX_NAMED_BLOCKS: usize = 6;
@@ -26,12 +27,12 @@ pub(super) struct Shapes {
     pub new_or_changed: Vec<usize>,
     gone: Vec<String>,
     new: Vec<String>,
-    /// The names of changed blocks, each with a description of its changes.
+    /// The ids of changed blocks, each with a description of its changes.
     changed: Vec<(String, String)>,
 }
 
 impl Shapes {
-    /// `units` are the units of the descriptions.
+    /// Compares the blocks of the two frames with index `number`. `units` are the units of the descriptions.
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
@@ -120,8 +121,8 @@ fn max_coordinate(scene: &Scene) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Describes the differences of a block between two scenes; empty if the blocks are equal. `max_coordinate` is the
-/// largest absolute coordinate in both scenes, m.
+/// Describes the differences of a block between two scenes. Returns an empty text if the blocks are equal.
+/// `max_coordinate` is the largest absolute coordinate in the two scenes, m.
 fn differs(was: &Block, is: &Block, max_coordinate: f64, units: UnitsEntry) -> String {
     let mut how = Vec::new();
     let moved = is.centroid - was.centroid;
