@@ -260,6 +260,20 @@ pub fn balanced(words: &str, face: Face, size: f64, room: f64, most: usize) -> V
     lines
 }
 
+/// Breaks a sentence into lines as [`balanced`] does, but keeps each number and the next word, such as its unit, on one
+/// line. The lines contain no [`NO_BREAK`].
+pub fn sentence_lines(words: &str, face: Face, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut unbroken = String::with_capacity(words.len());
+    let mut after_digit = false;
+    for character in words.chars() {
+        let joins = after_digit && character == ' ';
+        unbroken.push(if joins { NO_BREAK } else { character });
+        after_digit = character.is_ascii_digit();
+    }
+    let lines = balanced(&unbroken, face, size, room, most).into_iter();
+    lines.map(|line| line.replace(NO_BREAK, " ")).collect()
+}
+
 /// Returns the first `most` lines. If this leaves out lines, the last returned line ends in "…" and is shortened to at
 /// most `room` pixels.
 pub fn cut(mut lines: Vec<String>, most: usize, face: Face, size: f64, room: f64) -> Vec<String> {

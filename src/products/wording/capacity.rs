@@ -74,21 +74,27 @@ const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
     ([0.0, -1.0], "down"),
 ];
 
-/// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …`. Returns `None` if
-/// the frame falls without a force.
+/// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …, and any force down`.
+/// Returns `None` if the frame falls without a force.
 pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
-    let each = NAMED_DIRECTIONS.map(|(direction, word)| {
+    let (mut limited, mut unlimited) = (Vec::new(), Vec::new());
+    for (direction, word) in NAMED_DIRECTIONS {
         let most = capacity.reach(direction)?;
-        Some(match most.is_finite() {
-            true => format!(
-                "{} {word}",
-                quantity(rounded(most, capacity), scene.units.force())
-            ),
-            false => format!("any force {word}"),
-        })
-    });
-    let each: Option<Vec<String>> = each.into_iter().collect();
-    each.map(|each| format!("at most {}", each.join(", ")))
+        if most.is_finite() {
+            let most = quantity(rounded(most, capacity), scene.units.force());
+            limited.push(format!("{most} {word}"));
+        } else {
+            unlimited.push(word);
+        }
+    }
+    let limited = (!limited.is_empty()).then(|| format!("at most {}", limited.join(", ")));
+    let unlimited = match &unlimited[..] {
+        [] => None,
+        [only] => Some(format!("any force {only}")),
+        [most @ .., last] => Some(format!("any force {} or {last}", most.join(", "))),
+    };
+    let parts: Vec<String> = limited.into_iter().chain(unlimited).collect();
+    Some(parts.join(", and "))
 }
 
 /// Writes the ranges of the horizontal and the vertical component of the force: `Fx from −3 N to 2 N and Fy of at

@@ -53,7 +53,7 @@ fn the_table_has_verdicts_numbers_and_failures() {
         ran.out
     );
     assert!(ran.out.contains("(b) Held"), "{}", ran.out);
-    let limits = "Rigid blocks,\n          laid dry, at rest";
+    let limits = "The blocks are\n          rigid, laid dry and at rest";
     assert!(!ran.out.contains(limits), "only with --explain");
     let explained = bench.run("check --explain falls.json").out;
     assert!(explained.contains(limits), "{explained}");

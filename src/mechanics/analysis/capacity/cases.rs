@@ -18,10 +18,10 @@
 //! are not linear, such as the position of a corner.
 
 use super::refine;
-use super::region::{bounded_polygon, clipped, corners, set_edges, square};
-use super::{CapacityEdge, CapacityError, CapacityVertex, Cases, LoadCapacity};
+use super::region::{SAME_DIRECTION, clipped, corners, half_planes, set_edges, square};
+use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
-use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
+use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
 
 /// The longest piece into which an arc of tilts is divided, degrees.
 const MAX_ARC_DEGREES: f64 = 1.0;
@@ -43,7 +43,7 @@ pub(super) fn intersected(
         for edge in &mut capacity.edges {
             edge.case = number;
         }
-        let is_empty = capacity.vertices.is_empty();
+        let is_empty = capacity.shape() == CapacityShape::Empty;
         all.push(capacity);
         // In this case no additional force can be carried, so the intersection over all cases is empty.
         if is_empty {
@@ -56,13 +56,13 @@ pub(super) fn intersected(
             cases: count,
             ..only
         }),
-        Some(last) if last.vertices.is_empty() => Ok(LoadCapacity {
+        Some(last) if last.shape() == CapacityShape::Empty => Ok(LoadCapacity {
             cases: count,
             ..last
         }),
         Some(last) => {
             all.push(last);
-            Ok(intersection(&all))
+            intersection(&all)
         }
         None => Err(CapacityError::Undecided),
     }
@@ -111,39 +111,30 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
 }
 
 /// Returns the intersection of several load capacities: the forces that belong to each of these sets.
-fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
+fn intersection(all: &[LoadCapacity]) -> Result<LoadCapacity, CapacityError> {
     let forces = || all.iter().flat_map(|c| c.vertices.iter().map(|v| v.force));
     let centre = forces().next().unwrap_or_else(Vector::zeros);
     let size = forces().map(|f| (f - centre).norm()).fold(0.0, f64::max);
     let size = size.max(1e-9 * centre.norm()).max(f64::MIN_POSITIVE);
     let far = RAY_LENGTH_PER_SIZE * size;
-    let mut ring = square(centre, 0.5 * far);
-    for capacity in all.iter().filter(|c| c.rays.len() < 3) {
-        let own: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
-        let inner = bounded_polygon(&own, &capacity.rays, far);
-        for (normal, limit) in half_planes(&inner, refine::ROUNDING_TOL * size) {
-            ring = clipped(&ring, normal, limit);
-        }
-    }
-    let is_far = |force: &&Vector| (*force - centre).amax() > 0.2 * far;
-    let near: Vec<Vector> = ring.iter().filter(|f| !is_far(f)).copied().collect();
-    let outside: Vec<Vector> = ring.iter().filter(is_far).copied().collect();
+    let slack = refine::ROUNDING_TOL * size;
+    let planes: Vec<(Vector, f64)> = all
+        .iter()
+        .flat_map(|capacity| {
+            let own: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
+            half_planes(&own, &capacity.rays, far, slack)
+        })
+        .collect();
     let lines: Vec<CapacityEdge> = all.iter().flat_map(|c| c.edges.clone()).collect();
-    let mut rays: Vec<Vector> = Vec::new();
-    if outside.len() == 4 && near.is_empty() {
-        rays = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
-            .map(|(x, y)| Vector::new(x, y))
-            .to_vec();
-    } else if let Some(middle) = near.first() {
-        let mut directions: Vec<Vector> =
-            outside.iter().map(|f| (f - middle).normalize()).collect();
-        rays.append(&mut widest(&mut directions));
-    }
+    let (forces, rays) = match without_corners(&planes, size) {
+        Some(set) => set,
+        None => with_corners(&planes, centre, far).ok_or(CapacityError::Undecided)?,
+    };
     let tolerance = 1e-7 * size;
-    let vertices = corners(&near, &rays, tolerance)
+    let vertices = corners(&forces, &rays, tolerance)
         .into_iter()
         .map(|k| CapacityVertex {
-            force: near[k],
+            force: forces[k],
             torque: 0.0,
             contacts: Vec::new(),
             proof: None,
@@ -155,13 +146,65 @@ fn intersection(all: &[LoadCapacity]) -> LoadCapacity {
         cases: all.len(),
         ..all[0].clone()
     };
-    if capacity.vertices.is_empty() {
+    if capacity.shape() == CapacityShape::Empty {
         // Each case has a nonempty set of carried forces, but the sets have no force in common.
         capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
-        return capacity;
+        return Ok(capacity);
     }
     set_edges(&mut capacity, &lines, size);
-    capacity
+    Ok(capacity)
+}
+
+/// Returns the intersection of half-planes whose boundaries are all parallel, as corners and rays: everything, a
+/// half-plane, a strip, a line or the empty set. `None` if two boundaries meet. `size` is the size of the sets, N.
+fn without_corners(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector>, Vec<Vector>)> {
+    let Some((normal, _)) = planes.first() else {
+        let all = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        return Some((Vec::new(), all.map(|(x, y)| Vector::new(x, y)).to_vec()));
+    };
+    if planes
+        .iter()
+        .any(|(other, _)| cross(*normal, *other).abs() > SAME_DIRECTION)
+    {
+        return None;
+    }
+    let limit = |sign: f64| {
+        let same = planes
+            .iter()
+            .filter(|(other, _)| sign * other.dot(normal) > 0.0);
+        same.map(|(_, limit)| *limit).reduce(f64::min)
+    };
+    // The set is the forces F with −below ≤ normal · F ≤ above.
+    let above = limit(1.0)?;
+    let along = quarter_turn(*normal);
+    Some(match limit(-1.0) {
+        None => (vec![normal * above], vec![along, -*normal, -along]),
+        Some(below) if above + below < -1e-9 * size => (Vec::new(), Vec::new()),
+        Some(below) => (vec![normal * above, normal * -below], vec![along, -along]),
+    })
+}
+
+/// Returns the intersection of half-planes, two of which have boundaries that meet, as forces and rays. All corners are
+/// among the forces, and there are no forces if the intersection is empty. `None` if the corners are so far from
+/// `centre`, relative to `far`, that they cannot be told from the directions of rays.
+fn with_corners(
+    planes: &[(Vector, f64)],
+    centre: Vector,
+    far: f64,
+) -> Option<(Vec<Vector>, Vec<Vector>)> {
+    let mut ring = square(centre, 0.5 * far);
+    for (normal, limit) in planes {
+        ring = clipped(&ring, *normal, *limit);
+    }
+    let is_far = |force: &&Vector| (*force - centre).amax() > 0.2 * far;
+    let near: Vec<Vector> = ring.iter().filter(|f| !is_far(f)).copied().collect();
+    let Some(middle) = near.first() else {
+        return ring.is_empty().then(|| (Vec::new(), Vec::new()));
+    };
+    let outside = ring.iter().filter(is_far);
+    let mut directions: Vec<Vector> = outside.map(|f| (f - middle).normalize()).collect();
+    let rays = widest(&mut directions);
+    Some((near, rays))
 }
 
 /// Sorts directions anticlockwise, and returns the first and the last. All directions must lie within one half-plane.
@@ -174,36 +217,5 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
         (Some(first), Some(last)) if (first - last).norm() > 1e-4 => vec![*first, *last],
         (Some(first), _) => vec![*first],
         _ => Vec::new(),
-    }
-}
-
-/// Returns the half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex polygon, segment or
-/// point with the corners `ring`. `slack` is added to each limit. Without corners, the list is empty.
-fn half_planes(ring: &[Vector], slack: f64) -> Vec<(Vector, f64)> {
-    let side = |from: Vector, outward: Vector| {
-        let normal = outward.normalize();
-        (normal, normal.dot(&from) + slack)
-    };
-    match ring {
-        [] => Vec::new(),
-        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
-            .map(|(x, y)| side(*point, Vector::new(x, y)))
-            .to_vec(),
-        [a, b] => {
-            let along = b - a;
-            let across = quarter_turn(along);
-            vec![
-                side(*a, across),
-                side(*a, -across),
-                side(*a, -along),
-                side(*b, along),
-            ]
-        }
-        _ => (0..ring.len())
-            .map(|k| {
-                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
-                side(from, -quarter_turn(to - from))
-            })
-            .collect(),
     }
 }

@@ -32,6 +32,10 @@ const NEAR_OUTER: [f64; 3] = [1e-4, 1e-3, 1e-2];
 /// The components of a force on an unbounded edge are limited to this multiple of the largest other force or load.
 const MAX_FORCE_PER_SIZE: f64 = 10.0;
 
+/// Both components of the corner of a half-plane or a strip are limited to this multiple of the distance of its edge from
+/// the force 0. The value is above 1 so that rounding cannot hide the nearest force.
+const NEAREST_REACH: f64 = 1.05;
+
 /// Computes the set of forces that the block of a probe can carry. `None` if no force is carried, if a program has no
 /// result, or if a necessary force has no proof.
 pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
@@ -134,7 +138,12 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
             inside.push(sample(probe, unit(to), reach)?);
             samples.extend(refine(probe, inside, false, reach));
         } else {
-            samples.push(first);
+            // Every force on this edge is a corner. Choose one that is about as small as possible.
+            let nearest = first.half_plane.as_ref().and_then(|line| {
+                let reach = (NEAREST_REACH * line.limit.abs()).max(1e-3 * around);
+                sample(probe, unit(from), Some(reach))
+            });
+            samples.push(nearest.unwrap_or(first));
         }
     }
     let rays = cone.rays();
@@ -208,6 +217,9 @@ impl Cone {
             Cone::Everything => Vec::new(),
             Cone::Line(a) => vec![unit(a), unit(a + PI)],
             Cone::Between(from, to) if to - from <= SAME_ANGLE => vec![unit(0.5 * (from + to))],
+            Cone::Between(from, to) if to - from >= PI - SAME_ANGLE => {
+                vec![unit(from), unit(from + FRAC_PI_2), unit(from + PI)]
+            }
             Cone::Between(from, to) => vec![unit(from), unit(to)],
         }
     }

@@ -36,11 +36,11 @@ pub struct LoadCapacity {
     pub at: Vec<Point>,
     /// The robot whose force this force replaces; `None` if no robot holds the block, or if the request names a point.
     pub robot: Option<RobotId>,
-    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set or if every
-    /// force is carried.
+    /// The corners of the set, anticlockwise; one for a point, two for a segment, none for the empty set and if every
+    /// force is carried. For a half-plane or a line, one force on its boundary; for a strip, one on each side.
     pub vertices: Vec<CapacityVertex>,
-    /// The unit directions in which the set is unbounded, anticlockwise: at most two, or four if every force is
-    /// carried.
+    /// The unit directions in which the set is unbounded, anticlockwise: at most two; three for a half-plane (along its
+    /// edge, inward, and back along its edge), and four if every force is carried.
     pub rays: Vec<Vector>,
     /// The edges of the set, anticlockwise.
     pub edges: Vec<CapacityEdge>,
@@ -137,7 +137,7 @@ impl LoadCapacity {
     /// Returns the kind of this set: empty, a point, a segment, a polygon, unbounded, or every force.
     pub fn shape(&self) -> CapacityShape {
         match (self.vertices.len(), self.rays.len()) {
-            (_, 3..) => CapacityShape::Everything,
+            (_, 4..) => CapacityShape::Everything,
             (_, 1..) => CapacityShape::Unbounded,
             (0, _) => CapacityShape::Empty,
             (1, _) => CapacityShape::Point,
@@ -185,6 +185,13 @@ impl LoadCapacity {
         let mut order: Vec<usize> = (0..self.edges.len()).collect();
         order.sort_by(|a, b| length(b).total_cmp(&length(a)));
         order
+    }
+
+    /// Returns the set as a bounded convex polygon, N: unbounded edges end at a distance of `far` from the corners.
+    #[must_use]
+    pub(crate) fn bounded_polygon(&self, far: f64) -> Vec<Vector> {
+        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
+        region::bounded_polygon(&corners, &self.rays, far)
     }
 
     /// Returns the empty set for a block. `mechanism` is how the frame begins to fall whatever the force is.

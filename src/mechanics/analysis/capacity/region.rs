@@ -3,7 +3,7 @@
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
-use crate::geometry::{Point, Vector, cross, in_half_plane};
+use crate::geometry::{Point, Vector, cross, in_half_plane, quarter_turn};
 use crate::scene::BlockId;
 
 /// Unbounded sets are cut off at this multiple of their size.
@@ -25,9 +25,10 @@ pub(super) fn capacity(
         .iter()
         .map(|k| vertex(&samples[*k], probe))
         .collect();
-    let lines: Vec<(&HalfPlane, usize)> = samples
+    let lines: Vec<CapacityEdge> = samples
         .iter()
-        .filter_map(|s| Some((s.half_plane.as_ref()?, 0)))
+        .filter_map(|s| s.half_plane.as_ref())
+        .map(edge_of)
         .collect();
     let mut capacity = LoadCapacity {
         block,
@@ -40,10 +41,6 @@ pub(super) fn capacity(
         mechanism: Vec::new(),
         cases: 1,
     };
-    if capacity.rays.len() > 2 {
-        return capacity;
-    }
-    let lines: Vec<CapacityEdge> = lines.into_iter().map(edge_of).collect();
     set_edges(&mut capacity, &lines, size.max(1e-3 * probe.heaviest()));
     capacity
 }
@@ -62,7 +59,7 @@ pub(super) fn set_edges(capacity: &mut LoadCapacity, lines: &[CapacityEdge], siz
         let outward = Vector::new(chord.y, -chord.x);
         let faces = lines
             .iter()
-            .filter(|line| ends[0] == ends[1] || line.normal.dot(&outward) > 0.0);
+            .filter(|line| from == to || line.normal.dot(&outward) > 0.0);
         if let Some(line) = faces.min_by(|a, b| off(a).total_cmp(&off(b))) {
             edges.push(CapacityEdge {
                 ends,
@@ -90,14 +87,14 @@ fn vertex(sample: &Sample, probe: &Probe) -> CapacityVertex {
     }
 }
 
-fn edge_of((line, case): (&HalfPlane, usize)) -> CapacityEdge {
+fn edge_of(line: &HalfPlane) -> CapacityEdge {
     CapacityEdge {
         ends: [None; 2],
         normal: line.normal,
         limit: line.limit,
         mechanism: line.motion.clone(),
         proof: line.proof,
-        case,
+        case: 0,
     }
 }
 
@@ -115,6 +112,15 @@ fn sides(
         return sides;
     }
     let side = |k: usize, next: usize| ([Some(k), Some(next)], corners[k], corners[next]);
+    if let Some(along) = opposite(rays) {
+        // A half-plane has one side. A strip has two, and so has a line, which is a strip of width 0.
+        sides.push(([None; 2], corners[0] - along * size, corners[0]));
+        if rays.len() == 2 {
+            let last = corners[count - 1];
+            sides.push(([None; 2], last + along * size, last));
+        }
+        return sides;
+    }
     match rays {
         [] => sides.extend((0..count).map(|k| side(k, (k + 1) % count))),
         [only] => {
@@ -126,12 +132,6 @@ fn sides(
         }
         [first, second, ..] => {
             let last = corners[count - 1];
-            if cross(*first, *second).abs() < 1e-9 && count == 2 {
-                // The set is a strip between two parallel lines.
-                sides.push(([None; 2], corners[0] + second * size, corners[0]));
-                sides.push(([None; 2], last + first * size, last));
-                return sides;
-            }
             sides.push(([None, Some(0)], corners[0] + second * size, corners[0]));
             sides.extend((1..count).map(|k| side(k - 1, k)));
             sides.push(([Some(count - 1), None], last, last + first * size));
@@ -140,12 +140,35 @@ fn sides(
     sides
 }
 
+/// Returns the first ray if the last one is its opposite: the set is then a line or a strip, with two rays, or a
+/// half-plane, with three. It lies to the left of the first ray. `None` for all other sets.
+fn opposite(rays: &[Vector]) -> Option<Vector> {
+    match rays {
+        [first, .., last] if rays.len() < 4 => {
+            ((first + last).norm() <= SAME_DIRECTION).then_some(*first)
+        }
+        _ => None,
+    }
+}
+
 /// Returns the indices of the forces that are corners of the convex hull of `forces` and `rays`, anticlockwise. If the
 /// hull is unbounded, the list begins after the unbounded side. A corner within about `tolerance` of the rest of the
-/// hull may be left out.
+/// hull may be left out. The corner of a half-plane or of a line is a force on its boundary; a strip has one on each
+/// side.
 pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec<usize> {
-    if forces.is_empty() {
+    if forces.is_empty() || rays.len() > 3 {
         return Vec::new();
+    }
+    if let Some(along) = opposite(rays) {
+        let height = |k: &usize| cross(along, forces[*k]);
+        let mut order: Vec<usize> = (0..forces.len()).collect();
+        order.sort_by(|a, b| height(a).total_cmp(&height(b)));
+        let (lowest, highest) = (order[0], order[order.len() - 1]);
+        let is_strip = rays.len() == 2 && height(&highest) - height(&lowest) > tolerance;
+        return match is_strip {
+            true => vec![lowest, highest],
+            false => vec![lowest],
+        };
     }
     let extent = forces.iter().map(|f| (f - forces[0]).norm());
     let far = RAY_LENGTH_PER_SIZE * extent.fold(1e6 * tolerance, f64::max);
@@ -256,11 +279,7 @@ fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -
     for line in lines {
         outer = clipped(&outer, line.normal, line.limit);
     }
-    let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
-    for ray in rays {
-        points.extend(corners.iter().map(|f| (f + ray * (100.0 * size), None)));
-    }
-    let inner: Vec<Vector> = hull(points).into_iter().map(|p| p.0).collect();
+    let inner = bounded_polygon(corners, rays, 100.0 * size);
     outer
         .iter()
         .map(|force| distance(&inner, *force))
@@ -280,6 +299,13 @@ pub(super) fn distance(ring: &[Vector], force: Vector) -> f64 {
 
 /// Returns a bounded convex polygon: the convex hull of the corners and of the corners moved by `far` along each ray.
 pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> Vec<Vector> {
+    let mut rays = rays.to_vec();
+    if let [first, second] = rays[..]
+        && opposite(&rays).is_none()
+    {
+        // Without a ray in the middle, the polygon of two almost opposite rays would be almost flat.
+        rays.push((first + second).normalize());
+    }
     let mut points: Vec<(Vector, Option<usize>)> = corners.iter().map(|f| (*f, None)).collect();
     for ray in rays {
         points.extend(corners.iter().map(|f| (f + ray * far, None)));
@@ -287,10 +313,52 @@ pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> 
     hull(points).into_iter().map(|p| p.0).collect()
 }
 
+/// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
+/// extended along the rays. `slack` is added to each limit. If the set has edges that meet, it is cut off at a distance
+/// of about `far`.
+pub(super) fn half_planes(
+    corners: &[Vector],
+    rays: &[Vector],
+    far: f64,
+    slack: f64,
+) -> Vec<(Vector, f64)> {
+    let side = |from: Vector, outward: Vector| {
+        let normal = outward.normalize();
+        (normal, normal.dot(&from) + slack)
+    };
+    if opposite(rays).is_some() {
+        let sides = sides(corners, rays, 1.0).into_iter();
+        let sides = sides.map(|(_, from, to)| side(to, -quarter_turn(to - from)));
+        return sides.collect();
+    }
+    match bounded_polygon(corners, rays, far)[..] {
+        [] => Vec::new(),
+        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
+            .map(|(x, y)| side(point, Vector::new(x, y)))
+            .to_vec(),
+        [a, b] => {
+            let along = b - a;
+            let across = quarter_turn(along);
+            vec![
+                side(a, across),
+                side(a, -across),
+                side(a, -along),
+                side(b, along),
+            ]
+        }
+        ref ring => (0..ring.len())
+            .map(|k| {
+                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
+                side(from, -quarter_turn(to - from))
+            })
+            .collect(),
+    }
+}
+
 /// True if a force belongs to the convex hull of the corners, extended along the rays.
 pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bool {
-    if rays.len() > 2 || corners.is_empty() {
-        return rays.len() > 2;
+    if rays.len() > 3 || corners.is_empty() {
+        return rays.len() > 3;
     }
     let extent = corners.iter().map(|f| (f - force).norm());
     let extent = extent.fold(0.0, f64::max);
@@ -303,7 +371,7 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
 }
 
 /// Two directions within this angle, in radians, count as equal.
-const SAME_DIRECTION: f64 = 1e-7;
+pub(super) const SAME_DIRECTION: f64 = 1e-7;
 
 /// Returns the largest factor by which a unit direction can be multiplied so that it stays in the convex hull of the
 /// corners, extended along the rays. Infinite if there is no limit. The hull must contain 0.
@@ -314,12 +382,8 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
             cross(*first, direction) >= -SAME_DIRECTION
                 && cross(direction, *second) >= -SAME_DIRECTION
         }
-        // With two opposite rays the set is a line, a strip or a half-plane. A half-plane has only one vertex.
-        [first, second] => {
-            let is_line = (first + second).norm() <= SAME_DIRECTION && corners.len() != 1;
-            !is_line && cross(*first, direction) >= -SAME_DIRECTION
-        }
-        _ => rays.len() > 2,
+        [_, inward, _] => direction.dot(inward) >= -SAME_DIRECTION,
+        _ => rays.len() > 3,
     };
     if is_between || rays.iter().any(is_along) {
         return f64::INFINITY;

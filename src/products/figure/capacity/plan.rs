@@ -298,34 +298,19 @@ fn ring(capacity: &LoadCapacity, cut: f64) -> Vec<Vector> {
     if capacity.rays.is_empty() {
         return capacity.vertices.iter().map(|v| v.force).collect();
     }
-    let far = UNBOUNDED_RATIO * cut;
-    let corners: Vec<Vector> = capacity.vertices.iter().map(|v| v.force).collect();
-    let (Some(from), Some(to)) = (corners.first(), corners.last()) else {
+    if capacity.vertices.is_empty() {
         return Vec::new();
-    };
+    }
+    // `outline` is the unbounded set as a polygon that is cut off far outside the circle.
+    let outline = capacity.bounded_polygon(UNBOUNDED_RATIO * cut);
+    if outline.len() < 3 {
+        return capacity.bounded_polygon(cut);
+    }
     let corner = |k: usize| {
         let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / CIRCLE_CORNERS as f64);
         Vector::new(cos, sin) * cut
     };
     let mut ring: Vec<Vector> = (0..CIRCLE_CORNERS).map(corner).collect();
-    // `outline` is the unbounded set as a polygon that is cut off far outside the circle.
-    let mut outline = corners.clone();
-    match capacity.rays[..] {
-        [only] if corners.len() == 1 => return vec![*from, from + only * cut],
-        [only] => outline.extend([to + only * far, from + only * far]),
-        [first, second] => {
-            let angle = libm::atan2(first.perp(&second), first.dot(&second));
-            let angle = if angle <= 0.0 {
-                angle + std::f64::consts::TAU
-            } else {
-                angle
-            };
-            let (sin, cos) = libm::sincos(0.5 * angle);
-            let middle = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
-            outline.extend([to + first * far, to + middle * far, from + second * far]);
-        }
-        _ => return ring,
-    }
     for (k, a) in outline.iter().enumerate() {
         let along = outline[(k + 1) % outline.len()] - a;
         if along.norm() > 0.0 {

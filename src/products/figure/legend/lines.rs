@@ -9,18 +9,6 @@ const WRAPPED_LINE_HEIGHT: f64 = 1.25;
 /// Smallest width of the text of an entry, pixels.
 const MIN_TEXT_WIDTH: f64 = 60.0;
 
-/// Replaces the space after each number by a non-breaking space, so that the number and the next word stay on one line.
-fn with_unbroken_numbers(words: &str) -> String {
-    let mut unbroken = String::with_capacity(words.len());
-    let mut after_digit = false;
-    for character in words.chars() {
-        let joins = after_digit && character == ' ';
-        unbroken.push(if joins { text::NO_BREAK } else { character });
-        after_digit = character.is_ascii_digit();
-    }
-    unbroken
-}
-
 /// An entry with its text broken into lines.
 struct WrappedEntry<'e> {
     entry: &'e Entry,
@@ -34,17 +22,7 @@ impl<'e> WrappedEntry<'e> {
         let (words, size) = (entry.words(), theme.sizes.key);
         let symbol = entry.symbol_width(theme);
         let left = (room - symbol).max(MIN_TEXT_WIDTH);
-        let lines = text::balanced(
-            &with_unbroken_numbers(&words),
-            Face::Sans,
-            size,
-            left,
-            usize::MAX,
-        );
-        let lines: Vec<String> = lines
-            .iter()
-            .map(|l| l.replace(text::NO_BREAK, " "))
-            .collect();
+        let lines = text::sentence_lines(&words, Face::Sans, size, left, usize::MAX);
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
         let column = entry.column().unwrap_or(0.0).min(room);
         let width = (symbol + widths.fold(0.0, f64::max)).max(column);

@@ -193,7 +193,7 @@ impl Strip<'_> {
         };
         let size = theme.sizes.reason;
         let broken =
-            |words: &str, most| text::balanced(words, Face::Sans, size, layout.panel, most);
+            |words: &str, most| text::sentence_lines(words, Face::Sans, size, layout.panel, most);
         let unseen =
             context.marks[frame].unseen(context.unit, layout.scale, context.analysis.scene.units);
         let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));

@@ -67,7 +67,7 @@ impl Strip<'_> {
         if !self.context.options.captions {
             return Vec::new();
         }
-        text::balanced(
+        text::sentence_lines(
             &self.caption(frame, " "),
             Face::Serif,
             self.context.options.theme.sizes.caption,
