@@ -6,9 +6,12 @@ use drystone::drawing::Group;
 use drystone::figure::{self, Corners, Options};
 use drystone::scene::BlockId;
 
+use serde_json::{Value, json};
+
 use crate::labels::{COLUMN, hidden, ink, texts};
 use crate::lines::contributed;
 use crate::pictures::{gallery, scene};
+use crate::structure::rectangle;
 
 /// A row of the list: its name, and x, y and moment as printed.
 struct Row {
@@ -95,6 +98,20 @@ fn the_printed_forces_and_moments_of_every_block_sum_to_zero() {
         }
     }
     assert!(listed > 1500, "{listed}");
+}
+
+/// With a kernel of 1, the two application points of each interface coincide in its middle. The beam on five posts has
+/// so many interfaces that only their resultants are listed.
+#[test]
+fn the_forces_of_interfaces_with_a_single_application_point_sum_to_zero() {
+    let posts = (0..5).map(|k| rectangle(2.0 * f64::from(k), 0.0, 1.0, 2.0));
+    let polygons = posts.chain([rectangle(0.0, 2.0, 9.0, 1.0)]);
+    let blocks: Vec<Value> = polygons.map(|p| json!({ "polygon": p })).collect();
+    let file = json!({ "drystone": 1, "kernel": 1, "friction": 0.6,
+        "ground": [{ "polygon": rectangle(-1.0, -1.0, 11.0, 1.0) }], "blocks": blocks });
+    let analysis = Analysis::new(&crate::structure::scene(&file));
+    assert_eq!(analysis.frames[0].verdict, Verdict::Stable);
+    assert!(assert_balances("five posts", &analysis, 0, BlockId(5)) >= 12);
 }
 
 #[test]

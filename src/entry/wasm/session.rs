@@ -32,8 +32,9 @@ impl Session {
 
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
     ///
-    /// # Errors Returns the problems of the scene, or a message about an option that does not fit the scene, such as a
-    /// frame that does not exist. The session then keeps the former scene.
+    /// # Errors
+    /// Returns the problems of the scene, or a message about an option that does not fit the scene, such as a frame that
+    /// does not exist. The session then keeps the former scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
         self.analysis = self.options.analysis(scene)?;
         Ok(self.verdict())

@@ -87,6 +87,17 @@ impl Options {
         deadline: None,
     };
 
+    /// Returns the same accuracy and deadline for an analysis that computes the verdict and nothing else.
+    pub(crate) fn only_verdict(self) -> Options {
+        Options {
+            accuracy: self.accuracy,
+            tolerance: self.tolerance,
+            verdict_only: true,
+            deadline: self.deadline,
+            ..Options::PLAIN
+        }
+    }
+
     /// Returns the margins to compute: the requested margins, and the margin whose derivatives are requested. `None` if
     /// neither is requested.
     pub(super) fn wanted_margins(self) -> Option<MarginKinds> {

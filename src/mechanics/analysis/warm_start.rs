@@ -40,7 +40,7 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
     let options = &options.verdict_only(true);
     let found = Interfaces::new(scene);
     if hinges_on_gaps(scene, &found) {
-        let frames = Analysis::with(scene, options).frames;
+        let frames = Analysis::with(scene, &options.only_verdict()).frames;
         return frames.iter().map(|frame| frame.verdict).collect();
     }
     let mut warm_start = WarmStart::default();
@@ -109,8 +109,8 @@ impl WarmStart {
                 return (verdict, Source::WarmStart);
             }
         }
-        let alone = options.verdict_only(true);
-        let verdict = analyse_frame(&context, alone, &mut ResultCache::default()).verdict;
+        let options = options.only_verdict();
+        let verdict = analyse_frame(&context, options, &mut ResultCache::default()).verdict;
         (verdict, Source::Examined)
     }
 

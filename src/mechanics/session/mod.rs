@@ -296,7 +296,7 @@ impl Session {
     /// Computes and stores the verdict on the placed blocks.
     fn update_verdict(&mut self) -> Verdict {
         (self.verdict, self.source) = if hinges_on_gaps(&self.scene, &self.found) {
-            let frames = Analysis::with(&self.scene, &self.options).frames;
+            let frames = Analysis::with(&self.scene, &self.options.only_verdict()).frames;
             let verdict = frames.first().map_or(Verdict::Stable, |f| f.verdict);
             (verdict, Source::Examined)
         } else {

@@ -191,12 +191,16 @@ impl CheckOutcome {
             let words = format!("an orphaned reference: {words}");
             (path.as_path(), words)
         });
-        let faults = self.faults.iter().map(|(path, fault)| {
+        orphans.chain(self.fault_words())
+    }
+
+    /// Iterates over the scenes on which the program failed, with a description of each failure.
+    pub(super) fn fault_words(&self) -> impl Iterator<Item = (&Path, String)> {
+        self.faults.iter().map(|(path, fault)| {
             let of = |p: &Problem| format!("{}; {}", p.message, p.help);
             let words: Vec<String> = fault.list.iter().map(of).collect();
             (path.as_path(), words.join("; "))
-        });
-        orphans.chain(faults)
+        })
     }
 
     /// Iterates over the snapshots with findings.

@@ -65,6 +65,16 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                         (command(&format!("drystone snapshot {places} --accept --only {}", shell(&snapshot.name)), "Accept this one"))
                     }
                 }
+                @if !report.faults.is_empty() {
+                    section {
+                        h2 { "Scenes on which the program failed" }
+                        ul {
+                            @for (path, words) in report.fault_words() {
+                                li { code { (line(&shown(path))) } " " (line(&words)) }
+                            }
+                        }
+                    }
+                }
                 @if !report.orphans.is_empty() {
                     section {
                         h2 { "Orphaned references" }

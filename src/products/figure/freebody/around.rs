@@ -74,7 +74,7 @@ impl Corner {
 ///
 /// Only the sum of the two friction forces is known, because both act along the interface. The sum is divided in
 /// proportion to the normal forces, so that the forces of both ends together act at the resultant of the interface. If
-/// the two ends coincide, the first of them has the whole force.
+/// the two ends coincide, the first of them has the whole force and the second none.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
     // Friction is positive along (−n_y, n_x) on the first body. On the second body, the tangent and the force both
@@ -93,10 +93,10 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
         normal: contact.normal_forces[k],
         friction: friction * share(k),
     };
-    let [mut first, second] = [corner(0), corner(1)];
+    let [mut first, mut second] = [corner(0), corner(1)];
     if distinct(contact).len() == 1 {
-        first.normal = pressed;
-        first.friction = friction;
+        (first.normal, first.friction) = (pressed, friction);
+        (second.normal, second.friction) = (0.0, 0.0);
         return [first, second];
     }
     let normal = if own {

@@ -15,7 +15,10 @@ pub(super) fn reason(
     marks: &Marks,
 ) -> (String, String) {
     let missing = || outer(marks).filter(|arrow| arrow.kind.is_failure());
-    let is_robot = |kind| matches!(kind, ArrowKind::MissingRobotForce(_));
+    let is_robot = |kind| {
+        let torque = matches!(kind, ArrowKind::MissingTorque(_));
+        torque || matches!(kind, ArrowKind::MissingRobotForce(_))
+    };
     let robots = missing().any(|arrow| is_robot(arrow.kind));
     let ground = missing().any(|arrow| !is_robot(arrow.kind));
     let carried = outer(marks).filter(|arrow| !arrow.kind.is_failure());
