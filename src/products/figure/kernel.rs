@@ -113,7 +113,10 @@ impl PanelContent for Kernel {
             }
         }
         let Some((most, contact)) = nearest else {
-            return "every safe part is a point".into();
+            return match bearings.iter().all(Option::is_none) {
+                true => "no interface carries a force".into(),
+                false => "every safe part is a point".into(),
+            };
         };
         let at_end = bearings
             .iter()
