@@ -154,7 +154,7 @@ impl PanelContent for ThrustLine {
             entries.extend(limit_entries(context));
         }
         if schematic {
-            // The symbol of the thickness is explained once.
+            // Only one entry of the legend explains what the thickness of the line means.
             let thick = match through || falls {
                 true => String::new(),
                 false => format!(", this thick for {largest}"),
@@ -193,8 +193,8 @@ impl PanelContent for ThrustLine {
     }
 }
 
-/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force that
-/// the thickest line shows (`largest`).
+/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force
+/// that the thickest line shows (`largest`).
 fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
     let mut frames = 0..context.analysis.frames.len();
     match central_thrust_text(context) {
@@ -206,8 +206,8 @@ fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
     }
 }
 
-/// Returns the arrows of the loads of a frame. The tip of an arrow is at the point where the load acts. The arrow of a
-/// load of `newtons_per_unit` newtons is one unit length long.
+/// Returns the arrows of the loads of a frame, and of their torques. The tip of a straight arrow is at the point where
+/// the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
 pub(crate) fn marks(
     analysis: &Analysis,
     frame: usize,
@@ -238,8 +238,8 @@ pub(crate) fn marks(
     }
 }
 
-/// Returns the load whose arrow is one unit length long, N, so that the arrow of the largest load of a frame has a
-/// readable length. Weights are not loads.
+/// Returns the magnitude, N, of a load whose arrow is one unit length long. It is chosen so that the arrow of the
+/// largest load of a frame has a readable length. Weights are not loads.
 pub(crate) fn load_scale(scene: &Scene, frame: &Frame, options: &Options) -> f64 {
     let loads = scene
         .loads
