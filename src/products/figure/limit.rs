@@ -1,5 +1,5 @@
-//! Finds joints that are at their limit in the forces shown: all friction is used, or the resultant acts at an end of
-//! the interface.
+//! Finds the joints and robots that are at a limit in the forces that a figure shows, and provides their symbols and
+//! texts. A joint is at its limit if all its friction is used, or if the resultant acts at an end of the interface.
 
 use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
@@ -14,13 +14,13 @@ use crate::scene::{RobotId, Scene};
 /// length.
 const EDGE_TOL: f64 = 0.01;
 
-/// How near a joint is to its limits of friction and of position. Each value is 1 at the limit.
+/// How near a joint is to its two limits: sliding, and opening at an end. Each value is 1 at the limit.
 struct Nearness<'a> {
     contact: &'a Contact,
     /// The used fraction of the available friction; 0 if no friction is available.
     friction: f64,
-    /// The distance of the resultant from the middle, as a fraction of the distance from the middle to the edge; 0
-    /// for a corner.
+    /// The distance of the resultant from the middle of the interface, as a fraction of the distance from the middle to
+    /// an end; 0 for a contact at a corner.
     edge: f64,
 }
 
@@ -35,7 +35,8 @@ impl Nearness<'_> {
     }
 }
 
-/// Returns how near each joint with a force is to its limits. The list is empty if the frame is not stable.
+/// Returns how near each joint that transmits a force is to its limits. The list is empty if the verdict of the frame
+/// is not stable.
 fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
     if frame_analysis.verdict != Verdict::Stable {
         return Vec::new();
@@ -73,7 +74,8 @@ pub(crate) fn has_limits(scene: &Scene, robot: RobotId) -> bool {
     finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
 }
 
-/// Returns the robots that use all of a limit in a frame. The list is empty if the frame does not stand.
+/// Returns the robots whose force or torque reaches one of their limits in a frame. The list is empty if the frame does
+/// not stand.
 pub(crate) fn robots_reached<'a>(
     scene: &Scene,
     frame_analysis: &'a FrameAnalysis,
@@ -91,11 +93,11 @@ const EQUAL_SHARE_TOL: f64 = 1e-6;
 /// numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// Largest number of joints at their limit that are named.
+/// If more joints than this are at their limit, the text only gives their number.
 const MAX_NAMED: usize = 3;
 
-/// Returns the joints that the figure marks: all joints at their limit. If there is none, returns the joint nearest to
-/// its limit, provided that the text of the figure names it.
+/// Returns the joints that the figure marks: all joints at their limit. If no joint is at its limit, returns the joint
+/// nearest to its limit, provided that the text of the figure names this joint.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<MarkedJoint<'a>> {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, frame_analysis);
@@ -111,7 +113,8 @@ pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<Ma
 /// A joint that figures mark with a diamond.
 pub(crate) struct MarkedJoint<'a> {
     pub contact: &'a Contact,
-    /// `true` at the limit (full diamond); `false` for the joint nearest to its limit (open diamond).
+    /// `true` if the joint is at its limit (filled diamond); `false` if no joint is, and this joint is nearest to its
+    /// limit (open diamond).
     pub reached: bool,
 }
 
@@ -130,7 +133,8 @@ impl<'a> MarkedJoint<'a> {
     }
 }
 
-/// Returns the joint nearest to its limit; `None` if every joint is far from its limit.
+/// Returns the joint that is nearest to one of its limits, or at a limit. Returns `None` if the value
+/// [`Nearness::share`] of every joint is below [`MIN_NAMED_SHARE`].
 fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
     // If several joints are equally near to their limits except for rounding, take the first, so that rounding errors
     // do not change the result.
@@ -139,16 +143,16 @@ fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
 }
 
-/// True if the text of a figure names the joint nearest to its limit. False for printed or zoomed figures. Also false
-/// for several panels, because they have no space for this text.
+/// True if the text of a figure names joints at or near their limits. False for figures in the style of the thesis and
+/// for zoomed figures. Also false for several frames, because their panels have no space for this text.
 fn names_nearest(context: &FigureContext<'_>) -> bool {
     let options = context.options;
     context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
 }
 
 /// Describes the joints at their limit, or the joint nearest to its limit if none is at its limit. The text is empty if
-/// every joint is far from its limit. It is also empty for printed or zoomed figures, and for several frames, whose
-/// panels have no space for it.
+/// the frame does not stand, or if every joint uses less than 1 % of its limits. It is also empty for figures in the
+/// style of the thesis, for zoomed figures, and for several frames, whose panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let all = nearness(scene, frame_analysis);
@@ -181,21 +185,22 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     }
 }
 
-/// Least half of a diagonal of a diamond, pixels.
+/// Least distance from the centre of a diamond to its corners, pixels.
 const LEAST_DIAMOND: f64 = 2.9;
 
-/// Returns the symbol of a joint or a robot at its limit: a filled diamond. `radius` is in pixels.
+/// Returns the symbol of a joint or a robot at its limit: a filled diamond. For the meaning of `radius`, see [`reach`].
 pub(crate) fn symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(diamond(at, reach(radius)), theme.ink).cased(theme.page, 0.35 * radius)
 }
 
-/// Returns the symbol of the joint nearest to its limit: an open diamond. `radius` is in pixels.
+/// Returns the symbol of the joint nearest to its limit: an open diamond. For the meaning of `radius`, see [`reach`].
 fn open_symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     let outline = diamond(at, reach(radius));
     Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
 }
 
-/// Returns half the diagonal of the diamond, in pixels. In small pictures it is larger than a dot.
+/// Returns the distance from the centre of a diamond to its corners, in pixels. This is 1.5 times `radius` (pixels),
+/// but at least [`LEAST_DIAMOND`], so that a diamond is visible in a small picture.
 pub(crate) fn reach(radius: f64) -> f64 {
     (1.5 * radius).max(LEAST_DIAMOND)
 }
@@ -210,14 +215,14 @@ pub(crate) fn key_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![symbol(at.moved(5.5, 0.0), 3.2, theme).into()]
 }
 
-/// The meaning of the symbol in the legend.
+/// The legend text for filled diamonds at joints.
 pub(crate) const LEGEND_TEXT: &str = "joint at its limit: friction used up, or force at the edge";
-/// The same in a column of print.
+/// A shorter form of [`LEGEND_TEXT`], for a page as narrow as a column of print.
 pub(crate) const SHORT_LEGEND_TEXT: &str = "joint at its limit";
-/// The meaning of the symbol on the disc of a robot.
+/// The legend text for filled diamonds on the discs of robots.
 pub(crate) const ROBOT_LEGEND_TEXT: &str = "robot at its limit";
-/// The meaning of the symbol if it occurs on joints and on robots.
+/// The legend text if filled diamonds occur on joints and on robots.
 pub(crate) const JOINT_AND_ROBOT_LEGEND_TEXT: &str =
     "robot at its limit, or joint: friction used up, or force at the edge";
-/// The same in a column of print.
+/// A shorter form of [`JOINT_AND_ROBOT_LEGEND_TEXT`], for a page as narrow as a column of print.
 pub(crate) const SHORT_JOINT_AND_ROBOT_LEGEND_TEXT: &str = "joint or robot at its limit";

@@ -1,5 +1,5 @@
-//! Draws the loads of a frame as arrows, and adapts these arrows to the arrows of other forces: their length, and the end
-//! that touches the point where the load acts.
+//! Draws the loads of a frame as arrows, and changes these arrows so that a reader can see them next to other arrows: makes
+//! short arrows longer, and moves arrows along their lines of action away from weights and missing forces.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::mark;
@@ -10,15 +10,15 @@ use crate::analysis::Analysis;
 use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::Point;
 
-/// Distance from the centre of the circle of a weight to the tip of a load that acts there, as a multiple of the radius
-/// of the circle. It is above 1 because circles are drawn larger in small figures.
+/// Distance from the circle around the tail of a weight to the tip of a load that acts there. The distance is measured
+/// from the centre of the circle, as a multiple of its radius. It is above 1 because small figures draw larger circles.
 const TIP_DISTANCE: f64 = 1.35;
 
-/// The number of points of a load's arrow for which the distance from other arrows is measured.
+/// The number of sections of a load's arrow. [`covers`] measures the distance from other arrows at their ends.
 const TESTED_POINTS: u32 = 24;
 
-/// Returns the arrows of the loads of a frame, and nothing else. The tip of an arrow is at the point where the load acts.
-/// The arrow of a load of `newtons_per_unit` newtons is one unit length long.
+/// Returns the arrows of the loads of a frame, and of their torques, and no other arrows. The tip of a straight arrow is
+/// at the point where the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
 pub(super) fn loads_alone(
     analysis: &Analysis,
     frame: usize,
@@ -60,7 +60,7 @@ pub(super) fn load_scale(analysis: &Analysis, frame: usize, options: &Options) -
 }
 
 /// Makes the arrows of loads longer if the longest of them is shorter than `least` metres, so that their directions are
-/// visible. The factor is the same for all frames in `marks`.
+/// visible. All arrows of loads are multiplied by one factor. `marks` has one element for each frame.
 pub(super) fn lengthen_loads(marks: &mut [Marks], least: f64) {
     let arrows = marks.iter_mut().flat_map(|marks| &mut marks.arrows);
     let loads = arrows.filter(|arrow| arrow.kind == ArrowKind::Load);
@@ -73,8 +73,9 @@ pub(super) fn lengthen_loads(marks: &mut [Marks], least: f64) {
     }
 }
 
-/// Moves each load that would begin at the centroid of a block, on the circle of the weight, along its line of action:
-/// its tip then touches this circle. Loads and a weight that all begin at one point would hide each other.
+/// Moves the arrow of each load that begins inside the circle at the tail of a weight. The arrow moves along its line
+/// of action, so that its tip is just outside this circle. Otherwise loads and a weight that begin at the same point
+/// would hide each other.
 pub(super) fn uncover_from_weights(marks: &mut Marks) {
     let weights = marks.arrows.iter().filter(|a| a.kind == ArrowKind::Weight);
     let circle = |weight: &ForceArrow| (weight.at, CENTROID_RADIUS * weight.width);
@@ -92,9 +93,9 @@ pub(super) fn uncover_from_weights(marks: &mut Marks) {
     }
 }
 
-/// If missing forces cover the arrow of a load, all loads of the frame are drawn with their tips at the points where
-/// they act, provided that fewer arrows are covered then. Otherwise their tails are at these points. In both cases the
-/// arrows lie on the lines of action of the loads.
+/// Moves the arrows of all loads of a frame so that their tips, not their tails, are at the points where the loads act.
+/// This is only done if missing forces then cover fewer arrows of loads. In both cases the arrows lie on the lines of
+/// action of the loads.
 pub(super) fn uncover_from_missing_forces(marks: &mut Marks) {
     let of = |missing: bool| {
         let arrows = marks.arrows.iter();

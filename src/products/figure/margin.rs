@@ -1,10 +1,10 @@
 //! Draws a collapse margin: the structure in its present position, and dashed lines that show how it would fall just
 //! beyond the margin.
 //!
-//! The options choose the [parameter](Toward). The figure shows how the structure would fall at the end of the interval
-//! that is nearer to the present state, and in pale dashes how it would fall at the other end. If gravity is turned or a
-//! horizontal load is added, [`gravity`] shows both ends by arrows. If loads grow, they are drawn with their present
-//! magnitudes. The blocks are drawn in their present positions.
+//! The options choose the [parameter](Toward). The structure stands for an interval of values of this parameter. Dashed
+//! outlines show how it would fall beyond the end that is nearer to the present state; for the load factor, beyond the
+//! upper end. Pale dashed outlines show how it would fall beyond the other end. If gravity is turned or a horizontal
+//! load is added, arrows show the values at both ends ([`gravity`]). Loads are drawn with their present magnitudes.
 
 mod gravity;
 mod reason;
@@ -64,7 +64,7 @@ impl PanelContent for CollapseMargin {
         let toward = context.options.toward;
         let copies = falling_copies(context.analysis, frame, toward);
         let mut parts = Vec::new();
-        // The copy at the farther end is below the copy at the nearer end.
+        // The outlines for the farther end are drawn first, so that they lie below the outlines for the nearer end.
         for (number, (ghost, _)) in copies.iter().enumerate().rev() {
             parts.push(ghosts(pen, ghost, GHOSTS[number.min(1)]));
         }
@@ -108,7 +108,8 @@ impl PanelContent for CollapseMargin {
     }
 }
 
-/// Returns the legend entry for the arrows of a parameter; `None` for the load factor.
+/// Returns the legend entry for the arrows that show the value of the parameter; `None` for the load factor, which has
+/// no such arrows.
 fn parameter_entry(toward: Toward) -> Option<Entry> {
     let entry = |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| {
         Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
@@ -126,9 +127,9 @@ fn parameter_entry(toward: Toward) -> Option<Entry> {
     }
 }
 
-/// Returns a pair for each end of the margin, the nearer end first: a copy of the analysis in which the frame falls by
-/// the mechanism just beyond this end, and the value of the parameter at this end. The list is empty if the frame does
-/// not stand, or if there is no margin.
+/// Returns a pair for each end of the interval at which a mechanism is known: a copy of the analysis in which the frame
+/// falls by the mechanism just beyond this end, and the value of the parameter at this end. The end nearer to the
+/// present state comes first; for the load factor, the upper end. The list is empty if the frame does not stand.
 fn falling_copies(analysis: &Analysis, frame: usize, toward: Toward) -> Vec<(Analysis, f64)> {
     let stands = |found: &FrameAnalysis| found.verdict == Verdict::Stable;
     if !analysis.frames.get(frame).is_some_and(stands) {
@@ -144,10 +145,10 @@ fn falling_copies(analysis: &Analysis, frame: usize, toward: Toward) -> Vec<(Ana
     edges.map(copy).collect()
 }
 
-/// How the displaced blocks at an end of the margin are drawn.
+/// How the displaced blocks for one end of the interval are drawn.
 #[derive(Clone, Copy)]
 struct GhostStyle {
-    /// The title of the outlines.
+    /// The tooltip of the outlines.
     title: &'static str,
     /// How much of the colour of the page the outlines contain, from 0 to 1.
     paleness: f64,
@@ -155,7 +156,7 @@ struct GhostStyle {
     dashes: [f64; 2],
 }
 
-/// The displaced blocks at the nearer and at the farther end of the margin.
+/// The styles of the displaced blocks for the nearer and for the farther end of the interval.
 const GHOSTS: [GhostStyle; 2] = [
     GhostStyle {
         title: "How it would begin to fall",
@@ -169,7 +170,7 @@ const GHOSTS: [GhostStyle; 2] = [
     },
 ];
 
-/// Draws the outlines of the blocks of a falling copy in their displaced positions.
+/// Draws the outlines of the blocks of `copy` in their displaced positions. `copy` comes from [`falling_copies`].
 fn ghosts(pen: &Pen<'_>, copy: &Analysis, style: GhostStyle) -> Group {
     let displaced = Course::new(copy, pen.number, pen.context.unit).at(1.0);
     let mut outline = Outline::default();

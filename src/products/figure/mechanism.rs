@@ -5,8 +5,8 @@
 //! visibility, but blocks do not visibly overlap. For each part that falls one elementary mechanism is drawn
 //! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). In the motion that proves a fall, a sliding
 //! block also lifts, by μ per metre of sliding. If possible, the block is drawn sliding along its joint; otherwise
-//! the legend states that it lifts. With a kernel, a block turns about an end of the safe part, and its corner moves
-//! into its neighbour, because the analysis only allows contact forces in the safe part.
+//! the legend states that it lifts. If the scene only allows contact forces in a safe part of each interface (the key
+//! `kernel`), a block turns about an end of this safe part. Its corner is then drawn inside the neighbouring block.
 
 mod joint_mark;
 
@@ -30,7 +30,7 @@ use crate::geometry::Bounds;
 use crate::scene::BlockId;
 use crate::wording;
 
-/// Returns a box around all displaced blocks, metres; `None` if no block is displaced.
+/// Returns a box around all displaced blocks in their displaced positions, metres; `None` if no block is displaced.
 pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {
     let blocks = displaced.iter().zip(&analysis.scene.blocks);
     let moved = blocks.filter_map(|(displacement, block)| Some((displacement.as_ref()?, block)));
@@ -191,7 +191,7 @@ fn displaced(pen: &Pen<'_>) -> Vec<Item> {
         .collect()
 }
 
-/// Width of the sign of a block in the legend, pixels.
+/// Width of the symbol of a block in the legend, pixels.
 const SYMBOL_WIDTH: f64 = 20.0;
 
 fn ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {

@@ -56,8 +56,8 @@ pub enum Fill {
     /// No quantity: blocks have one plain colour.
     None,
     /// The rule of the thesis, in its colours. A block that a robot holds shows the used fraction of the limits of
-    /// this robot. Any other block shows its amplitude as a fraction of the smallest limit of all robots. If no robot
-    /// has a limit, the amplitude is shown as a fraction of the largest amplitude.
+    /// this robot. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If no
+    /// robot has a force limit, every block shows its amplitude as a fraction of the largest amplitude.
     Source,
 }
 
@@ -65,8 +65,8 @@ pub enum Fill {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Corners {
-    /// For at most three interfaces, the forces at both ends of each interface. For more interfaces, one force for
-    /// each. Forces that are zero are left out.
+    /// For a block with at most three interfaces, the forces at both ends of each interface. For a block with more
+    /// interfaces, one force for each interface. Forces that are zero are left out.
     #[default]
     Few,
     /// Every unknown force at every end of an interface with its name, even if it is zero. The lengths of arrows then
@@ -108,17 +108,21 @@ pub struct Options {
     pub scale_bar: bool,
     /// Whether dimension lines show the width and height of all blocks of a frame.
     pub dimensions: bool,
-    /// Whether [`Kind::Thrust`](super::Kind::Thrust) shows the force polygon next to the structure: a load line, a
+    /// Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon next to the structure: a load line, a
     /// pole, and a ray for each joint.
     pub with_polygon: bool,
-    /// The block in the centre of a zoomed picture, which shows only its surroundings. `None` for the whole structure.
+    /// The block in the centre of a zoomed picture. The picture only shows this block and its surroundings. `None` for
+    /// the whole structure.
     pub zoom: Option<BlockId>,
-    /// Whether blocks and robots have labels with their names, in frames with at most 60 blocks.
+    /// Whether blocks and robots have labels with their names, and loads, missing forces and the largest forces have
+    /// labels with their magnitudes. In frames with more than 60 blocks, most blocks have no names.
     pub labels: bool,
-    /// Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.
+    /// Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks. If a frame has more than
+    /// 200 magnitudes, only the largest are written.
     pub amounts: bool,
-    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width, but on a
-    /// page as narrow as a column of print, key and text become smaller if they would need more space than the picture.
+    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width. Only on a
+    /// page as narrow as a column of print, the texts around the picture become smaller if they would need more space
+    /// than the picture.
     pub width: Option<f64>,
     /// Largest height of the picture of a frame without its legend, pixels. `None` to choose it by the number of
     /// frames.
@@ -153,7 +157,7 @@ impl Default for Options {
     }
 }
 
-/// A page narrower than this, pixels (110 mm), is a column of print.
+/// A page narrower than this, pixels, is a column of print. In print, this width is 110 mm.
 const PRINT_COLUMN: f64 = 520.0;
 
 impl Options {
@@ -173,19 +177,19 @@ impl Options {
         scale_bar: bool, "Whether a scale bar in metres is drawn.";
         dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
         with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon.";
-        labels: bool, "Whether blocks and robots have labels with their names, in frames with at most 60 blocks.";
-        amounts: bool, "Whether arrows have labels with their magnitudes, in frames with at most 60 blocks.";
+        labels: bool, "Whether blocks and robots have labels with their names, and the main forces with magnitudes.";
+        amounts: bool, "Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks.";
     }
 
     optional_setters! {
         columns: usize, "The number of panels in a row.";
-        zoom: BlockId, "The block in the centre of a zoomed picture, which shows only its surroundings.";
-        width: f64, "Width of the page, pixels. Only key and text of narrow pages with flat pictures become smaller.";
+        zoom: BlockId, "The block in the centre of a zoomed picture. The picture only shows its surroundings.";
+        width: f64, "Width of the page, pixels. Font sizes only become smaller on narrow pages with flat pictures.";
         height: f64, "Largest height of the picture of a frame without its legend, pixels.";
     }
 
-    /// True if arrows look as in the printed figures of the thesis: separate components of forces at the scale of the
-    /// thesis.
+    /// True if arrows look as in the printed figures of the thesis: separate arrows for the components of forces, at
+    /// the scale of the thesis.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
     }

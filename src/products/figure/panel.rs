@@ -46,7 +46,7 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     if !too_small && !many && !context.options.printed() {
         group.items.push(limits(pen, &mut ink).into());
     }
-    // Where no arrow is drawn, a label at its joint names the largest contact force, if there is room for it.
+    // If the arrows are left out because they are too small, a label at a joint states the largest contact force.
     let callouts = match too_small && context.analysis.frames.len() == 1 {
         true => {
             let found = &context.analysis.frames[pen.number];
@@ -63,9 +63,9 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
     group
 }
 
-/// Draws filled diamonds at the joints and the robots that are at their limit. If no joint is, draws an open diamond
-/// at the joint nearest to its limit if the text of the figure names this joint. Draws nothing for a frame that does
-/// not stand.
+/// Draws filled diamonds at the joints and the robots that are at their limit. If no joint is at its limit, draws an
+/// open diamond at the joint nearest to its limit, provided that the text of the figure names this joint. Draws nothing
+/// for a frame that does not stand.
 fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let frame_analysis = &pen.context.analysis.frames[pen.number];
@@ -86,8 +86,8 @@ fn limits(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     group
 }
 
-/// Draws a filled diamond on the disc of each robot that uses all of a limit. Draws nothing for a frame that does not
-/// stand.
+/// Draws a filled diamond on the disc of each robot whose force or torque reaches one of its limits. Draws nothing for
+/// a frame that does not stand.
 pub(crate) fn robot_limits(pen: &Pen<'_>, ink: &mut Ink) -> Vec<Item> {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let frame_analysis = &pen.context.analysis.frames[pen.number];
@@ -103,13 +103,13 @@ pub(crate) fn robot_limits(pen: &Pen<'_>, ink: &mut Ink) -> Vec<Item> {
     reached.map(mark).collect()
 }
 
-/// Returns the radius of the marks of limits, in pixels.
+/// Returns the radius from which [`limit::reach`] computes the size of diamonds, in pixels.
 fn limit_radius(pen: &Pen<'_>) -> f64 {
     (0.06 * pen.unit()).clamp(1.6, 3.2)
 }
 
-/// Cuts the ground at the right and the lower edge of the part that figures show, so that marks beyond these edges do
-/// not seem to stand on the ground.
+/// Cuts off the ground of a picture beyond the right and the lower edge of [`view::ground_shown`], so that marks beyond
+/// these edges do not seem to stand on the ground.
 pub(crate) fn cut_ground(pen: &Pen<'_>, picture: &mut Group) {
     let scene = &pen.context.analysis.scene;
     let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {

@@ -24,8 +24,8 @@ use crate::geometry::{Bounds, Vector};
 const PARALLEL_ANGLE: f64 = 0.12;
 /// Gap between two parallel arrows, in widths of the wider shaft.
 pub(super) const ARROW_GAP: f64 = 0.4;
-/// Candidates are first taken from arrows within this distance, in widths of the arrow, and only then from all arrows
-/// of the frame. This order saves time and does not change the result; see `offset_of_least_change`.
+/// Candidates are first taken from arrows within this distance, in widths of the arrow's shaft, and only then from all
+/// arrows of the frame. This order saves time and does not change the result; see `offset_of_least_change`.
 const NEARBY_DISTANCE: f64 = 24.0;
 /// Largest number of candidates that are tried. If none of them is free, the page is full at this position, and the
 /// arrow is drawn at its ideal offset.
@@ -34,13 +34,13 @@ const MAX_CANDIDATES: usize = 1000;
 /// The number of candidates grows with the square of the number of arrows on one line: 3000 loads on a block would
 /// have about ten million.
 const MAX_CANDIDATES_PER_FRAME: usize = 1_000_000;
-/// In frames with more arrows, no arrows are moved, because nobody can follow a single arrow there.
+/// In frames with more arrows than this, no arrows are moved, because a reader cannot distinguish single arrows there.
 const MAX_ARROWS: usize = 4000;
 /// Distances from the ideal offset are rounded to this fraction of a shaft's width. Rounding errors must not decide
 /// between two offsets at the same distance.
 const OFFSET_RESOLUTION: f64 = 1e-6;
-/// Relative tolerance of the least allowed distance. A candidate lies exactly at this distance, and a rounding error
-/// must not reject it.
+/// Relative tolerance of the minimum distance between two arrows. A candidate lies exactly at this distance, and a
+/// rounding error must not reject it.
 const CLEAR_TOL: f64 = 1e-6;
 
 /// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other.
@@ -79,9 +79,9 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     }
 }
 
-/// Returns the sideways offset of an arrow in metres, positive to its left. Of the candidates at which the arrow
-/// keeps the least distance from all placed parallel arrows, the result is the nearest to `ideal`. Returns `ideal` if
-/// there is no such candidate. Adds the number of candidates found, tried or not, to `candidates`.
+/// Returns the sideways offset of an arrow in metres, positive to its left. Of the candidates at which the arrow is not
+/// too close to a placed parallel arrow, the result is the one nearest to `ideal`. Returns `ideal` if there is no such
+/// candidate. Adds the number of candidates, tried or not, to `candidates`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -160,13 +160,13 @@ fn across(arrow: &ForceArrow) -> Option<Vector> {
     (length > 0.0).then(|| Vector::new(-reach.y, reach.x) / length)
 }
 
-/// True if two arrows are parallel and closer to each other than the least allowed distance.
+/// True if two arrows are parallel and closer to each other than the minimum distance of [`side_by_side`].
 fn too_close(a: &ForceArrow, b: &ForceArrow) -> bool {
     side_by_side(a, b).is_some_and(|(needed, distance)| distance < needed * (1.0 - CLEAR_TOL))
 }
 
-/// Returns the least allowed distance and the actual distance of the axes of two parallel arrows, in metres. Returns
-/// `None` if the arrows are not parallel or lie one behind the other.
+/// Returns the minimum distance that the axes of two parallel arrows need so that the arrows do not overlap, and their
+/// actual distance, in metres. Returns `None` if the arrows are not parallel or lie one behind the other.
 fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
     let (u, v) = (a.reach(), b.reach());
     let (long, other) = (u.norm(), v.norm());

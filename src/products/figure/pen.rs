@@ -23,15 +23,16 @@ pub(crate) const DOT_RADIUS: f64 = 2.8;
 /// Radius of the dot of a missing force that is too small for an arrow, pixels.
 pub(crate) const MISSING_RADIUS: f64 = 1.6;
 
-/// If a unit length is shorter than this, pixels, single arrows cannot be read, and small symbols on arrows are left out.
+/// If the unit length is shorter than this, pixels, single arrows cannot be read, and small symbols on arrows are left
+/// out.
 pub(crate) const MIN_READABLE_UNIT_LENGTH: f64 = 20.0;
 /// Opacity of the fill of a displaced block.
 pub(crate) const DISPLACED_OPACITY: f64 = 0.38;
-/// If a unit length is at least this long, pixels, outlines have their full width.
+/// If the unit length is at least this long, pixels, outlines have their full width.
 const FULL_OUTLINE_UNIT_LENGTH: f64 = 1.5 / 0.028;
-/// If a unit length is at least this long, pixels, borders of arrows have their full width.
+/// If the unit length is at least this long, pixels, borders of arrows have their full width.
 const FULL_CASING_UNIT_LENGTH: f64 = 0.9 / 0.012;
-/// Least width of a shaft, pixels, if blocks are large enough for it.
+/// Shafts narrower than this, pixels, are drawn wider, by a factor of at most 1.35, unless blocks are very small.
 const MIN_SHAFT_WIDTH: f64 = 2.5;
 
 /// Converts a colour of a scene file to a colour of a drawing.
@@ -61,13 +62,14 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
     outline
 }
 
-/// Draws the parts of a frame's picture.
+/// Draws the parts of the picture of one frame.
 pub(crate) struct Pen<'a> {
     pub context: &'a FigureContext<'a>,
     /// The index of the frame, from 0.
     pub number: usize,
     pub camera: &'a Camera,
-    /// The position of each block in the placing order, indexed by block; `None` for a block that is not placed.
+    /// The position of each block in the placing order, from 0, indexed by block; `None` for a block that is not
+    /// placed.
     places: Vec<Option<usize>>,
     /// The displacements of the blocks, indexed by block; `None` for a block that is not displaced. The list may be
     /// shorter than the number of blocks.
@@ -138,7 +140,7 @@ impl<'a> Pen<'a> {
         self.displaced.get(id.0)?.as_ref()
     }
 
-    /// Returns the displaced position of a point of a block, metres.
+    /// Returns the displaced position of a point of a block, metres. If the block is not displaced, returns the point.
     pub(crate) fn moved(&self, id: BlockId, point: Point) -> Point {
         self.displacement(id).map_or(point, |d| d.moved(point))
     }
@@ -208,7 +210,8 @@ impl<'a> Pen<'a> {
         )
     }
 
-    /// Draws the blocks that are not displaced. Each block has a tooltip.
+    /// Draws the blocks that are not displaced, each with a tooltip, and the contacts that the scene file lists. In
+    /// frames with very many blocks, draws only the blocks, without separate tooltips.
     pub(crate) fn blocks(&self) -> Group {
         if self.many() {
             return self.blocks_by_colour();
@@ -243,7 +246,8 @@ impl<'a> Pen<'a> {
         group
     }
 
-    /// Like [`Pen::blocks`], for frames with very many blocks: draws all blocks of one colour as one path.
+    /// Draws the blocks that are not displaced, for frames with very many blocks: all blocks of one colour are one
+    /// path.
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];

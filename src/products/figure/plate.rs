@@ -1,4 +1,4 @@
-//! [`plate`]: draws frames of several scenes on one page, all at the same scale and with one legend below.
+//! [`plate`]: draws frames of several scenes as panels on one page, all at the same scale and with one legend below.
 
 use super::context::FigureContext;
 use super::forces::FORCES;

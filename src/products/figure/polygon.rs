@@ -4,8 +4,8 @@
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
 //! finally missing forces from the ground and from robots, which are hollow and dashed. The polygon is closed if the
 //! structure is in equilibrium. Forces that are missing between two blocks are no sides, because they act in opposite
-//! pairs. If no other forces are missing, the polygon of a structure that falls is closed too. Each arrow has the same colour and force as on the structure.
-//! The polygon has its own scale, which the legend shows.
+//! pairs. If no other forces are missing, the polygon of a structure that falls is closed too. Each arrow has the same
+//! colour and force as on the structure. The polygon has its own scale, which the legend shows.
 
 mod closure;
 mod symbol;
@@ -40,8 +40,8 @@ const POLYGON_HEIGHT: f64 = 0.4;
 const SCALE_ARROW: f64 = 64.0;
 /// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit lengths.
 const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
-/// A polygon is closed if its gap is at most this fraction of the sum of all forces. Rounding errors are far smaller,
-/// and missing forces are far larger.
+/// A polygon is closed if its gap is at most this fraction of the sum of the magnitudes of all forces. Rounding errors
+/// are far smaller, and missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
 /// True if a force acts on the structure from outside. Such a force is a side of the polygon.
@@ -166,8 +166,8 @@ impl PanelContent for ForcePolygon {
     }
 }
 
-/// Draws the force polygon of a frame. If actions and reactions are drawn apart, dashed lines connect their ends. If
-/// the polygon is open, a dashed line closes the gap.
+/// Draws the force polygon of a frame. If actions (weights and loads) and reactions are drawn apart, dashed lines
+/// connect the two positions of each common corner. If the polygon is open, a dashed line closes the gap.
 fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     let (context, camera) = (pen.context, pen.camera);
     let theme = &context.options.theme;
@@ -213,10 +213,10 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     polygon
 }
 
-/// If the distance of reactions from actions is smaller than this fraction of the polygon's size, reactions are drawn
-/// next to the actions.
+/// If a reaction is nearer to an action (a weight or a load) than this fraction of the polygon's size, and nearly
+/// parallel, all reactions are moved sideways, so that they do not cover the actions.
 const OVERLAP_SHARE: f64 = 0.03;
-/// Distance of reactions that are drawn next to the actions, as a fraction of the polygon's size.
+/// Distance by which reactions are moved sideways, as a fraction of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
 
 /// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale.
@@ -228,9 +228,9 @@ struct Chain {
     scale: f64,
 }
 
-/// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` and `answering`
-/// are the corners of the actions (weights and loads) and of the reactions. `size` is the size of the polygon, in the
-/// same unit.
+/// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` are the corners
+/// of the polygon between the actions (weights and loads), `answering` those between the reactions. `size` is the size
+/// of the polygon, in the same unit.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
@@ -325,7 +325,8 @@ fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
 }
 
 /// Returns the scale of a polygon, metres per newton. `structure` is in metres, `own` is the box around the polygon in
-/// newtons. In figures of several frames the scale is rounded, so that polygons of similar size have one scale.
+/// newtons. In figures of several frames the scale is rounded down, so that polygons of similar size have the same
+/// scale.
 fn scale(structure: Bounds, own: Bounds, is_one_of_several: bool) -> f64 {
     let size = POLYGON_SIZE * structure.width().max(structure.height());
     let high = structure.height().max(POLYGON_HEIGHT * structure.width());
@@ -345,8 +346,8 @@ fn closed<'a>(arrows: impl Iterator<Item = &'a ForceArrow>) -> bool {
     sides.0.norm() <= CLOSURE_TOL * sides.1
 }
 
-/// Returns an arrow of a round force for each scale of the polygons. `scales` lists frames with their scales, pixels
-/// per newton.
+/// Returns a legend entry for each different scale of the polygons: an arrow of a round force. `scales` lists the index
+/// of each frame with its scale, pixels per newton.
 fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
     let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
     for (frame, scale) in scales {

@@ -1,5 +1,5 @@
-//! [`ring`]: draws the colours of arrows as a colour wheel. Each sector lists the blocks with its colour. The colours
-//! of robots and of missing forces are below the wheel.
+//! [`ring`]: draws the colours of arrows as a colour wheel. Each sector states which blocks have its colour. The
+//! colours of robots and of missing forces are below the wheel.
 
 use core::f64::consts::TAU;
 
@@ -17,7 +17,8 @@ const RING_RADII: (f64, f64) = (58.0, 112.0);
 const FONT_SIZE: f64 = 14.0;
 
 /// Draws the colour wheel of the forces on blocks. The sectors begin at the right with entry 0 of the theme's colours
-/// and continue anticlockwise. Each sector lists the numbers of its blocks, counted from 1 in placing order.
+/// and continue anticlockwise. Each sector states the numbers of the first two blocks with its colour. Blocks are
+/// counted from 1 in placing order.
 ///
 /// Units: the page is in pixels at natural size.
 pub fn ring(theme: &Theme) -> Drawing {

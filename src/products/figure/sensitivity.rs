@@ -1,11 +1,11 @@
 //! Draws how a margin changes if corners of blocks move: an arrow at each corner shows the direction in which to move
 //! it.
 //!
-//! The arrow points in the direction in which the interval of the margin grows most. Its length is in proportion to
-//! the growth per metre. Corners that move together have one arrow. The most effective changes have numbers, and the
-//! legend lists them. They include changes of weights, loads and friction. A corner has no arrow if the derivatives
-//! of the margin are not unique there (a kink). The figure shows the end of the interval that is nearer to 0; for the
-//! load factor, it shows the upper end. The options of the analysis select the margin.
+//! The arrow points in the direction in which the interval of the margin grows most. Its length is proportional to the
+//! growth per metre. Corners that move together have one arrow. The most effective changes have numbers, and the legend
+//! lists them. They include changes of weights, loads and friction. A corner has no arrow if the derivatives of the
+//! margin are not unique there (a kink). The figure shows the end of the interval that is nearer to 0; for the load
+//! factor, it shows the upper end. The options of the analysis select the margin.
 
 mod plan;
 
@@ -30,12 +30,12 @@ use crate::wording::number::digits;
 use crate::wording::sensitivity::{end_name, length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
 
-/// Radius of the disc of a number without an arrow, as a multiple of the font size.
+/// Radius of the disc around the number of a change without an arrow, as a multiple of the font size.
 const DISC_RADIUS: f64 = 0.68;
 /// Largest length of the arrow that shows the scale, pixels.
 const MAX_SCALE_ARROW: f64 = 60.0;
 
-/// The figure of the effects of corners on a margin.
+/// The figure that shows how corners of blocks affect a margin.
 pub(crate) struct CornerEffects;
 
 impl PanelContent for CornerEffects {
@@ -188,14 +188,15 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
     group
 }
 
-/// Draws a disc with a number for each numbered change that has no arrow: changes of weights, loads and friction.
+/// Draws a disc with a number for each numbered change that has a position but no arrow, such as changes of weights,
+/// loads and the friction of one joint.
 fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     let theme = &pen.context.options.theme;
     let radius = disc_radius(theme);
     let mut group = Group::with_class("changes");
     let loads = &pen.context.marks[pen.number].arrows;
     let scale = scale(pen.context.analysis, pen.context.unit, pen.context.options);
-    // `marks` are the shapes that a number must not cover even if there is no empty position for it.
+    // If there is no empty position for a number, it may cover other shapes, but not these `marks`.
     let mut marks = Ink::default();
     for load in loads {
         let (from, along) = (pen.camera.place(load.at), pen.camera.turn(load.vector));
@@ -209,7 +210,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
         let Some(at) = plan.mark(change) else {
             continue;
         };
-        // The number of a load is at the tail of its arrow.
+        // The number of a moved load is at the tail of the arrow of this load.
         let near = 1e-6 * pen.context.unit;
         let ends_here = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
         let load_arrow = (loads.iter()).find(|arrow| change.is_load && ends_here(arrow));
@@ -276,8 +277,8 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
     plan.changes.iter().map(entry).collect()
 }
 
-/// Returns the legend entry for the scale of the arrows. `pixels` is the length of the arrow of a corner at which the
-/// margin grows by 1 per metre.
+/// Returns the legend entry for the scale of the arrows; `None` if the arrows have no effect. `pixels` is the length of
+/// an arrow that shows a growth of the margin of 1 per metre.
 fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
@@ -297,7 +298,7 @@ fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }
 
-/// Formats a change of a margin that has been rounded, with ° for a tilt.
+/// Formats a change of a margin, for a tilt with the sign for degrees.
 fn format_change(kind: MarginKind, amount: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", digits(amount)),
@@ -305,7 +306,7 @@ fn format_change(kind: MarginKind, amount: f64) -> String {
     }
 }
 
-/// Returns the width of the shaft of an arrow, in pixels. `unit` is the unit length in pixels.
+/// Returns the width of the shaft of a corner's arrow, in pixels. `unit` is the unit length in pixels.
 fn width(unit: f64, is_numbered: bool) -> f64 {
     let width = (0.045 * unit).clamp(1.4, 2.6);
     match is_numbered {

@@ -140,7 +140,7 @@ impl PanelContent for ThrustLine {
             entries.extend(limit_entries(context));
         }
         if schematic {
-            // The symbol of the thickness is explained once.
+            // Only one entry of the legend explains what the thickness of the line means.
             let thick = match through || falls {
                 true => String::new(),
                 false => format!(", this thick for {largest}"),
@@ -179,8 +179,8 @@ impl PanelContent for ThrustLine {
     }
 }
 
-/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force that
-/// the thickest line shows (`largest`).
+/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force
+/// that the thickest line shows (`largest`).
 fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
     let mut frames = 0..context.analysis.frames.len();
     match central_thrust_text(context) {

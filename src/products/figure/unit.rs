@@ -7,9 +7,10 @@ use crate::scene::{Block, BlockId, Scene};
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// Returns the unit length in metres. On a lattice, this is the side of a cell, unless the blocks are larger. Otherwise
-/// it is 0.6·√A, about the edge of a regular hexagon of area A. A is the area of the median block, or the mean area if
-/// this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its surroundings.
+/// Returns the unit length in metres. On a lattice, this is the side of a cell, unless typical blocks are far larger.
+/// Otherwise it is 0.6·√A, about the edge of a regular hexagon of area A. A is the median area of the blocks, or the
+/// mean area if this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its
+/// surroundings.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::zoomed_view(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
@@ -36,7 +37,8 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
 
 /// Length of the longest arrow of a load, as a fraction of the longer side of the structure.
 const LONGEST_LOAD: f64 = 0.1;
-/// Width of the shaft of the arrow of a load, as a fraction of the length of the longest arrow.
+/// Width of the shaft of a load's arrow, as a fraction of the length of the longest arrow. In some figures, shafts may
+/// be wider.
 pub(crate) const LOAD_SHAFT: f64 = 0.055;
 
 /// Returns the length in metres of the longest arrow in figures that draw loads and missing forces, and no contact

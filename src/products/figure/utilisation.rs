@@ -25,7 +25,7 @@ use crate::geometry::Bounds;
 use crate::scene::Scene;
 use symbol::{SYMBOL_WIDTH, full_symbol, idle_symbol, smooth_symbol};
 
-/// The width of the line of an interface in unit lengths, with its least and largest allowed width in pixels.
+/// The width of the line of an interface in unit lengths, with the least and the largest value of this width in pixels.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 1.8, 6.0);
 /// Length of the bar across an interface that uses all its friction, as a multiple of the width of its line.
 const BAR_LENGTH: f64 = 3.2;
@@ -89,7 +89,7 @@ impl PanelContent for Utilisation {
         let mut robots = frames.iter().flat_map(|f| &f.robots);
         let spent = robots.any(|r| r.limit_used >= FULL_UTILISATION);
         if spent || all.iter().flatten().any(uses_all_friction) {
-            // Other equilibrium states may use less.
+            // In other equilibrium states, the same interface or robot may use less than all.
             let all = "all of it in the forces shown".to_owned();
             entries.push(Entry::Symbol(full_symbol, SYMBOL_WIDTH, all));
         }

@@ -70,9 +70,9 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
         .filter(|id| id.0 < scene.blocks.len())
 }
 
-/// Returns a box, in metres, around the part of the ground that the figures of a scene show: the ground near the blocks,
-/// or all of the ground if no block is shown. Returns `None` if there is no such ground. `unit` is the unit length in
-/// metres.
+/// Returns a box, in metres, around the part of the ground that the figures of a scene show: the ground near the
+/// blocks, or all of the ground if no block is shown. Returns `None` if there is no such ground. `unit` is the unit
+/// length in metres.
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));

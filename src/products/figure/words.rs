@@ -1,4 +1,4 @@
-//! Reexports the number formats that figures use from [`wording`](crate::wording).
+//! Re-exports the functions of [`wording`](crate::wording) with which figures format numbers and lists.
 
 pub use crate::wording::number::quantity;
 pub(crate) use crate::wording::number::{

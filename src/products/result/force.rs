@@ -38,7 +38,7 @@ pub(super) struct Robot<'a> {
     limit_used: Number,
 }
 
-/// A failure. It has either `bodies` or `robot`, and either `force` or `torque`.
+/// A failure. It has either `bodies` or `robot` and `holds`, and either `force` or `torque`.
 #[derive(Serialize)]
 pub(super) struct Missing<'a> {
     kind: &'static str,

@@ -11,7 +11,7 @@ use crate::analysis::{Analysis, Verdict};
 use crate::text;
 use name::{NAMES, Name};
 
-/// The position of a scene in the input of a batch.
+/// The origin of a scene in a batch: its file, and its line in this file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// The path of the file as given; `None` for standard input.
@@ -21,7 +21,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Reads the origin from a line that a batch has written; `None` if the line is not JSON.
+    /// Reads the origin of a scene from a result line that a batch has written. Returns `None` if the line is not JSON.
     pub fn of_line(line: &[u8]) -> Option<Origin> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let line = value["line"].as_u64().and_then(|n| usize::try_from(n).ok());
@@ -164,15 +164,15 @@ pub enum PictureOutcome {
 }
 
 /// Writes the selected fields of an analysis as one line that ends with a line feed. The same analysis always
-/// produces the same bytes, unless the field `frames.solve.seconds` is selected.
+/// produces the same bytes, unless `frames.solve` or `frames.solve.seconds` is selected.
 ///
 /// # Example
 /// ```
 /// use drystone::{Analysis, Scene, result::{Fields, PictureOutcome, Origin, line_of}};
-/// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
-/// let origin = Origin { line: Some(7), ..Origin::default() };
-/// let line = line_of(&origin, &Analysis::new(&scene), &PictureOutcome::NotAsked, &Fields::default());
-/// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]]
+/// }] }"#)?; let origin = Origin { line: Some(7), ..Origin::default() }; let line = line_of(&origin,
+/// &Analysis::new(&scene), &PictureOutcome::NotAsked, &Fields::default()); assert_eq!(line, "{\"line\":7,\"scene\":\"A
+/// dart\",\"verdict\":\"unstable\"}\n");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn line_of(
@@ -280,15 +280,15 @@ fn put(out: &mut String, name: &str, value: &Value) {
     out.push_str(&value.to_string());
 }
 
-/// Selects the paths that begin with `name`, and returns the rest of each path. The rest is empty if `name` is the
+/// Returns the paths that begin with `name`, each without this first part. The result has an empty path if `name` is a
 /// whole path.
 fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     let under = chosen.iter().filter(|path| path.first() == Some(&name));
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value as JSON, in the order of `parts`. `chosen` has the selected paths, relative
-/// to the value.
+/// Writes the selected parts of a value as JSON. `parts` are all fields below the value, in the order in which they are
+/// written. `chosen` has the selected paths, relative to the value.
 fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
     let whole = chosen.iter().any(Vec::is_empty);
     match value {

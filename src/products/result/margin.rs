@@ -2,9 +2,9 @@
 //! value. It is `null` if there is no value to state: the frame falls at every value, the margin does not apply to
 //! the scene, or no verdict confirms it.
 //!
-//! A tilt of `null` means that the frame falls if gravity is not turned. It may stand if gravity is turned. A margin that
-//! no verdict confirms is also `null`; a notice of the frame then states the two values between which the margin lies. Margins
-//! that were not requested are absent.
+//! A tilt of `null` means that the frame falls if gravity is not turned. It may stand if gravity is turned. A margin
+//! that no verdict confirms is also `null`; a notice of the frame then states the two values between which the margin
+//! lies. Margins that were not requested are absent.
 //!
 //! `intervals` has both ends of the interval of each parameter. An end is `null` if the interval has no end there,
 //! and `"withheld"` if no verdict confirms it. An interval is `null` if the frame stands at no value; `excluded` then

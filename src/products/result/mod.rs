@@ -3,7 +3,8 @@
 //! Invariant: the same analysis always produces the same bytes, apart from times, which [`Timing::LeftOut`] omits.
 //! Numbers are written as the shortest decimal that reads back as the same f64, and never as −0. A number that could
 //! not be computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are
-//! absent if they are empty. `margins` and `only_by_wedging` are absent if they were not requested.
+//! absent if they are empty. `margins` and `only_by_wedging` are absent if they were not requested, and the latter also
+//! if the frame does not stand.
 //!
 //! serde is used here and in `scene::format`. That module reads files that people write, and this module writes
 //! results for programs. The two modules therefore change for different reasons.
@@ -95,8 +96,8 @@ pub enum Layout {
 /// use drystone::result::{Layout, Timing, to_json};
 /// use drystone::scene::Scene;
 ///
-/// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
-/// let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }]
+/// }"#)?; let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
 /// assert!(json.contains(r#""verdict":"unstable""#), "nothing holds it");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```

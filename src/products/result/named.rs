@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-/// An object whose keys keep the order of the list.
+/// A list of keys and values that is written as a JSON object. The keys keep their order.
 pub(super) struct Named<'a, T>(pub Vec<(&'a str, T)>);
 
 impl<T> Named<'_, T> {

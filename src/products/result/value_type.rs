@@ -23,7 +23,8 @@ pub enum Type {
     Number,
     /// A number, or `"unbounded"`.
     Bound,
-    /// A number; `null` if the frame stands at no value; `"unbounded"` if it stands at every value.
+    /// A number; `null` if there is no value, for example because the frame falls at every value; `"unbounded"` if the
+    /// frame stands at every value.
     Margin,
     /// An interval `[low, high]`, `null` if it is empty, or `"withheld"`. Each end is a number, `null` if there is no
     /// limit, or `"withheld"`.
@@ -33,7 +34,7 @@ pub enum Type {
     /// Derivatives along x and y: `[x, y]`; at a kink, two such pairs `[backward, forward]`, or `"at_kink"`; `null`
     /// for a vertex that cannot move.
     SlopePair,
-    /// Two lists of motions, beyond the lower and beyond the upper end.
+    /// Two lists of motions: just beyond the lower end and just beyond the upper end of an interval.
     MotionPairs,
     /// A point or vector, `[x, y]`.
     Pair,
@@ -76,7 +77,7 @@ impl Type {
             Type::Number => "number",
             Type::Bound => "number or `\"unbounded\"`",
             Type::Margin => "number, null or `\"unbounded\"`",
-            Type::Interval => "[low, high] or null",
+            Type::Interval => "[low, high], null or `\"withheld\"`",
             Type::Slope => "number, [backward, forward] or `\"at_kink\"`",
             Type::SlopePair => "[x, y], [backward, forward], `\"at_kink\"` or null",
             Type::MotionPairs => "two lists of motions",

@@ -1,7 +1,7 @@
 //! The proof that a frame stands only by wedging, as written in JSON.
 //!
-//! Each motion includes the point about which the block spins. The motion can therefore be checked against the
-//! interfaces and forces in the same result, without the scene.
+//! Each motion includes the point of the block to which its velocity refers. The motion can therefore be checked
+//! against the interfaces and forces in the same result, without the scene.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 
 #[derive(Serialize)]
 pub(super) struct Wedging<'a> {
-    /// The interfaces at which a normal force must act.
+    /// The interfaces at which a normal force must act in every balance.
     must_press: Vec<Face<'a>>,
     /// A lower bound of the sum of the normal forces at these interfaces, N.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -21,7 +21,8 @@ pub(super) struct Wedging<'a> {
     gives_way: Vec<Moving<'a>>,
     presses_nothing: bool,
     cases: usize,
-    /// The cases that were excluded. They cover all ways in which contacts of springs at rest can press and slide.
+    /// The cases that were excluded. If each contact is a spring, they cover all ways in which contacts at rest can
+    /// press and slide.
     ruled_out: Vec<Case>,
 }
 

@@ -1,5 +1,6 @@
-//! Computes, in extended precision, the optimal forces with the least sum of squares. They are unique. The largest of
-//! them is the reference value for the largest single force.
+//! Computes, in extended precision, the forces with the least sum of squares among the optimal forces (the forces with
+//! the least sum of magnitudes). They are unique. The largest resultant of these forces at a contact or grip is the
+//! reference value for the largest single force.
 //!
 //! A program may have many optima, but only one of them has the least sum of squared forces. The unknowns are N1, N2
 //! and T of each contact, and three components of each grip.
@@ -97,7 +98,7 @@ fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
             vector[component] = sign.into();
             (program.contacts.len() + grip, vector)
         }
-        // This case never occurs: a stable program has no columns of adhesion.
+        // This case never occurs: the columns of a program that is stable without adhesion contain no adhesion.
         _ => (usize::MAX, vector),
     }
 }

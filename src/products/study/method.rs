@@ -18,17 +18,18 @@ const MIN_FAILURE_SHARE: f64 = 1e-6;
 /// A solution method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The program of the source publication. One newton of sticking costs 10^exponent newtons of force (the penalty
-    /// β).
+    /// The program of the source publication, which allows adhesion. The value is the exponent of the penalty β: one
+    /// newton of adhesion costs as much as 10^exponent newtons of force.
     Source(u8),
-    /// The program without adhesion and, if it is infeasible, the lexicographic program with adhesion; forces are
-    /// unknowns.
+    /// The program without adhesion, whose unknowns are forces. If it has no solution, the lexicographic programs with
+    /// adhesion: first the least adhesion, then the least force with this adhesion.
     ForceForm,
-    /// Only the kinematic dual program. Its unknowns are velocities.
+    /// Only the kinematic dual programs. Their unknowns are velocities.
     Kinematic,
-    /// The kinematic dual program, then the unique forces on its optimal face.
+    /// The kinematic dual program, then the unique forces on its optimal face: the optimal forces with the least sum of
+    /// squares.
     Unique,
-    /// The complete analysis of `check` at a level, with proofs and repeated solutions.
+    /// The complete analysis of the command `check` at an accuracy level, with proofs and repeated solutions.
     Level(Accuracy),
 }
 
@@ -82,8 +83,9 @@ impl Method {
     }
 }
 
-/// Returns the adhesion above which a frame counts as falling, in the scaled units of the program. Relative to the
-/// heaviest load, it is the tolerance of the proofs, but at least ten times the tolerance of the solver.
+/// Returns the adhesion above which an independent part of a frame counts as falling, in the scaled units of its
+/// program. Relative to the heaviest load, it is the tolerance of the proofs or ten times the tolerance of the solver,
+/// whichever is larger.
 fn min_counted_adhesion(tolerance: f64) -> f64 {
     Scale::HEAVIEST * Proof::IMBALANCE_TOL.max(10.0 * tolerance)
 }
@@ -104,8 +106,8 @@ fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }
 
-/// Solves the program of the source publication, with the cost `beta` per unit of adhesion. The frame stands if the
-/// adhesion of the solution is at most [`min_counted_adhesion`].
+/// Solves the program of the source publication, with the cost `beta` per unit of adhesion. The verdict is stable if
+/// the adhesion of the solution is at most [`min_counted_adhesion`].
 fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let conic = vallat_program(program, beta);
     let answer = solve(&conic, tolerance, Conditioning::Full);
@@ -274,8 +276,8 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     }
 }
 
-/// Solves the dual program, and then computes the unique forces on its optimal face. `check` does the same, and adds
-/// proofs.
+/// Solves the dual program, and then computes the unique forces on its optimal face. If the program has no solution,
+/// does the same for the program with the least adhesion. The analysis does the same, and adds proofs.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Unique);
     let hard = balance_in(program, settings);

@@ -32,8 +32,8 @@ pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 /// The default tolerance of an analysis.
 pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
 
-/// If a falling frame needs less adhesion than this, relative to the heaviest load, a method may call it stable. This
-/// is within the documented tolerance of the proofs.
+/// If a falling frame would need at most this much adhesion to stand, relative to the heaviest load, the verdict
+/// `stable` of a method is not counted as wrong. This is within the documented tolerance of the proofs.
 const MAX_NEGLIGIBLE_ADHESION: f64 = 10.0 * Proof::IMBALANCE_TOL;
 
 /// The results of a study.
@@ -63,7 +63,8 @@ pub struct FrameReference {
     pub verdict: Verdict,
     /// The least total force if the frame stands; the least total adhesion if it falls; in N.
     pub total: Option<f64>,
-    /// The largest resultant of the unique forces in N, if the frame stands.
+    /// The largest resultant at a contact or grip, N, if the frame stands. It is that of the unique forces: the optimal
+    /// forces with the least sum of squares. `None` if it could not be certified.
     pub largest: Option<f64>,
     /// The largest possible relative error of `total`.
     pub gap: f64,

@@ -24,9 +24,10 @@ pub(super) struct Optimum {
     pub value: Double,
     /// The largest possible relative error of the value.
     pub gap: f64,
-    /// The columns of the optimal face, which may have amounts above 0. Columns at their limit are not included.
+    /// The indices of the columns of the optimal face, which may have amounts above 0. Columns at their limit are not
+    /// included.
     pub face: Vec<usize>,
-    /// Whether a robot is at its limit.
+    /// Whether a column is at its limit. Only the columns of robots have limits.
     pub limited: bool,
 }
 
@@ -101,9 +102,9 @@ struct Guess<'a> {
 
 /// The refined solution on a face.
 struct Refined {
-    /// The columns at their limit.
+    /// The indices of the columns at their limit.
     limited: Vec<usize>,
-    /// The columns of the face that are not at their limit.
+    /// The indices of the columns of the face that are not at their limit.
     face: Vec<usize>,
     /// The amounts of the columns in `face`.
     x: Vec<Double>,

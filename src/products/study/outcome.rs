@@ -4,23 +4,25 @@ use crate::analysis::Verdict;
 use crate::program::Scale;
 use crate::solve::{Amounts, Effort};
 
-/// The result of a method for a whole frame.
+/// The result of a method for a whole frame or for an independent part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The verdict.
     pub verdict: Verdict,
-    /// The total force if the frame stands, the total adhesion if it falls, in N.
+    /// The total force if the frame stands, the total adhesion if it falls, in N. `None` if the method does not find
+    /// it.
     pub total: Option<f64>,
-    /// The largest resultant at a contact or grip, in N.
+    /// The largest resultant at a contact or grip, in N. `None` if the method does not find it.
     pub largest: Option<f64>,
     /// The number of failures.
     pub points: usize,
-    /// The largest imbalance if the frame stands. For the accuracy levels it is relative to the forces on a block,
-    /// for the other methods to the heaviest load.
+    /// The largest imbalance, if the verdict was found from forces. For the accuracy levels it is relative to the
+    /// forces on a block, for the other methods to the heaviest load.
     pub imbalance: Option<f64>,
-    /// The largest violation of the motion relative to its power, if the frame falls and a motion is proved.
+    /// The largest violation of the motion relative to its power, if the verdict was found from a motion. Only the
+    /// accuracy levels give it.
     pub violation: Option<f64>,
-    /// The number of interior-point iterations.
+    /// The number of iterations of the solvers.
     pub iterations: usize,
     /// The solving time in s; `None` if the method does not measure it.
     pub(super) seconds: Option<f64>,
@@ -52,7 +54,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for a falling program with `total` adhesion at `points` failures.
+    /// Returns the outcome for a falling program that needs the adhesion `total` at `points` failures. `total` is in
+    /// the scaled units of the program; `None` if it is not known.
     pub(super) fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Unstable,
@@ -62,7 +65,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for a balance. `imbalance` is in the scaled units of the program.
+    /// Returns the outcome for a program whose forces `amounts` balance the loads. `imbalance` is the largest error of
+    /// this balance, in the scaled units of the program.
     pub(super) fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Stable,

@@ -1,9 +1,10 @@
-//! [`Reference`]: computes the true verdict, the total force and the largest force of a program, with a certificate. The
-//! total is given only if at least twelve digits are certain.
+//! [`Reference`]: computes the true verdict, the total force and the largest force of a program, with a certificate.
+//! The total is given only if at least twelve digits are certain.
 //!
 //! 1. If a balance without adhesion has a certified optimum ([`optimum`]), the program is stable. Its value is the
 //!    least total force.
-//! 2. Otherwise adhesion is allowed, and its total is minimised. A certified optimum above 0 means unstable.
+//! 2. Otherwise adhesion is allowed, and its total is minimised. A certified optimum above 0 means unstable, and a
+//!    certified optimum of 0 means stable, without a value for the total force.
 //! 3. Otherwise a motion that even adhesion does not resist proves the program unstable.
 //! 4. Otherwise the reference is undecided.
 //!
@@ -19,8 +20,8 @@ use crate::solve::{Conditioning, Effort, Status, dual};
 
 /// Largest relative gap of a certificate whose value counts as known to twelve digits.
 const MAX_GAP: f64 = 1e-12;
-/// A motion is a proof if its power is at least this multiple of its largest violation. The factor is far above the
-/// rounding errors of the solver.
+/// A motion is only a proof if its power, relative to the largest load, is above this multiple of its largest
+/// violation. The factor is far above the rounding errors of the solver.
 const MIN_POWER_OVER_VIOLATION: f64 = 1e6;
 /// If the power of a motion is below this, relative to the largest velocity, it may be a rounding error.
 const MIN_POWER: f64 = 1e-9;
@@ -32,7 +33,8 @@ pub struct Reference {
     pub verdict: Verdict,
     /// The least total force if the part stands; the least total adhesion if it falls and adhesion could hold it.
     pub total: Option<f64>,
-    /// The largest resultant of the unique forces, if the part stands.
+    /// The largest resultant of the unique forces (the optimal forces with the least sum of squares), if the part
+    /// stands. `None` if it could not be certified.
     pub largest: Option<f64>,
     /// The largest possible relative error of `total`: the duality gap, plus the residuals of both solutions.
     pub gap: f64,

@@ -17,7 +17,7 @@ pub struct Summary {
     pub total_error: Option<f64>,
     /// The median of these relative errors.
     pub median_error: Option<f64>,
-    /// The largest relative error of the largest single force.
+    /// The largest relative error of the largest single force, among frames with the right verdict.
     pub largest_error: Option<f64>,
     /// The number of wrong verdicts.
     pub wrong: usize,
@@ -27,8 +27,8 @@ pub struct Summary {
     pub frames: usize,
     /// The median of the iterations.
     pub iterations: usize,
-    /// Whether the line is on the Pareto front: it has no wrong verdict, and no other line without a wrong verdict is
-    /// better in time or error and at least equal in the other.
+    /// Whether this entry is on the Pareto front: it has no wrong verdict, and no other entry without a wrong verdict
+    /// is better in time or in `total_error` and at least equal in the other of the two.
     pub best: bool,
 }
 

@@ -8,8 +8,9 @@ use crate::text;
 /// Describes a load capacity in words: where the force acts, and how large it may be in each direction. `verdict` is
 /// the verdict of the frame.
 ///
-/// The capacity is computed with the contacts as the scene gives them. If the verdict depends on whether bodies with a
-/// narrow gap touch, the capacity may be another one, and the words say which contacts are meant.
+/// The capacity is computed with the contacts as the scene gives them. If the verdict is undecided, it may depend on
+/// whether bodies with a narrow gap touch. The true capacity may then differ, so the text begins with `with the
+/// contacts as drawn`.
 pub fn sentences(scene: &Scene, verdict: Verdict, capacity: &LoadCapacity) -> String {
     match verdict {
         Verdict::Undecided => format!("with the contacts as drawn, {}", forces(scene, capacity)),
@@ -125,7 +126,7 @@ pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
     )
 }
 
-/// Returns `force`, or 0 if it is so small, relative to the largest force of the capacity, that it is a rounding
+/// Returns `force`, or 0 if it is so small relative to the largest force of the capacity that it may be a rounding
 /// error.
 fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());

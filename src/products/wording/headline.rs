@@ -57,8 +57,8 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
     }
 }
 
-/// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and
-/// horizontal load, it describes the end of the interval that is nearest to 0.
+/// Describes the margin of a structure that stands, for all parameters except the load factor. For tilt and horizontal
+/// load, the text states the end of the interval that is nearer to 0.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     if matches!(margin.interval, Interval::Undecided) {
         return format!("It stands; {}: {}", margin.name, margin.stands());

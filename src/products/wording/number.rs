@@ -103,7 +103,7 @@ pub fn force(force: Vector, units: UnitsEntry) -> String {
     format!("{} at {degrees:.0}°", quantity(force.norm(), units.force()))
 }
 
-/// Writes an angle, given in degrees, with about two significant digits: `5.3°`, `12°`.
+/// Writes an angle, given in degrees, with one decimal below 10°, and otherwise without decimals: `5.3°`, `12°`.
 pub fn degrees(angle: f64) -> String {
     let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
     format!("{angle:.decimals$}°")
@@ -240,8 +240,8 @@ fn three_beyond(x: f64, sign: f64) -> String {
     three(written + sign * digit)
 }
 
-/// Chooses one SI prefix for all numbers of a column, of which the largest is `largest`. Returns the unit with this
-/// prefix, and the factor by which the numbers must be multiplied.
+/// Chooses one SI prefix for all numbers of a column. `largest` is the largest of these numbers. Returns the unit with
+/// the prefix, and the factor by which the numbers must be multiplied.
 pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
     let (prefix, factor) = match largest {
         x if x >= 2e9 => ("G", 1e-9),
@@ -261,7 +261,7 @@ pub fn rough(x: f64) -> String {
     }
 }
 
-/// Writes a ratio in percent with one decimal: `66.7 %`.
+/// Writes a ratio in percent with at most one decimal: `66.7 %`.
 pub fn tenths(share: f64) -> String {
     format!("{} %", digits((share * 1000.0).round() / 10.0))
 }

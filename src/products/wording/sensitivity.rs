@@ -277,7 +277,8 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
 }
 
 /// Writes a value of a margin with three significant digits. Tilt and horizontal load have their direction instead of
-/// a sign: `5.00° left`. Each value has it, because a change can move the end of an interval to the other side of 0.
+/// a sign: `5.00° left`. The direction is not fixed for an end of an interval, because a change can move the end to the
+/// other side of 0.
 pub fn value(kind: MarginKind, value: f64) -> String {
     let side = match value {
         v if v < 0.0 => " left",
@@ -291,7 +292,8 @@ pub fn value(kind: MarginKind, value: f64) -> String {
     }
 }
 
-/// Names an end of an interval. Tilts and horizontal loads to the right are positive.
+/// Names an end of the interval of a margin: `upper` or `lower`, for tilts and horizontal loads `right` or `left`.
+/// `right` is the upper end, because tilts and horizontal loads to the right are positive.
 pub fn end_name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Tilt | MarginKind::HorizontalLoad, true) => "right",

@@ -4,7 +4,7 @@ use super::entry::Entry;
 use super::symbol::written;
 use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
 
-/// Distance of the lines of an entry that needs several lines, as a multiple of the font size.
+/// Distance between the text lines of an entry that needs several lines, as a multiple of the font size.
 const WRAPPED_LINE_HEIGHT: f64 = 1.25;
 /// Smallest width of the text of an entry, pixels.
 const MIN_TEXT_WIDTH: f64 = 60.0;
@@ -68,8 +68,9 @@ impl KeyLine<'_> {
     }
 }
 
-/// Distributes the entries over lines: each entry goes into the first line that has space for it. A line is at most
-/// `room` pixels wide, unless a single entry is wider. `gap` is the space between two entries, pixels.
+/// Distributes the entries over lines: each entry goes into the first line that has space for it. Entries of a numbered
+/// list and other entries are in separate lines. A line is at most `room` pixels wide, unless a single entry is wider.
+/// `gap` is the space between two entries, pixels.
 fn lines<'e>(entries: &'e [Entry], room: f64, gap: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
@@ -92,9 +93,9 @@ fn lines<'e>(entries: &'e [Entry], room: f64, gap: f64, theme: &Theme) -> Vec<Ke
     lines
 }
 
-/// Draws the legend in lines of at most `room` pixels. The lines are centred at the x coordinate `middle` and begin at
-/// `top`. `line` is the height of a line as a multiple of the font size, and `gap` the space between two entries in pixels. Also returns the height of the legend in
-/// pixels.
+/// Draws the legend in lines of at most `room` pixels, and returns it with its height in pixels. The lines are centred
+/// at the x coordinate `middle`, and the first line begins at the y coordinate `top`. `line` is the height of a line as
+/// a multiple of the font size. `gap` is the space between two entries, pixels.
 pub(crate) fn draw(
     entries: &[Entry],
     (middle, top): (f64, f64),

@@ -1,4 +1,4 @@
-//! Draws the symbols of the legend. `at` is the middle of the left edge of a symbol on the page.
+//! Draws the symbols of the legend. In each function, `at` is the middle of the left edge of the symbol on the page.
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
@@ -8,17 +8,17 @@ use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
 pub(super) const SAMPLE_LENGTH: f64 = 26.0;
-/// Distance of the centre of a disc from the left end of its symbol, pixels.
+/// Distance of the centre of a disc or hexagon from the left end of the symbol, pixels.
 pub(super) const SYMBOL_GAP: f64 = 9.0;
 /// Length of a line in the legend, pixels.
 pub(super) const LINE_LENGTH: f64 = 26.0;
 /// Usual length of a bar of colours, pixels.
 pub(crate) const BAR_LENGTH: f64 = 120.0;
-/// The text before the arrows of blocks.
+/// The text before the arrows that show, for each block, the colour of the forces on this block.
 pub(super) const ON_BLOCK: &str = "force on block";
 /// Length and width of the shaft of an arrow in one of the colours of blocks, pixels.
 const COLOUR_ARROW: (f64, f64) = (22.0, 2.6);
-/// Gap between two of these arrows, pixels.
+/// Gap between two of the arrows of [`colours`], pixels.
 const COLOUR_GAP: f64 = 8.0;
 
 /// Returns a text of the legend as a drawing item. `at` is the left end of the text, at half the height of its line.
@@ -48,7 +48,8 @@ pub(super) fn blocks(blocks: &[(Colour, String)], at: PagePoint, theme: &Theme) 
     items
 }
 
-/// Draws one arrow in each of the colours that forces on blocks can have. `short` arrows need little space.
+/// Draws one arrow in each of the colours that forces on blocks can have. If `short` is true, the arrows are shorter,
+/// for a page as narrow as a column of print.
 pub(super) fn colours(colours: &[Colour], short: bool, at: PagePoint) -> Vec<Item> {
     let (pitch, colours) = (colour_pitch(short), colours.iter().enumerate());
     let size = (pitch - COLOUR_GAP, COLOUR_ARROW.1);
@@ -84,8 +85,8 @@ pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
 
-/// Draws a bar with the colours of the whole colour scale. `low` and `high` are the texts at its left and right end.
-/// `ramp` converts a position on the scale (0 to 1) to a colour.
+/// Draws a bar with all colours of a colour scale. `low` and `high` are the texts at its left and right end. `ramp`
+/// converts a position on the scale (0 to 1) to a colour. `bar` is the length of the bar in pixels.
 pub(super) fn amplitudes(
     [low, high]: &[String; 2],
     (ramp, bar): (fn(&Theme, f64) -> Colour, f64),
@@ -96,7 +97,7 @@ pub(super) fn amplitudes(
     let mut items = vec![written(low, at, theme)];
     let parts = 64;
     for part in 0..parts {
-        // Each part is drawn up to the end of the bar, and the next part covers most of it, so there are no gaps
+        // Each part extends to the right end of the bar, and the next part covers most of it. So there are no gaps
         // between the parts.
         let x = bar * f64::from(part) / f64::from(parts);
         let rect = PageRect {
@@ -112,7 +113,8 @@ pub(super) fn amplitudes(
     items
 }
 
-/// Draws a number in bold type. `right` is its right end.
+/// Draws the number of a numbered list entry in bold type. `right` is the right end of the number, at half the height
+/// of its line.
 pub(super) fn number(number: usize, colour: Colour, right: PagePoint, theme: &Theme) -> Item {
     let size = theme.sizes.key;
     let at = right.moved(0.0, 0.36 * size);

@@ -1,6 +1,6 @@
-//! [`Gravity`]: the arrows to the left of the structure in a figure of a margin. If gravity is turned, a dashed line shows
-//! its present direction, and an arrow shows its direction at the margin. If a horizontal load is added, the arrow shows
-//! this load. A pale arrow shows the other end of the interval.
+//! [`Gravity`]: the arrows to the left of the structure in a figure of a margin. A dashed line shows the present
+//! direction of gravity. An arrow shows the turned gravity, or the additional horizontal load, at which the structure
+//! begins to fall. A pale arrow shows the value at the other end of the interval.
 
 use super::super::pen::Pen;
 use super::super::words::degrees;
@@ -11,13 +11,13 @@ use crate::drawing::placement::Ink;
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
 
-/// Length of the arrow of gravity, as a fraction of the diagonal of the structure.
+/// Length of an arrow that shows gravity, as a fraction of the diagonal of the structure.
 const GRAVITY_LENGTH: f64 = 0.16;
-/// Distance of the arrow of gravity from the structure, as a fraction of the diagonal of the structure.
+/// Horizontal distance between the tail of the arrows and the structure, as a fraction of the structure's diagonal.
 const GRAVITY_DISTANCE: f64 = 0.12;
 
-/// The points, in metres, of an arrow of gravity or of a horizontal load: the tail, the tip of gravity at present,
-/// and the tip at the margin.
+/// The end points, in metres, of the arrows that show gravity or a horizontal load: the common tail `from`, the tip
+/// `now` of the present gravity, and the tip `there` at the margin.
 pub(super) struct Gravity {
     toward: Toward,
     /// The value of the parameter at the margin.
@@ -31,8 +31,8 @@ pub(super) struct Gravity {
 
 impl Gravity {
     /// Computes the arrows to the left of the structure: gravity at present, and gravity or the horizontal load at the
-    /// margin and, if it is known, at the other end of the interval. `edge` is the value of the parameter at the margin.
-    /// Returns `None` for the load factor, and for a frame without blocks.
+    /// margin and, if it is known, at the other end of the interval. `edge` is the value of the parameter at the
+    /// margin. Returns `None` for the load factor, and for a frame without blocks.
     pub fn new(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
         let scene = &analysis.scene;
         let blocks = scene.frames[frame].placed.iter();
@@ -47,7 +47,7 @@ impl Gravity {
                 let turned = Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y);
                 Some(turned)
             }
-            // The lengths of the two arrows have the ratio of the horizontal load to the weight.
+            // The arrow of the horizontal load is `edge` times as long as the arrow of gravity.
             Toward::HorizontalLoad => Some(quarter_turn(down) * edge),
             Toward::LoadFactor => None,
         };
@@ -75,7 +75,7 @@ impl Gravity {
         })
     }
 
-    /// Draws the arrows, and adds them to `ink`.
+    /// Draws the arrows, and adds them to `ink`, so that labels do not cover them.
     pub fn draw(&self, pen: &Pen<'_>, ink: &mut Ink) -> Group {
         let (camera, theme) = (pen.camera, &pen.context.options.theme);
         let [from, now] = [self.from, self.now].map(|p| camera.place(p));
@@ -113,7 +113,7 @@ impl Gravity {
         }
     }
 
-    /// Returns the points that the arrows reach.
+    /// Returns the common tail and the tips of the arrows, in metres.
     pub fn points(&self) -> impl Iterator<Item = Point> {
         [self.from, self.now, self.there]
             .into_iter()
@@ -135,12 +135,12 @@ fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Op
     ends.find(|other| other * edge < 0.0)
 }
 
-/// Draws the symbol of turned gravity for the legend.
+/// Draws the symbol of turned gravity for the legend: a dashed line for the present direction, and an arrow.
 pub(super) fn gravity_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     symbol(at.moved(8.0, -7.0), (8.0, 12.0), theme)
 }
 
-/// Draws the symbol of a horizontal load for the legend.
+/// Draws the symbol of a horizontal load for the legend: a dashed line for gravity, and a horizontal arrow.
 pub(super) fn push_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     symbol(at.moved(4.0, -7.0), (18.0, 0.0), theme)
 }

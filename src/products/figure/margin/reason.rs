@@ -65,10 +65,10 @@ fn parameter(toward: Toward) -> &'static str {
     }
 }
 
-/// Describes the margin of a frame that stands: the value nearest to the current value at which the frame begins to
-/// fall. For the load factor, also describes the least factor at which the frame stands.
+/// Describes the margin of a frame that stands: the values at both ends of the interval, at which the frame begins to
+/// fall. An end that is not known is left out. If no value is known, the text says why.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
-    // The frame may also fall below a least load factor, but this factor does not limit how much the loads may grow.
+    // If the value is below 1, it is the least load factor, which does not limit how much the loads may grow.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {
@@ -115,8 +115,8 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     }
 }
 
-/// Describes both ends of an interval around 0, such as `14° to the right, or by 9° to the left`. `edge` is the end
-/// nearer to 0. The other end is left out if its value is not known. `amount` formats a value.
+/// Describes both ends of an interval around 0, such as `9° to the left, or by 14° to the right`. `edge` is the end
+/// nearer to 0, which comes first. The other end is left out if its value is not known. `amount` formats a value.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     let ends = [interval.low(), interval.high()].into_iter().flatten();

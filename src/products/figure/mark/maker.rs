@@ -11,13 +11,13 @@ use crate::scene::{BodyId, ForceCause, Frame, Scene};
 /// Forces below this fraction of the largest force are not drawn, because they may be errors of the solver. Forces
 /// have a relative accuracy of about 1e-9.
 pub(super) const FORCE_TOL: f64 = 1e-6;
-/// In [`Normalisation::Drawn`], arrows shorter than this, unit lengths, have a thinner shaft and a smaller head.
+/// With [`Normalisation::Drawn`], arrows shorter than this (in unit lengths) have a thinner shaft and a smaller head.
 const FULL_WIDTH_LENGTH: f64 = 0.35;
 /// Least width of a shaft, as a fraction of the full width. With the full width, arrows of small forces would only be
 /// heads.
 const MIN_WIDTH_SHARE: f64 = 0.65;
 
-/// Makes the arrows of a frame.
+/// Creates the arrows of one frame.
 pub(super) struct ArrowMaker<'a> {
     pub scene: &'a Scene,
     pub options: &'a Options,
@@ -29,7 +29,7 @@ pub(super) struct ArrowMaker<'a> {
 
 impl ArrowMaker<'_> {
     /// Adds the arrow of a force on the body `on`, unless the force is so small that it may be an error of the solver.
-    /// `look` is the colour of the arrow, and the width of its shaft in unit lengths.
+    /// `force` is in newtons. `look` is the colour of the arrow, and the width of its shaft in unit lengths.
     pub(super) fn straight(
         &self,
         marks: &mut Marks,
@@ -69,8 +69,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit lengths; short
-    /// arrows are thinner.
+    /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit lengths. With
+    /// [`Normalisation::Drawn`], short arrows are thinner. `vector` is the arrow in metres.
     pub(super) fn width(&self, full: f64, vector: Vector) -> f64 {
         let share = match self.options.normalisation {
             Normalisation::Source => 1.0,
@@ -82,8 +82,9 @@ impl ArrowMaker<'_> {
         full * share * self.edge
     }
 
-    /// Adds the arrow of a torque on the body `on`. In printed figures, the torque of a robot is drawn as in the
-    /// thesis: as two vertical arrows, half a unit length to the left and to the right of the point `at`.
+    /// Adds the arrow of a torque (N·m) on the body `on`, unless the torque is so small that it may be an error of the
+    /// solver. In the style of the thesis ([`Options::printed`]), the torque of a robot is drawn as two opposite
+    /// vertical arrows, half a unit length to the left and to the right of the point `at`.
     pub(super) fn torque(
         &self,
         marks: &mut Marks,

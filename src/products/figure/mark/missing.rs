@@ -1,4 +1,4 @@
-//! Creates the arrows of missing forces, without which the frame falls.
+//! Creates the arrows of missing forces: forces that would be needed to hold a frame that falls.
 
 use super::super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::super::option::Normalisation;
@@ -21,7 +21,8 @@ const SOURCE_FAILURE_SCALE: f64 = 0.4;
 enum MissingScale {
     /// The largest missing force of the frame, N.
     Largest(f64),
-    /// The largest single unknown or weight on each block, N, indexed by block. The thesis uses this scale.
+    /// The largest single unknown or weight on each block, N, indexed by block; see [`largest_forces_on_blocks`]. The
+    /// thesis uses this scale.
     OfBlocks(Vec<f64>),
 }
 
@@ -70,7 +71,7 @@ impl ArrowMaker<'_> {
     }
 
     /// Returns the colour of missing forces. Printed figures with the theme of the thesis use the red of the thesis.
-    /// Other figures use a darker red, which a grey print distinguishes from green.
+    /// Other figures use the colour of their theme, so that red and green differ in a grey print.
     fn failure_colour(&self) -> Colour {
         let theme = &self.options.theme;
         if self.options.printed() && *theme == Theme::thesis() {
@@ -95,7 +96,8 @@ impl ArrowMaker<'_> {
         }
     }
 
-    /// Converts a missing force (N) on a block to the vector of its arrow in metres, at the scale of missing forces.
+    /// Converts a missing force (N) on a block to the vector of its arrow in metres. `scale` is the scale of missing
+    /// forces.
     fn missing_vector(&self, scale: &MissingScale, block: BlockId, force: Vector) -> Vector {
         match scale {
             MissingScale::OfBlocks(largest) if largest[block.0] > 0.0 => {
@@ -116,8 +118,8 @@ impl ArrowMaker<'_> {
     /// on which the force acts.
     ///
     /// A missing pull is moved along its line of action until its head is at the joint. If it began at the joint, it
-    /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction, by
-    /// half the distance of parallel arrows.
+    /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction into
+    /// the block, by half the distance between parallel arrows. Other arrows are not moved.
     fn start_on_block(
         &self,
         kind: ArrowKind,
@@ -128,7 +130,7 @@ impl ArrowMaker<'_> {
     ) -> Point {
         match kind {
             ArrowKind::MissingPull(_) => {
-                // The arrows on the two blocks end a little before the joint, so that their heads do not touch.
+                // The arrow ends a little before the joint, so that its head does not touch the opposite arrow.
                 let length = vector.norm();
                 at - vector * ((length + 0.6 * parallel_arrows::ARROW_GAP * width) / length)
             }
@@ -146,8 +148,8 @@ impl ArrowMaker<'_> {
     }
 }
 
-/// Returns the missing forces of a failure: the kind of the arrow, the body on which the force would act, and the force
-/// in N.
+/// Returns the missing forces of a failure: for each, the kind of the arrow, the body on which the force would act, and
+/// the force in N. The list is empty for a missing torque.
 fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     match *failure {
         Failure::Tension {
@@ -180,8 +182,9 @@ fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     }
 }
 
-/// Returns, for each block, the largest of its weight, the normal and friction forces on it, and the force components
-/// of its robots, in N. The list is indexed by block. The thesis scales missing forces by these values.
+/// Returns, for each block, the largest of these values in N: its weight, the normal forces and the friction forces on
+/// it, and the force components of its robots. The list is indexed by block. The thesis scales missing forces by these
+/// values.
 fn largest_forces_on_blocks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);

@@ -1,7 +1,8 @@
 //! [`marks`]: computes the positions, lengths and colours of all arrows of a frame.
 //!
-//! An arrow shows a force *on* a block and has the colour of this block; no arrows are drawn on the ground. Two blocks
-//! in contact have opposite arrows. Both begin at the moment-equivalent point Σ N_k p_k / Σ N_k of their interface
+//! An arrow shows a force *on* a block; no arrows are drawn on the ground. Weights and forces of interfaces have the
+//! colour of the block on which they act. Two blocks in contact have opposite arrows. Both begin at the point where the
+//! resultant of the interface acts: Σ N_k p_k / Σ N_k for the normal forces N_k at the points p_k
 //! ([Vallat23](crate::doc::references) §2.0.9). Arrows of robots are wider. Arrows of missing forces are widest and
 //! red.
 
@@ -30,8 +31,9 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 
 /// Returns the force, in N, whose arrow is one unit length long if the scale is chosen for this frame.
 ///
-/// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit length.
-/// With [`Normalisation::Source`], this is the largest single unknown, weight or load.
+/// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit
+/// length. With [`Normalisation::Source`], this is the largest single unknown, weight or load. In a zoomed figure, only
+/// forces in the zoomed view count.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
@@ -93,8 +95,8 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
 /// Returns all arrows of frame `frame` (from 0). The arrow of a force of `newtons_per_unit` newtons is one unit length
 /// long.
 ///
-/// The unit length is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does not
-/// exist or `newtons_per_unit` is not above 0.
+/// The unit length is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does
+/// not exist or `newtons_per_unit` is not above 0.
 pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let mut marks = Marks {
         newtons_per_unit,

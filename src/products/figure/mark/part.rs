@@ -1,5 +1,5 @@
-//! [`parts`]: the forces of an interface that are drawn as arrows: the resultant, or its normal and its friction
-//! component.
+//! [`parts`]: returns the forces of an interface that are drawn as arrows: the resultant, or the normal force and the
+//! friction force.
 
 use super::super::arrow::ArrowKind;
 use super::super::option::ForceStyle;
@@ -7,9 +7,9 @@ use crate::analysis::Contact;
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::scene::BodyId;
 
-/// A force of an interface on its first body.
+/// A force of an interface on the first of its two bodies.
 pub(super) struct InterfaceForce {
-    /// A function that returns the kind of the arrow. Its argument is the other body.
+    /// A function that returns the kind of the arrow. Its argument is the body that exerts the force.
     pub kind: fn(BodyId) -> ArrowKind,
     /// The force, N.
     pub force: Vector,
@@ -17,8 +17,8 @@ pub(super) struct InterfaceForce {
     pub at: Point,
 }
 
-/// Returns the forces of an interface on its first body. `style` selects the resultant, or the normal and the friction
-/// force.
+/// Returns the forces of an interface on the first of its two bodies. `style` selects one resultant, or the normal
+/// force and the friction force.
 pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<InterfaceForce> {
     let at = contact.resultant.at;
     let part = |kind, force| InterfaceForce { kind, force, at };

@@ -1,4 +1,5 @@
-//! [`joint_marks`]: the symbols of a mechanism: a ring at each hinge, and two half-arrows at each joint that slides.
+//! [`joint_marks`]: draws the symbols of a mechanism: a ring at each hinge, and two half-arrows at each joint that
+//! slides.
 
 use super::super::description;
 use super::super::joint::{Joint, joints};
@@ -17,8 +18,9 @@ const SLIP_ARROW: (f64, f64) = (0.5, 0.11);
 /// Length of the barb of a half-arrow, as a fraction of the arrow.
 const BARB_LENGTH: f64 = 0.34;
 
-/// Draws the symbols of the mechanism in `analysis`: one group for sliding joints, one group for hinges. `pen`
-/// determines where the blocks are drawn.
+/// Draws the symbols of the mechanism in `analysis`, and adds them to `ink`, so that labels do not cover them. Returns
+/// a group for sliding joints and a group for hinges; both are empty if the frame does not fall. `pen` determines the
+/// frame and where the blocks are drawn.
 pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> [Group; 2] {
     let mut slips = Group::with_class("slips");
     let mut hinges = Group::with_class("hinges");
@@ -93,7 +95,7 @@ fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
     a + (b - a) * 0.5
 }
 
-/// Returns the displaced position of a point of a body, metres. Ground is not displaced.
+/// Returns the displaced position of a point of a body, metres. The ground is not displaced.
 fn displaced_point(pen: &Pen<'_>, body: BodyId, at: Point) -> Point {
     match body {
         BodyId::Ground(_) => at,

@@ -64,7 +64,7 @@ impl Pen<'_> {
             self.width(arrow),
         );
         if arrow.kind == ArrowKind::Load {
-            // Arrows of loads are hollow, so that they differ from other forces also in a grey print.
+            // Arrows of loads are hollow, so that they differ from other arrows even in a grey print.
             let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
             return Path::filled(outline, self.context.options.theme.page)
                 .with_stroke(edge.mitred());
@@ -72,8 +72,8 @@ impl Pen<'_> {
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
 
-    /// Returns the small circle at the tail of the arrow of a weight, which distinguishes it from other forces. Returns
-    /// `None` for other forces, and in small or printed figures.
+    /// Returns the small circle at the tail of the arrow of a weight, which distinguishes a weight from other forces.
+    /// Returns `None` for other forces, for small figures, and for figures in the style of the thesis.
     fn centroid(&self, arrow: &ForceArrow) -> Option<Path> {
         let marked = arrow.kind == ArrowKind::Weight
             && !self.context.options.printed()
@@ -97,9 +97,9 @@ impl Pen<'_> {
         }
     }
 
-    /// Draws the heads of arrows again, on top of all shafts, because a shaft must not hide the head of another arrow
-    /// on the same line. On top of them, draws whole arrows of loads again, because the small circle of a weight must
-    /// not hide a load at the same point. Missing forces are not drawn again.
+    /// Draws the heads of arrows and the circles of weights again, on top of all shafts, because a shaft must not hide
+    /// the head of another arrow on the same line. On top of them, draws whole arrows of loads again, because the
+    /// circle of a weight must not hide a load at the same point. Missing forces are not drawn again.
     pub(crate) fn heads(&self) -> Group {
         let mut group = Group {
             echo: true,
@@ -139,8 +139,7 @@ impl Pen<'_> {
     }
 
     /// Returns the angle of the arrow of a torque in radians, with the sign of the torque. `radius` is the radius of
-    /// the arrow in metres. The arrow of a load has at least a minimum angle, so that its direction is visible; its
-    /// magnitude is written next to it.
+    /// the arrow in metres. The arrow of a load has at least the angle [`MIN_SWEEP`], so that its direction is visible.
     fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
         let sweep = turn.arc / radius;
         if turn.kind != TurnKind::Load || turn.torque == 0.0 {
@@ -149,8 +148,8 @@ impl Pen<'_> {
         sweep.abs().max(MIN_SWEEP).copysign(turn.torque)
     }
 
-    /// Returns the direction from the centre of a torque's arrow to its middle, radians. The arrow avoids straight
-    /// arrows and earlier torques at the same point.
+    /// Returns the direction from the centre of a torque's arrow to the middle of its arc, radians. In this direction,
+    /// the arrow is far from straight arrows and from the arrows of earlier torques at the same point.
     pub(crate) fn turn_middle(&self, turn: &TurnArrow) -> f64 {
         let radius = TURN_RADIUS * self.context.unit;
         let turns = self.context.marks[self.number].turns.iter();
@@ -169,11 +168,12 @@ impl Pen<'_> {
         middle
     }
 
-    /// Returns the direction from the centre of a torque's arrow to its middle, radians. In this direction, the arrow
-    /// is farthest from straight arrows and from the points `taken` on earlier torques, each with the width that it
-    /// needs, in metres. If several directions are about equally good, the result is the one nearest to upwards.
+    /// Returns the direction from the centre of a torque's arrow to the middle of its arc, radians. Of twelve
+    /// directions, this is the one in which the arrow is farthest from straight arrows and from the points `taken`. If
+    /// several directions are about equally good, the result is the one nearest to upwards.
     ///
-    /// A torque may cross a straight arrow, but not another torque, because two torques on one arc look like one.
+    /// The points `taken` lie on the arrows of earlier torques, each with the free width that it needs, in metres.
+    /// Without this width, two torques on one arc would look like one.
     fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[(Point, f64)]) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
         let from_others = |p: Point| {
@@ -196,8 +196,8 @@ impl Pen<'_> {
         best.1
     }
 
-    /// Draws arrows and dots of forces and torques: the missing ones if `missing` is true, otherwise all others. The
-    /// tooltip of each arrow states its magnitude.
+    /// Draws the arrows of forces and torques, and dots for small forces: only missing forces and torques if `missing`
+    /// is true, otherwise all others. The tooltip of each arrow states its magnitude.
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
@@ -245,8 +245,8 @@ impl Pen<'_> {
         group
     }
 
-    /// Draws all arrows except those of missing forces, for frames with very many blocks. All arrows of one colour are
-    /// one path.
+    /// Draws all visible straight arrows except those of missing forces, for frames with very many blocks. All arrows
+    /// of one colour are one path.
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();

@@ -6,9 +6,9 @@ use crate::figure::arrow::{ArrowKind, Marks};
 use crate::figure::verdict;
 use crate::scene::{BodyId, Scene};
 
-/// Returns a clause with the forces that close the polygon, and a list of missing forces. If missing forces from the
-/// ground or from robots close the polygon, the list contains only these forces. Missing forces between two blocks act
-/// in opposite pairs, so they do not change the polygon.
+/// Returns two texts: why the polygon is closed, and the missing forces. If the polygon only closes with missing forces
+/// from the ground or from robots, the second text names only these forces. Missing forces between two blocks act in
+/// opposite pairs, so they do not change the polygon.
 pub(super) fn reason(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,
@@ -44,7 +44,7 @@ pub(super) fn reason(
     (how.to_owned(), verdict::reason(scene, frame_analysis))
 }
 
-/// True if the missing force acts on the structure from outside.
+/// True if the missing force acts on the structure from outside: from the ground or from a robot.
 fn is_outside(failure: &Failure) -> bool {
     match failure {
         Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {

@@ -33,15 +33,14 @@ pub(super) struct Plan {
     pub changes: Vec<Numbered>,
     /// The number of corners at a kink, which have no arrow.
     pub kinks: usize,
-    /// The length by which a corner is moved in the list, metres.
+    /// The length by which the numbered list assumes that a corner or a load moves, metres.
     pub step: f64,
 }
 
 /// The arrow of a corner, or of several corners that move together.
 pub(super) struct CornerArrow {
     pub at: Point,
-    /// The effect of moving the corner. The direction is that of the arrow; the length is the growth of the interval
-    /// per metre.
+    /// The direction in which to move the corner. The length of the vector is the growth of the interval per metre.
     pub effect: Vector,
     /// The number of the change, from 1; `None` if it is not one of the most effective changes.
     pub number: Option<usize>,
@@ -50,7 +49,7 @@ pub(super) struct CornerArrow {
 /// One of the most effective changes.
 pub(super) struct Numbered {
     pub number: usize,
-    /// The point to which the change belongs; `None` for a change of all joints.
+    /// The point of the scene to which the change belongs, metres; `None` for a change of all joints.
     pub at: Option<Point>,
     /// Whether a load is moved.
     pub is_load: bool,
@@ -61,7 +60,8 @@ pub(super) struct Numbered {
 }
 
 impl Plan {
-    /// Computes the arrows and the numbered changes of a frame; `None` if the derivatives of its margin are not known.
+    /// Computes the arrows and the numbered changes of a frame. Returns `None` if the derivatives of its margin are not
+    /// known.
     pub fn new(analysis: &Analysis, frame: usize, options: &Options) -> Option<Plan> {
         let (scene, frame_analysis) = (&analysis.scene, analysis.frames.get(frame)?);
         let sensitivity = frame_analysis.sensitivity.as_ref()?;
@@ -182,7 +182,7 @@ fn is_kink(moves: CornerMoves) -> bool {
     }
 }
 
-/// The shown end of the interval, with the data that the descriptions of its changes need.
+/// The data that [`Sketch::numbered`] needs to describe a change of the shown end of the interval.
 struct Sketch<'a> {
     scene: &'a Scene,
     frame_analysis: &'a FrameAnalysis,

@@ -17,9 +17,9 @@ use super::view;
 use crate::analysis::Analysis;
 use crate::drawing::Drawing;
 
-/// Spaces that are added around the structure if some labels have no good position, pixels. The first value is for the
-/// left and the right, the second for above and below. All but the first are only tried for flat structures, which leave
-/// most space above and below them.
+/// Spaces that are added around the structure if some labels have no good position, pixels. In each pair, the first
+/// value is for the left and the right, the second for above and below. All pairs but the first are only tried for flat
+/// structures.
 const SPACES_FOR_NAMES: [(f64, f64); 3] = [(24.0, 30.0), (8.0, 30.0), (8.0, 64.0)];
 /// A structure is flat if its height is at most this fraction of its width.
 const FLAT: f64 = 0.3;
@@ -171,7 +171,7 @@ pub(crate) fn split(
     pages
 }
 
-/// A strip of panels of one kind.
+/// The panels of one scene in a figure, all of the same kind.
 pub(crate) struct Strip<'a> {
     pub content: &'static dyn PanelContent,
     pub context: &'a FigureContext<'a>,

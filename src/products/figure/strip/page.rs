@@ -154,8 +154,8 @@ impl PageWriter<'_> {
         self.y += self.gaps.below_title;
     }
 
-    /// Draws a row of panels, each given by its strip and its frame, and moves `y` below the row. All panels of the row show the same vertical range of the scene.
-    /// Their verdicts are on the same line, below the longest caption.
+    /// Draws a row of panels, each given by its strip and its frame, and moves `y` below the row. All panels of the row
+    /// show the same vertical range of the scene. Their verdicts are on the same line, below the longest caption.
     fn row(&mut self, row: &[(usize, usize)]) {
         let views = row.iter();
         let views = views.map(|(strip, frame)| self.strips[*strip].shows(*frame));

@@ -17,12 +17,12 @@ const CAPTION_LINE: f64 = 22.0 / 17.0;
 const REASON_LINE: f64 = 1.36;
 /// Largest number of lines of a reason. Longer reasons end in "…".
 const MAX_REASON_LINES: usize = 12;
-/// Gap between the mark of a verdict and its text, pixels.
+/// Gap between the symbol of a verdict and its text, pixels.
 const MARK_GAP: f64 = 6.0;
 /// Gap between the text of a verdict and the scale of arrows, pixels.
 const SCALE_GAP: f64 = 22.0;
 
-/// The position of a panel, and the content for which it has space.
+/// The position of a panel, the part of the scene that it shows, and the space for its caption.
 pub(super) struct PanelPosition {
     /// The upper left corner of the panel.
     pub at: PagePoint,
@@ -74,8 +74,8 @@ impl Strip<'_> {
         (group, below.y)
     }
 
-    /// Writes the caption of a frame below the point `top`. Space for `captions` lines is reserved. Also returns the
-    /// point below this space.
+    /// Writes the caption of a frame below the point `top`. Space for `captions` lines is reserved, even if the caption
+    /// has fewer lines. Also returns the point below this space.
     fn caption_at(&self, frame: usize, top: PagePoint, captions: usize) -> (Vec<Item>, PagePoint) {
         let theme = &self.context.options.theme;
         let (size, line_height) = (theme.sizes.caption, CAPTION_LINE * theme.sizes.caption);

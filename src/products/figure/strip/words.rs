@@ -76,8 +76,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Returns the text next to the symbol of a verdict. If this text is wider than the panel, it is divided: the first
-    /// part is only the verdict, and the second part is the rest.
+    /// Returns the text next to the symbol of a verdict, and `None`. If this text is wider than the panel, it is
+    /// divided: the first part is only the verdict, and the second part is the rest.
     pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
         let frame_analysis = &self.context.analysis.frames[frame];
@@ -119,7 +119,8 @@ impl Strip<'_> {
         parts.join(between)
     }
 
-    /// Returns a sentence for screen readers about a frame: its blocks, its weight, its verdict and the reason.
+    /// Returns a sentence for screen readers about a frame: its caption, the number and the weight of its blocks, its
+    /// verdict with the reason, and its notices.
     pub(super) fn described(&self, frame: usize) -> String {
         let (scene, frame_analysis) = (
             &self.context.analysis.scene,

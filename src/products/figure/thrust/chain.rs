@@ -8,7 +8,7 @@ use super::super::bearing::bearings;
 
 /// A chain has at least this many blocks.
 const MIN_BLOCKS: usize = 3;
-/// Largest number of chains that are drawn. If there are more, those with the greatest thrust are drawn.
+/// Largest number of chains that are drawn. If there are more, the chains with the greatest thrust are drawn.
 const MAX_CHAINS: usize = 3;
 /// A chain whose thrust is below this fraction of its largest force is not drawn. Its rays would nearly lie on the
 /// load line.
@@ -20,7 +20,7 @@ pub(crate) struct Chain {
     pub blocks: Vec<BlockId>,
     /// The indices of the contacts before, between and after the blocks.
     pub joints: Vec<usize>,
-    /// The force in each joint on the body that follows the joint, N.
+    /// For each joint, the force on the body that follows the joint, N.
     pub forces: Vec<Vector>,
 }
 
@@ -37,8 +37,8 @@ impl Chain {
     }
 }
 
-/// Returns the chains of blocks that have a horizontal thrust, sorted by decreasing thrust. At most [`MAX_CHAINS`] chains
-/// are returned.
+/// Returns the chains of blocks that have a horizontal thrust, sorted by decreasing thrust. At most [`MAX_CHAINS`]
+/// chains are returned.
 pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Chain> {
     let bearings = bearings(scene, frame_analysis);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];

@@ -15,9 +15,10 @@ use super::super::view;
 use super::super::words::{force, quantity, round_below_in};
 use crate::scene::Unit;
 
-/// Width of the fans, as a fraction of the structure's width.
+/// Largest width of a fan, as a fraction of the structure's width.
 const FAN_WIDTH_SHARE: f64 = 0.42;
-/// Height of all fans together, and the gap between two fans, as fractions of the structure's height.
+/// Largest height of all fans together with their gaps, and the gap between two fans, as fractions of the structure's
+/// height.
 const HEIGHT_AND_GAP_SHARES: (f64, f64) = (0.8, 0.2);
 /// For the size of a fan, the width and the height of the structure count as at least this fraction of the larger of
 /// both. Otherwise the fan of a high or wide structure would be too small.
@@ -26,11 +27,12 @@ const MIN_SIDE_SHARE: f64 = 0.7;
 const SIDE_SPACE_SHARES: (f64, f64) = (0.1, 0.12);
 /// Least width of the fans with their labels, as a fraction of the structure's larger side.
 const MIN_WIDTH_SHARE: f64 = 0.34;
-/// Size of the numbers and of the amounts, pixels.
+/// Font size of the numbers of rays and joints, pixels.
 const NUMBER_SIZE: f64 = 9.5;
+/// Font size of magnitudes of forces, pixels.
 const AMOUNT_SIZE: f64 = 11.5;
-/// If the weight and the loads of a block do not balance the two joint forces, the remainder is drawn as a robot's
-/// force. A remainder is ignored up to this fraction of the resultant of the two joint forces.
+/// If the weight and the loads of a block do not balance its two joint forces, the remainder is drawn as the force of
+/// robots. A remainder up to this fraction of the resultant of the two joint forces is ignored.
 const ROBOT_TOL: f64 = 1e-6;
 /// Width of the load line, pixels.
 const LOAD_LINE_WIDTH: f64 = 1.8;
@@ -41,9 +43,9 @@ const MIN_NUMBER_GAP: f64 = 9.0;
 struct Fan {
     chain: Chain,
     pole: Point,
-    /// The ends of the rays.
+    /// The ends of the rays that are not at the pole.
     vertices: Vec<Point>,
-    /// The scale, metres per newton.
+    /// The scale of the polygon, metres in the scene per newton.
     metres: f64,
 }
 
@@ -285,7 +287,7 @@ impl Fan {
     }
 
     /// Writes the number of each joint on the structure, next to the outer or upper end of the joint. The first number
-    /// is `before` + 1.
+    /// is `before` + 1. `middle` is the x coordinate of the middle of the chain if it has no joints, metres.
     fn number_joints(
         &self,
         frame_analysis: &FrameAnalysis,

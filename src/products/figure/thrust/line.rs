@@ -11,11 +11,12 @@ use crate::analysis::{FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::scene::{BodyId, Scene};
 
-/// The width of the line of the largest force in unit lengths, with its least and largest allowed width in pixels.
+/// The width of the line of thrust for the largest force in unit lengths, with the least and the largest value of this
+/// width in pixels.
 const LARGEST_FORCE_WIDTH: (f64, f64, f64) = (0.13, 1.8, 6.5);
-/// Width of the line of a force of zero, as a fraction of the largest width.
+/// Width of the line for a force of zero, as a fraction of the width for the largest force.
 const MIN_WIDTH_SHARE: f64 = 0.22;
-/// Number of widths if lines of many blocks are joined into few paths.
+/// Number of different line widths in frames with very many blocks, in which all lines of one width are one path.
 const WIDTH_STEPS: f64 = 8.0;
 
 /// Returns the colour of the line of thrust.

@@ -73,13 +73,14 @@ pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> O
     ))
 }
 
-/// Returns a note for the reader about a frame whose line of thrust is one of many possible lines, and for which no
-/// lines of least and greatest thrust are known. Returns `None` for other frames, or if the legend says enough.
+/// Returns a note for the reader about a frame whose line of thrust is one of many possible lines. The caller uses it
+/// if the states of least and greatest thrust are not known. Returns `None` if there is only one line, or if the legend
+/// explains which line is shown.
 pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Option<&'static str> {
     let several_supports = context.thrust_states(frame).supports > 2;
     match (central_thrust_text(context), several_supports) {
         _ if !has_many_lines(context, frame) => None,
-        // The legend explains the most central line of another frame.
+        // In this figure, the legend only explains the most central line, which another frame shows.
         (Some(_), _) => Some("the line shown belongs to the forces of least sum"),
         (None, true) => Some("more than two supports: no single horizontal thrust"),
         (None, false) => None,

@@ -18,7 +18,7 @@ pub(super) fn full_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     ]
 }
 
-/// Draws the legend symbol of an interface without friction.
+/// Draws the legend symbol of an interface at which no friction is available.
 pub(super) fn smooth_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
     vec![

@@ -13,11 +13,11 @@ pub(super) struct Name {
     pub parts: Vec<Name>,
 }
 
-/// All fields that can be selected, except `all` and `picture`. The file is part of every line.
+/// All fields that can be selected, except `all`. The path of the file and the picture are written without selection.
 pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
-    // A path with `*` belongs to a key below the name of a robot. These keys can only be selected together, so they
-    // are no fields of their own.
+    // A path with `*` belongs to a key below the name of a robot. Such keys cannot be selected one by one, only all
+    // together by the name of the object that contains the robots.
     for key in KEYS
         .iter()
         .filter(|k| k.path != "file" && !k.path.contains('*'))

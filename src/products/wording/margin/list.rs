@@ -122,8 +122,9 @@ pub(super) fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
     })
 }
 
-/// Returns the position of the present friction coefficients relative to the interval of the friction margin. The
-/// interval assumes one coefficient at all interfaces. `alike` is the result if all present coefficients are equal.
+/// Returns the position of the present friction coefficients relative to the interval of the friction margin. This
+/// interval assumes one coefficient at all interfaces. `alike` is the result if all present coefficients are equal, or
+/// if there are no interfaces.
 fn friction_position(
     interval: &Interval,
     present: Option<(f64, f64)>,

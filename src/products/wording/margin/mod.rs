@@ -24,7 +24,7 @@ pub enum Parameter {
     Tilt,
     /// The horizontal force on each block, relative to its weight.
     HorizontalLoad,
-    /// The safety kernel.
+    /// The safety kernel: the fraction of each interface's length that must stay free of force.
     Kernel,
     /// The factor on the listed loads.
     LoadFactor,
@@ -35,7 +35,8 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// Returns the unit that is written after a value of this parameter: `°` for a tilt, otherwise empty.
+    /// Returns the unit that is written after a value of this parameter: `°` for a tilt, otherwise an empty text. The
+    /// limits of robots are written with their own units instead.
     fn unit(self) -> &'static str {
         match self {
             Parameter::Tilt => "°",
@@ -66,7 +67,7 @@ impl Parameter {
     }
 }
 
-/// The position of the current value.
+/// The position of the current value of a parameter relative to the interval of the margin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Position {
     /// The frame stands at this value.
