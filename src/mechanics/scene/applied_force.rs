@@ -1,8 +1,8 @@
-//! [`AppliedForce`]: a force that acts on a block from outside the structure.
+//! [`AppliedForce`]: a weight or a load, as a force that acts on a block from outside the structure.
 
 use super::{BlockId, Point, Scene, Vector};
 
-/// A force that acts on a block whatever the joints and the robots do: its weight or a load.
+/// A given force on a block: its weight or a load. Contact forces and the forces of robots are not applied forces.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct AppliedForce {
@@ -18,7 +18,8 @@ pub struct AppliedForce {
     pub torque: f64,
 }
 
-/// The reason why a force acts on a block. Weights come before loads, and loads have the order of the scene.
+/// The reason why a force acts on a block. When causes are sorted, weights come before loads, and the loads keep the
+/// order of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum ForceCause {
@@ -29,11 +30,11 @@ pub enum ForceCause {
 }
 
 impl Scene {
-    /// Returns the forces that act on each block from outside the structure, indexed by block: first its weight, if it
-    /// is not 0, and then the loads on it.
+    /// Returns the weight and the loads of each block, indexed by block. The list of a block begins with its weight,
+    /// unless this force is 0.
     ///
-    /// Mechanisms, figures and reports take the forces from here. A new effect that adds a force to blocks therefore
-    /// adds this force here too.
+    /// Mechanisms, figures and reports take the forces from this list. A new effect that applies a force to blocks must
+    /// therefore add the force here too.
     pub fn applied_forces(&self) -> Vec<Vec<AppliedForce>> {
         let weight = |(number, block): (usize, &super::Block)| AppliedForce {
             block: BlockId(number),

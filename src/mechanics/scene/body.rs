@@ -1,19 +1,19 @@
-//! The parts of a scene: blocks, parts of the ground, robots and loads.
+//! The parts of a scene: blocks, parts of the ground, robots, loads, listed contacts and materials.
 
 use crate::geometry::{Cell, Point, Polygon, Vector};
 
-/// A block's number in the file, from 0.
+/// The index of a block in the list of blocks of the scene, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BlockId(pub usize);
 
-/// A robot's number in the file, from 0.
+/// The index of a robot in the list of robots of the scene, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RobotId(pub usize);
 
 /// A block, or a part of the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum BodyId {
-    /// The ground's part with this number.
+    /// The part of the ground with this index, counted from 0.
     Ground(usize),
     /// A block.
     Block(BlockId),
@@ -31,22 +31,23 @@ pub struct Body {
     pub polygon: Polygon,
     /// The lattice cells, if the body consists of cells.
     pub cells: Option<Vec<Cell>>,
-    /// The number of its material; `None` if it has none.
+    /// The index of its material in the list of materials of the scene; `None` if it has no material.
     pub material: Option<usize>,
     /// Friction coefficient: the body's own, or else its material's, or else the scene's.
     pub friction: f64,
     /// The fill colour that the file gives for the body or for its material.
     pub fill: Option<Rgb>,
-    /// The largest distance at which another body touches it, metres. It is smaller for a small stone, and 0 on a
-    /// lattice.
+    /// The largest distance at which this body counts as touching another body, metres. For a pair of bodies, the
+    /// smaller of their gaps applies. The gap is 0 if contacts are computed exactly, on a lattice.
     pub gap: f64,
-    /// The largest error of its coordinates, metres; 0 on a lattice.
+    /// The largest error that is assumed for its coordinates, metres; 0 if contacts are computed exactly, on a lattice.
     pub rounding: f64,
-    /// Whether the file gives no outline. The outline is then the hull of the centre and the contacts, for figures.
+    /// Whether the file gives no outline. The outline is then only a symbol for figures: for a block, the convex hull
+    /// of its contacts and of a small disc around its centre.
     pub is_schematic: bool,
 }
 
-/// A part of the ground. It carries any load and never moves.
+/// A part of the ground. It supports any load and never moves.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Ground {
@@ -58,19 +59,20 @@ pub struct Ground {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Block {
-    /// The id given in the file. Without one, it is the number of the block in the file, from 1.
+    /// The id given in the file. If the file gives none, the id is the position of the block in the list, from 1.
     pub id: String,
     /// Its shape, position and surface.
     pub body: Body,
-    /// Centroid of the polygon, or the given centre, where the weight acts; metres.
+    /// The point at which the weight acts, metres: the centroid of the polygon, or the centre that the file gives.
     pub centroid: Point,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
-    /// Whether the weight is computed from the area, because the file gives neither weight nor mass.
+    /// Whether the weight is computed from area, thickness and density, because the file gives neither weight nor mass.
     pub(crate) weighs_by_area: bool,
 }
 
-/// The largest force components and torque of a robot, in either direction; infinite if there is no limit.
+/// The largest absolute values of the force components and of the torque that a robot can exert. A value is infinite
+/// if there is no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Horizontal force, N.
@@ -105,11 +107,12 @@ pub struct Grip {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Robot {
-    /// The id given in the file. Without one, it is `r` and the number of the robot in the file, from 0.
+    /// The id given in the file. If the file gives none, the id is `r` and the index of the robot, from 0.
     pub id: String,
     /// Its largest force and torque.
     pub limits: Limits,
-    /// The block that it holds in a scene without steps.
+    /// The block that it holds in a scene without steps, and the grip point. In a scene with steps, the grip point
+    /// applies when a step lets the robot hold this block and gives no other point.
     pub holds: Option<Grip>,
 }
 
@@ -133,11 +136,11 @@ pub struct Load {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ListedContact {
-    /// The two bodies. The first is always a block; of two blocks it is the later one in the file.
+    /// The two bodies. The first is always a block. If both are blocks, the first is the later block in the file.
     pub bodies: [BodyId; 2],
     /// The point, metres.
     pub at: Point,
-    /// Unit normal into `bodies[0]`.
+    /// Unit normal of the contact, which points into `bodies[0]`.
     pub normal: Vector,
     /// Friction coefficient.
     pub friction: f64,

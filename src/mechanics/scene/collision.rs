@@ -1,7 +1,8 @@
-//! Finds bodies that overlap. On a lattice the test is exact: two bodies overlap if they share a cell. Otherwise two
-//! bodies overlap if one penetrates the other by more than the smaller of their gaps.
+//! Finds bodies that overlap. If all bodies consist of lattice cells, two bodies overlap if they share a cell.
+//! Otherwise two bodies overlap if one penetrates the other by more than the smaller of their contact tolerances
+//! ([`Body::gap`]).
 //!
-//! Two bodies are compared only if both are present in some frame. Two parts of the ground are never compared.
+//! Two bodies are compared only if both are present in the same frame. Two parts of the ground are never compared.
 
 use std::collections::BTreeMap;
 
@@ -14,57 +15,60 @@ use crate::geometry::{
     Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap,
 };
 
-/// The largest number of overlaps that are listed. In a scene with more, they most likely have one cause.
+/// The largest number of overlaps that are reported. If a scene has more, they most likely have one cause.
 const MAX_LISTED_OVERLAPS: usize = 1000;
-/// An overlap with a depth below this fraction of the smaller block's size may come from rounding.
+/// An overlap may come from rounding if its depth is less than this fraction of the smaller block's size.
 const MAX_ROUNDING_DEPTH: f64 = 0.01;
 
 /// An overlap of two bodies.
 struct Found {
     bodies: [BodyId; 2],
     area: f64,
-    /// How far one body must move so that they no longer overlap, in the units of the file.
+    /// The depth of the overlap, in the units of the file: the distance by which one body must move to leave the other.
+    /// For bodies that are not convex, it is the largest depth of any pair of their convex pieces.
     depth: f64,
     at: Point,
-    /// Whether the depth is less than a hundredth of the smaller block's size.
+    /// Whether the bodies may have been meant to touch, because the depth is less than a hundredth of the smaller
+    /// block's size. Always false if all bodies consist of lattice cells.
     may_be_meant: bool,
-    /// The first frame in which both are present.
+    /// The index of the first frame in which both bodies are present.
     frame: usize,
 }
 
-/// A body that could be read, with its id.
+/// A valid body with its id.
 pub(super) type Numbered<'s> = (BodyId, &'s Body);
 
-/// The bodies to compare, and what decides whether an overlap is an error.
+/// The bodies to compare, and the data that decide whether an overlap is an error.
 pub(super) struct Comparison<'s> {
-    /// The bodies that could be read.
+    /// The bodies that are valid.
     pub(super) bodies: Vec<Numbered<'s>>,
-    /// Names of all blocks.
+    /// The ids of all blocks.
     pub(super) names: &'s [String],
-    /// The frames: which blocks are present in each.
+    /// The frames, which contain the blocks that are present at the same time.
     pub(super) frames: &'s [Frame],
     /// The lattice, if all bodies consist of its cells.
     pub(super) lattice: Option<Lattice>,
-    /// Whether the scene gives a contact tolerance. Every deeper overlap is then an error.
+    /// Whether the scene gives a contact tolerance. Every overlap that is deeper than this tolerance is then an error.
     pub(super) given: bool,
 }
 
-/// Two bodies that probably were meant to touch but overlap: deeper than the tolerance, and by less than a hundredth of
-/// the smaller block's size.
+/// Two bodies that overlap although they probably were meant to touch. The depth is more than the contact tolerance,
+/// but less than a hundredth of the smaller block's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Penetration {
-    /// The two bodies, the later block second.
+    /// The two bodies. The second is always a block; the first is a part of the ground or an earlier block.
     pub bodies: [BodyId; 2],
-    /// How far one body must move so that they no longer overlap, metres.
+    /// The depth of the overlap, metres: the distance by which one body must move to leave the other. For bodies that
+    /// are not convex, it is the largest depth of any pair of their convex pieces.
     pub depth: f64,
     /// Centroid of the common area.
     pub at: Point,
 }
 
-/// Reports each pair of bodies that overlap in some frame. Pairs with a small overlap, which may be a drawing error,
-/// are returned instead of reported. All pairs are reported if the scene gives a contact tolerance, or if more than
-/// [`MAX_LISTED_OVERLAPS`] pairs overlap.
+/// Reports the pairs of bodies that overlap in some frame, at most [`MAX_LISTED_OVERLAPS`] of them. Pairs with a small
+/// overlap, which may be a drawing error, are returned and not reported. If the scene gives a contact tolerance, or if
+/// more than [`MAX_LISTED_OVERLAPS`] pairs overlap, small overlaps are reported too and the returned list is empty.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
     let bodies: Vec<Numbered<'_>> = scene
@@ -121,9 +125,11 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
     slight.collect()
 }
 
-/// The frames in which each block is present, as ranges (first, last).
+/// The frames in which each body is present, as ranges with the index of the first and of the last frame.
 struct Presence {
+    /// The ranges of each block.
     blocks: Vec<Vec<(usize, usize)>>,
+    /// The range of all frames, for the ground.
     always: Vec<(usize, usize)>,
 }
 
@@ -152,8 +158,8 @@ impl Presence {
         }
     }
 
-    /// Returns the first frame in which both bodies are present. `None` if there is no such frame, or if both bodies
-    /// are parts of the ground.
+    /// Returns the index of the first frame in which both bodies are present. `None` if there is no such frame, or if
+    /// both bodies are parts of the ground.
     fn together(&self, a: BodyId, b: BodyId) -> Option<usize> {
         if matches!((a, b), (BodyId::Ground(_), BodyId::Ground(_))) {
             return None;

@@ -16,8 +16,8 @@ use super::path::Trail;
 use super::problem;
 use crate::geometry::Point;
 
-/// The largest number of bodies in one frame whose corners may meet at one point. They have 4 950 contacts, which
-/// take half a second.
+/// The largest number of bodies in one frame whose corners may meet at one point. These bodies have 4 950 contacts, for
+/// which the computation takes half a second.
 pub(super) const MAX_BODIES_AT_POINT: usize = 100;
 
 /// Reports the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Corners
@@ -34,9 +34,9 @@ pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[
 }
 
 /// Returns the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame, and the
-/// largest number of these bodies in any frame. `None` if there is no such point.
+/// number of these bodies in the frame that contains most of them. `None` if there is no such point.
 fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point, usize)> {
-    // Adding 0 turns −0 into 0.
+    // Adding 0 turns −0 into 0, because `total_cmp` below distinguishes them.
     let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
     let mut corners: Vec<([f64; 2], Point, BodyId)> = Vec::new();
     for (id, body) in bodies {

@@ -1,24 +1,24 @@
 //! [`isolate`]: runs a function for one scene, so that an internal error of the program does not affect other scenes.
 //!
-//! Commands that process several scenes use it for each of them. If the program panics, only that scene gets a problem,
-//! and the others are processed.
+//! Commands that process several scenes call it for each scene. If the program panics on a scene, only this scene gets
+//! a problem, and the other scenes are still processed.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::{Code, Problem, SceneError};
 
-/// An environment variable for tests, in builds with debug assertions only. If its value is `faulty#2`, the second call
-/// of [`isolate`] for a scene whose name contains `faulty` panics.
+/// An environment variable for tests, which only builds with debug assertions read. If its value is `faulty#2`, the
+/// second call of [`isolate`] with a name that contains `faulty` panics.
 #[cfg(debug_assertions)]
 const FAULT_VARIABLE: &str = "DRYSTONE_TEST_FAULT";
 
 /// Calls `work` for one scene. If `work` panics, the panic becomes a problem with the code [`Code::InternalFault`].
 ///
-/// `name` is the scene's path. A panic can leave the data of `work` half changed, so the caller must not use these data
-/// afterwards.
+/// `name` is the scene's path; tests select the scene by it. A panic can leave the data of `work` half changed, so the
+/// caller must not use these data afterwards.
 ///
 /// # Errors
-/// The internal error, as the only problem of the scene.
+/// If `work` panics: the internal error, as the only problem of the scene.
 pub(crate) fn isolate<R>(name: &str, work: impl FnOnce() -> R) -> Result<R, SceneError> {
     let work = || {
         inject_fault(name);

@@ -1,25 +1,28 @@
-//! [`Findings`]: the problems found so far, and the parts of the file that could not be read.
+//! [`Findings`]: the problems found so far while a scene file is checked, and the parts of the file that could not be
+//! read.
 //!
-//! A block whose polygon could not be read is not also reported to have no polygon, or to overlap its neighbour.
+//! Problems in an entry that could not be read are not added. For example, a block with an unreadable polygon is not
+//! also reported to have no outline.
 
 use super::format::UnitsEntry;
 use super::path::{Path, Segment, Trail};
 use super::problem::{self, Problem, SceneError, Wording};
 use super::source::{Mark, Source};
 
-/// The largest number of findings that are kept. If a file has more, they probably have one cause, which is among the
-/// first.
+/// The largest number of problems that are kept. If a file has more, they probably have one cause, which the first
+/// problems already show.
 const MAX_FINDINGS: usize = 2000;
-/// The largest number of findings that suggest a similar name. Each suggestion needs a comparison with all names.
+/// Only this number of problems, the first ones, may suggest a similar name. Each suggestion needs a comparison with
+/// all names.
 const MAX_SUGGESTIONS: usize = 50;
 
 /// A problem and its place in the file.
 pub(super) struct Finding {
     /// The path of the value.
     pub(super) path: Path,
-    /// Whether the key or the value there is wrong.
+    /// Whether the key or the value at this path is wrong.
     pub(super) mark: Mark,
-    /// The message.
+    /// The code, the message and the remedy.
     pub(super) wording: Wording,
 }
 
@@ -51,23 +54,25 @@ impl Findings {
         !self.unread.paths.is_empty() && self.unread.touches(&at.path())
     }
 
-    /// True if the list is full. Further problems are then not added.
+    /// True if the list of problems is full. Further problems are then not added.
     pub(super) fn is_full(&self) -> bool {
         self.list.len() > MAX_FINDINGS
     }
 
-    /// True if there are so few problems that their messages suggest similar names. Each suggestion takes a search
-    /// through all names.
+    /// True if there are so few problems that the message of the next problem may suggest a similar name. Each
+    /// suggestion takes a search through all names.
     pub(super) fn hints(&self) -> bool {
         self.list.len() < MAX_SUGGESTIONS
     }
 
-    /// Reports a problem of the value at `at`, unless it lies in a part of the file that could not be read.
+    /// Reports a problem of the value at the path `at`, unless some part of the entry that contains this path could not
+    /// be read. An entry is an element of `blocks`, `materials` and so on.
     pub(super) fn add(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Value, wording);
     }
 
-    /// Reports a problem of the key at `at`, unless it lies in a part of the file that could not be read.
+    /// Reports a problem of the key at the path `at`, unless some part of the entry that contains this path could not
+    /// be read. An entry is an element of `blocks`, `materials` and so on.
     pub(super) fn add_key(&mut self, at: &Trail<'_>, wording: Wording) {
         self.note(at, Mark::Key, wording);
     }
@@ -101,8 +106,8 @@ impl Findings {
     }
 }
 
-/// Converts findings to problems with line and column, sorted by their position in the text `source`. Without a text,
-/// the problems have no line and column.
+/// Converts findings to problems with line and column, sorted by their position in the text `source`. If `source` is
+/// `None`, the problems have no line and column and keep their order.
 pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> SceneError {
     let mut list: Vec<Problem> = findings
         .into_iter()
@@ -121,7 +126,7 @@ pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> Sc
 /// Parts of a file that could not be read.
 #[derive(Default)]
 pub(super) struct UnreadParts {
-    /// Where reading failed.
+    /// The paths of the values and keys that could not be read.
     pub(super) paths: Vec<Path>,
 }
 
@@ -159,10 +164,11 @@ impl UnreadParts {
         first
     }
 
-    /// True if some names under the top-level key `list` may be missing because part of the file could not be read.
-    /// Unknown names are then not reported.
+    /// True if some names of the objects under the top-level key `list` may be missing, because part of the file could
+    /// not be read. Unknown names are then not reported.
     ///
-    /// `known` is the number of names that were read. If it is 0, the key of the whole list may be misspelt.
+    /// `known` is the number of names that were read. If it is 0, an unknown top-level key may be the misspelt key of
+    /// this list.
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,
@@ -178,10 +184,11 @@ impl UnreadParts {
     }
 }
 
-/// Keys of a scene file under which names are given.
+/// The top-level keys of a scene file under which objects with names or ids are listed.
 const NAMED_LISTS: [&str; 4] = ["materials", "shapes", "blocks", "robots"];
 
-/// Keys of blocks and robots that certainly are not a misspelt `id`.
+/// Inner keys that are not a misspelt `id`. If the value of such a key cannot be read, the names of the list are still
+/// known.
 const ENTRY_KEYS: [&str; 15] = [
     "polygon",
     "holes",

@@ -1,7 +1,7 @@
 //! The scene file as Rust types, one type for each kind of JSON object. The JSON Schema is generated from these types.
 //!
-//! A [`SceneFile`] is read from text, or built in code by methods with the names of the keys. Only the types of values
-//! are checked here; [`SceneFile::build`] checks the rest. A key may be absent or `null` if its field is an `Option`.
+//! A [`SceneFile`] is read from text, or built in code with the methods in `build`. Reading checks only the types of
+//! the values; [`SceneFile::build`] checks the rest. A key may be absent or `null` if its field is an `Option`.
 //! No other part of the scene module uses serde, serde_json or schemars.
 
 mod body;
@@ -28,8 +28,8 @@ pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 /// A position or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
 
-/// A scene of dry-laid blocks: their positions, and the robots that hold them. SI units, y up, angles in degrees
-/// anticlockwise.
+/// A scene of dry-laid blocks: their positions, and the robots that hold them. SI units by default; y points up, and
+/// angles are in degrees anticlockwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -57,7 +57,7 @@ pub struct SceneFile {
     /// Default: metres and newtons.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<UnitsEntry>,
-    /// Gravity [x, y] in m/s². Weights act along it; at [0, 0] there are none. Default [0, -9.81].
+    /// Gravity [x, y] in m/s². Weights act in this direction; with [0, 0], no weight acts. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
@@ -74,7 +74,7 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub density: Option<f64>,
-    /// Thickness of all blocks across the plane, in the length unit of the scene, at least 0. Default 1.
+    /// Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub thickness: Option<f64>,
@@ -84,7 +84,7 @@ pub struct SceneFile {
     /// Friction coefficients between pairs of materials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub friction_pairs: Vec<FrictionPairEntry>,
-    /// The lattice: `at` of bodies becomes a lattice point, shapes may be sets of cells.
+    /// The lattice. With a lattice, `at` of a body is in lattice coordinates, and outlines may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
     /// Shapes by name. The triangular lattice also has the shapes up, down, hexagon, linkh, linkr and linkl; these
@@ -122,7 +122,7 @@ pub struct SceneFile {
     /// The expected verdict of every frame whose step has no `expect`. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
-    /// Codes of notes to leave out.
+    /// Codes of notes that are switched off.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silence: Vec<String>,
 }
@@ -134,7 +134,7 @@ pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String
     serde_json::from_str(text).map_err(|error| error.to_string())
 }
 
-/// A method for each plain key of the whole file.
+/// Builder methods for the keys of the whole file whose value is a number, a vector or a truth value.
 impl SceneFile {
     optional_setters! {
         gravity: Pair, "Gravity [x, y] in m/s². Weights act in its direction.";
@@ -169,8 +169,8 @@ impl SceneFile {
 }
 
 impl SceneFile {
-    /// Replaces the contact tolerance of the file by `tolerance`, in metres, unless it is `None`. The value is stored
-    /// in the file's unit of length.
+    /// Replaces the contact tolerance of the file by `tolerance`, in metres; `None` leaves the file unchanged. The
+    /// value is stored in the file's unit of length.
     pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
         let unit = self.units.unwrap_or_default().length();
         let given = tolerance.map(|metres| unit.value_from_si(metres));
@@ -211,7 +211,7 @@ pub struct MaterialEntry {
     pub fill: Option<String>,
 }
 
-/// The friction coefficient between two materials. This coefficient replaces those of the two materials.
+/// The friction coefficient between two materials. It replaces all other coefficients of bodies of these materials.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,7 @@ use super::format::Expectation;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
 
-/// A robot that holds a block.
+/// A robot that holds a block in a frame, and the grip point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Hold {
@@ -26,7 +26,7 @@ pub struct Plan {
     pub block: BlockId,
 }
 
-/// The state after one step.
+/// The state of the structure after one step.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Frame {
@@ -38,6 +38,6 @@ pub struct Frame {
     pub holds: Vec<Hold>,
     /// The planned blocks, in the order of the robots' numbers.
     pub plans: Vec<Plan>,
-    /// The verdict that the author expects; `None` if the file gives none.
+    /// The verdict that the author of the scene expects for this frame; `None` if the file gives none.
     pub expected: Option<Expectation>,
 }

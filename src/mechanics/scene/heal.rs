@@ -13,11 +13,14 @@ use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
 
-/// Coordinates are healed only if rounding moves corners off their edges by at most this fraction of a block's size.
+/// Rounded coordinates are healed only if rounding can move corners off their edges by at most this fraction of the
+/// median block size. Healing then moves a corner by at most this fraction of its body's size.
 pub(super) const MAX_ROUNDING_PER_SIZE: f64 = 1.0 / 200.0;
-/// The largest gap of a body as a fraction of its size, if its coordinates are not rounded.
+/// The largest gap of a body as a fraction of its size, if the gap comes neither from rounding nor from a given
+/// tolerance.
 const DEFAULT_GAP_PER_SIZE: f64 = 1e-3;
-/// A gap is closed only if it is smaller than this fraction of the body's size, even if the given tolerance is larger.
+/// If a tolerance is given, a corner moves by at most this fraction of its body's size, even if the tolerance is
+/// larger.
 const MAX_GAP_PER_SIZE: f64 = 1.0 / 20.0;
 /// If a tolerance is given, a corner moves by at most this fraction of its shorter side.
 ///
@@ -28,8 +31,9 @@ const MAX_GAP_PER_SIZE: f64 = 1.0 / 20.0;
 const MAX_MOVE_PER_SIDE: f64 = 0.25;
 /// An overlap that healing makes deeper by at most this fraction of the gap is ignored.
 const MAX_DEEPENING_PER_GAP: f64 = 0.25;
-/// Coordinates count as noisy, however many digits they have, if at least this fraction and this number of all
-/// corners lie slightly off the edge that they should touch: by at most a millionth of the scene's extent.
+/// Coordinates count as noisy if many corners lie slightly off the edge that they should touch, by at most a millionth
+/// of the scene's extent. The two values are the smallest fraction of all corners and the smallest number of corners
+/// for which this applies; both must be reached.
 const MIN_NOISY_CORNERS: (f64, usize) = (0.2, 8);
 /// Coordinates are assumed to have an error of this many units in the last place of the largest coordinate.
 const MAX_LAST_PLACE_UNITS: f64 = 16.0;
@@ -48,7 +52,8 @@ pub enum ToleranceSource {
     Digits(usize),
     /// The coordinates are 32-bit floats.
     Float32,
-    /// The coordinates are not rounded: the tolerance is a millionth of the scene's extent.
+    /// The digits of the coordinates show no rounding, or one that is too coarse for healing. The tolerance is a
+    /// millionth of the scene's extent.
     #[default]
     Size,
     /// Many corners lie off the edges that they should touch, by up to a millionth of the scene's extent.
@@ -59,7 +64,7 @@ pub enum ToleranceSource {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Healed {
-    /// Where the tolerance comes from.
+    /// Where the contact tolerance comes from.
     pub source: ToleranceSource,
     /// Corners and edges up to this distance apart were snapped, metres; 0 if coordinates are used as written.
     pub within: f64,
@@ -80,8 +85,10 @@ pub struct Healed {
 /// the corners: that of the file, or metres if a resolved scene is healed again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HealingReach {
+    /// Where the tolerance comes from.
     pub(super) source: ToleranceSource,
-    /// A millionth of the scene's extent: edges at this distance touch, however their coordinates are written.
+    /// A millionth of the scene's extent: edges up to this distance apart touch, however their coordinates are written.
+    /// It is 0 if a tolerance is given, and on a lattice.
     pub(super) default_gap: f64,
     /// Corners and edges up to this distance apart are snapped; 0 if nothing is snapped.
     pub(super) healing: f64,
@@ -122,15 +129,16 @@ impl HealingReach {
         }
     }
 
-    /// Returns the largest error of the coordinates of a body. `size` is the size of the body, and `farthest` its
-    /// largest coordinate.
+    /// Returns the largest error that is assumed for the coordinates of a body. `size` is the size of the body, and
+    /// `farthest` the largest absolute value of its coordinates. All lengths are in the unit of the corners.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
         self.healing_of(size)
             .max(MAX_LAST_PLACE_UNITS * f64::EPSILON * farthest)
     }
 
-    /// Returns the largest distance at which a body touches other bodies. `size` is the size of the body, and
-    /// `farthest` its largest coordinate.
+    /// Returns the gap of a body: the largest distance at which it counts as touching another body. `size` is the size
+    /// of the body, and `farthest` the largest absolute value of its coordinates. All lengths are in the unit of the
+    /// corners.
     fn gap_of(self, size: f64, farthest: f64) -> f64 {
         let default_gap = self.default_gap.min(DEFAULT_GAP_PER_SIZE * size);
         default_gap.max(self.rounding_of(size, farthest))
@@ -146,14 +154,14 @@ pub(crate) fn size(polygon: &Polygon) -> f64 {
     4.0 * polygon.area() / around
 }
 
-/// The bodies as they are written.
+/// The valid bodies of the scene before healing.
 struct Drawn {
     /// The number of parts of the ground.
     parts: usize,
-    /// The number of each body among all bodies, including those that could not be read. The parts of the ground come
+    /// The number of each body among all bodies, including those that are not valid. The parts of the ground come
     /// first.
     numbers: Vec<usize>,
-    /// Sizes of the bodies, in the unit of the corners.
+    /// Sizes of the bodies, in the unit of the corners. A part of the ground has the size of the largest block.
     sizes: Vec<f64>,
     outlines: Vec<Rings>,
     /// Whether a body may not move, because it consists of lattice cells.
@@ -164,19 +172,20 @@ struct Drawn {
 struct Closed<'d> {
     /// The outlines; borrowed from the input if nothing was moved.
     outlines: Cow<'d, [Rings]>,
-    /// The bodies left as written, because snapping would have damaged their shape or made an overlap deeper.
+    /// The bodies left as written, because snapping would have damaged their shape or made an overlap deeper. A body is
+    /// given by its index in the lists of [`Drawn`].
     kept: Vec<usize>,
     reach: HealingReach,
 }
 
 /// Moves corners and edges of different bodies onto each other if they are within tolerance, and sets the gap of every
-/// body.
+/// body. Returns how many bodies and corners moved, and how far.
 ///
 /// 1. Measure the bodies.
 /// 2. Snap corners and edges within the tolerance that was given, or that follows from the digits of the coordinates.
 /// 3. If many corners still lie slightly off the edges they should touch, the coordinates are noisy: snap these too.
 /// 4. Replace the outlines that changed by more than rounding, and count the corners that moved.
-/// 5. Set the gap of every body and the centroid of every block.
+/// 5. Set the gap and the assumed error of the coordinates of every body, and the centroid of every block.
 pub(super) fn heal(
     ground: &mut [Option<Ground>],
     blocks: &mut [Option<Block>],
@@ -228,8 +237,7 @@ impl Drawn {
         drawn
     }
 
-    /// Returns the id of a body from its index `drawn` in the lists of this struct, which contain only the bodies that
-    /// could be read.
+    /// Returns the id of a body from its index `drawn` in the lists of this struct, which contain only valid bodies.
     fn body(&self, drawn: usize) -> BodyId {
         let number = self.numbers[drawn];
         match number.checked_sub(self.parts) {
@@ -261,8 +269,8 @@ impl Drawn {
         closed
     }
 
-    /// Step 3 of healing: if as many corners as [`MIN_NOISY_CORNERS`] requires still lie slightly off the edges that
-    /// they should touch, snaps these corners too.
+    /// Step 3 of healing: snaps the corners that still lie slightly off the edges that they should touch, if there are
+    /// at least as many as [`MIN_NOISY_CORNERS`] requires. Otherwise returns `closed` unchanged.
     fn without_noise<'d>(&self, closed: Closed<'d>) -> Closed<'d> {
         let default_gap = closed.reach.default_gap;
         if default_gap <= closed.reach.healing {
@@ -328,8 +336,7 @@ impl Drawn {
     }
 }
 
-/// Iterates over the bodies that could be read, each with its number among all bodies. The parts of the ground come
-/// first.
+/// Iterates over the valid bodies, each with its number among all bodies. The parts of the ground come first.
 fn bodies<'b>(
     ground: &'b mut [Option<Ground>],
     blocks: &'b mut [Option<Block>],
@@ -357,8 +364,8 @@ impl Scene {
         Tolerance::from_gap(a.gap.min(b.gap)).with_rounding(a.rounding.max(b.rounding))
     }
 
-    /// Returns a copy of the scene, healed with the contact tolerance `gap`, in metres. Bodies that cannot be moved
-    /// still touch within this distance.
+    /// Returns a copy of the scene, healed with the contact tolerance `gap`, in metres, and without its list of small
+    /// overlaps. Bodies that healing leaves as written still touch within this distance.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {

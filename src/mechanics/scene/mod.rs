@@ -1,8 +1,8 @@
 //! [`Scene`]: a checked description of a structure: its blocks, ground, robots and loads.
 //!
-//! Invariant: a `Scene` is valid. Names are resolved, outlines are simple, numbers are finite and in range, the steps
-//! have been converted to [`Frame`]s, and no block overlaps another body in any frame, except for
-//! [`Scene::penetrations`].
+//! Invariant: a `Scene` is valid. Names are resolved, outlines are simple, numbers are finite and in range, and the
+//! steps have been converted to [`Frame`]s. In no frame does a block overlap another body by more than the tolerance,
+//! except for [`Scene::penetrations`]. Overlaps are not checked if contacts are listed or a block has no outline.
 
 mod applied_force;
 mod body;
@@ -84,7 +84,7 @@ pub struct Scene {
     /// Where the tolerance comes from, how many corners healing moved before the analysis, and how far.
     pub(crate) healed: Healed,
     /// The largest distance by which rounded coordinates may separate a corner from the edge it touches, metres; 0 if
-    /// the coordinates are not rounded.
+    /// no rounding was found, or if the contact tolerance is given.
     pub(crate) misfit: f64,
     /// Pairs of bodies with an overlap so small that they may have been meant to touch. Empty if the scene gives a
     /// tolerance.
@@ -103,13 +103,13 @@ pub struct Scene {
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
     /// The contacts that the file lists. If the list is not empty, contacts are not computed from the outlines.
     pub(crate) contacts: Vec<ListedContact>,
-    /// Whether a corner that touches an edge or another corner carries force.
+    /// Whether a corner that touches an edge or another corner carries force. Also true if the file lists its contacts.
     pub(crate) corner_contacts: bool,
     /// The frames, one for each step; at least one.
     pub(crate) frames: Vec<Frame>,
     /// Notes on input that is allowed but probably not intended, in the order in which they were found.
     pub(crate) notes: Vec<Note>,
-    /// The kinds of notes that the author switched off.
+    /// The codes of the notes that the author switched off.
     pub(crate) silenced: Vec<NoteCode>,
     /// The line of the file in which each body begins.
     pub(crate) lines: note::Lines,
@@ -229,7 +229,8 @@ impl Scene {
         !self.contacts.is_empty()
     }
 
-    /// True if a corner that touches an edge or another corner carries force.
+    /// True if a corner that touches an edge or another corner carries force. Also true if the scene lists its
+    /// contacts.
     pub fn corner_contacts(&self) -> bool {
         self.corner_contacts
     }

@@ -54,7 +54,8 @@ impl<'f> Names<'f> {
         self.numbers.get(name).copied()
     }
 
-    /// Returns the index of a name that is the value at `at`. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that is the value at the path `at`. If the name is unknown, returns `None`, and
+    /// reports it unless some names could not be read.
     pub(super) fn find(
         &self,
         findings: &mut Findings,
@@ -66,7 +67,8 @@ impl<'f> Names<'f> {
         })
     }
 
-    /// Returns the index of a name that is the key at `at`. Reports an unknown name and returns `None`.
+    /// Returns the index of a name that is the key at the path `at`. If the name is unknown, returns `None`, and
+    /// reports it unless some names could not be read.
     pub(super) fn find_key(
         &self,
         findings: &mut Findings,

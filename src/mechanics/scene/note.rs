@@ -16,7 +16,7 @@ use crate::geometry::{Point, Polygon};
 pub(super) const MAX_PLAUSIBLE_FRICTION: f64 = 2.0;
 
 codes! {
-    /// The kind of a note. Later versions may add words, but never rename them.
+    /// The kind of a note. Later versions may add codes, but the word of a code never changes.
     NoteCode;
     FrictionHigh "friction_high" "a friction coefficient above 2",
     GripOutside "grip_outside" "a grip point that lies outside the block",
@@ -39,7 +39,7 @@ pub struct Note {
     pub path: String,
     /// Line in the text, from 1; 0 if there is no text.
     pub line: usize,
-    /// What was found, with its numbers.
+    /// A description of what was found, with its numbers.
     pub message: String,
     /// What to do about it, and how to switch off such notes.
     pub hint: String,
@@ -332,7 +332,7 @@ fn in_degrees(angle: f64) -> Option<f64> {
 }
 
 /// Returns the distance of a point from a polygon, in metres. `None` if the point is inside, or outside by at most
-/// `gap`.
+/// `gap` metres.
 fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
     let point = Point::new(at[0], at[1]);
     if polygon.contains(point) {

@@ -9,7 +9,8 @@ use crate::geometry::{
     Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector,
 };
 
-/// The largest lattice coordinate: sums and products of a few coordinates stay exact.
+/// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
+/// coordinates are exact.
 pub(super) const MAX_LATTICE_COORDINATE: f64 = 1e6;
 
 /// The shape of a body relative to its own origin.
@@ -62,7 +63,7 @@ pub(super) fn polygon(
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));
             }
-            // The area is so small that it is computed as 0.
+            // The area is so small that it is computed as 0, and the centroid is not finite.
             vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,
@@ -125,7 +126,7 @@ fn note(
     }
 }
 
-/// Builds the lattice cells of an entry. If they are not valid, reports all their problems and returns `None`.
+/// Builds the lattice cells of an entry. If the cells are not valid, reports their problems and returns `None`.
 pub(super) fn cells(
     findings: &mut Findings,
     at: &Trail<'_>,
@@ -186,8 +187,8 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
-/// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is out of
-/// range or not a whole number.
+/// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is not a whole
+/// number, or beyond ±[`MAX_LATTICE_COORDINATE`].
 fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;

@@ -28,7 +28,7 @@ use crate::geometry::Point;
 pub struct Problem {
     /// The kind of problem.
     pub code: Code,
-    /// Its place in the scene, such as `blocks[3].polygon[1]`; empty for the whole file.
+    /// The path of the value or key in the scene, such as `blocks[3].polygon[1]`; empty for the whole file.
     pub path: String,
     /// Line in the text, from 1; 0 if there is no text.
     pub line: usize,
@@ -48,9 +48,10 @@ pub struct Problem {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Place {
-    /// A point of the body's own outline, in the units of the file, before it is rotated and moved.
+    /// A point of the outline of the body with the problem, in the units of the file, before the body is rotated and
+    /// moved.
     Own(Point),
-    /// A point, in the units of the file, between the body with the problem and this body.
+    /// A point, in the units of the file, in the overlap of the body with the problem and this other body.
     Between(Point, BodyId),
 }
 
@@ -152,7 +153,7 @@ impl Wording {
         }
     }
 
-    /// Returns the message, and the text on what to do about it.
+    /// Returns the message and the remedy.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
     }

@@ -84,8 +84,8 @@ impl Scene {
         }
     }
 
-    /// Starts a scene that is built in code. The methods of [`SceneFile`] have the names of the keys of a scene file.
-    /// The method [`build`](SceneFile::build) then checks the scene and returns it.
+    /// Starts a scene that is built in code: returns an empty [`SceneFile`], whose methods set the keys of a scene
+    /// file. The method [`build`](SceneFile::build) then checks the file and returns the scene.
     ///
     /// # Example
     /// ```
@@ -135,8 +135,8 @@ impl Scene {
     }
 }
 
-/// Reads the scene file from the syntax tree of `source`. Returns the file, all problems found, and the parts that
-/// could not be read.
+/// Reads the scene file from the syntax tree of `source`. Returns the file, the problems found while reading, and the
+/// parts that could not be read.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
     let mut reader = Reader::new(source);
     let file = match &source.tree {

@@ -50,7 +50,7 @@ pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Ve
     }
 }
 
-/// The values of the whole file that its bodies use.
+/// A scene file, with the values of the whole file that its bodies use: units, gravity, defaults, materials and shapes.
 struct Resolution<'f> {
     file: &'f SceneFile,
     units: UnitsEntry,
@@ -227,7 +227,9 @@ impl<'f> Resolution<'f> {
         steps::frames(findings, &self.file.steps[..known], &context)
     }
 
-    /// Returns the overlaps of bodies that are small enough to be allowed. Reports all other overlaps.
+    /// Returns the overlaps of bodies that are small enough to be allowed, and reports larger overlaps. Also reports a
+    /// point at which too many corners meet. Checks nothing if the file lists contacts or has a block without an
+    /// outline.
     fn penetrations(
         &self,
         findings: &mut Findings,

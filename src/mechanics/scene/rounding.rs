@@ -13,8 +13,9 @@ use super::format::{Pair, SceneFile};
 /// A file counts as rounded to k digits only if at least this fraction of its numbers have k digits, and none has
 /// more.
 const MIN_ROUNDED_SHARE: f64 = 0.25;
-/// The fraction that distinguishes rounding to decimals from 32-bit floats. Of numbers rounded to k decimals, nine in
-/// ten have exactly k decimals. Of 32-bit floats, far fewer have the largest number of decimals that occurs.
+/// At least this fraction of the numbers must have the same, largest number of decimals, before 32-bit floats are
+/// considered. Of numbers rounded to k decimals, nine in ten have exactly k decimals. Of 32-bit floats, far fewer have
+/// the largest number of decimals that occurs.
 const MIN_DECIMAL_SHARE: f64 = 0.6;
 /// Numbers with more decimals or significant digits than this count as not rounded.
 const MAX_ROUNDED_DIGITS: usize = 12;
@@ -71,9 +72,9 @@ struct Digits {
     count: usize,
     /// The largest absolute value.
     largest: f64,
-    /// Histogram: how many coordinates have k decimals.
+    /// Histogram: the entry k is the count of coordinates with k decimals.
     decimals: Table,
-    /// Histogram: how many coordinates have k significant digits.
+    /// Histogram: the entry k is the count of coordinates with k significant digits.
     significant: Table,
     /// Whether some number is neither a 32-bit float nor the shortest notation of one.
     wide: bool,
@@ -183,7 +184,7 @@ impl Digits {
             }
             return Some(found);
         }
-        // A number with seven digits is always the shortest notation of some 32-bit float, so it proves nothing. For a
+        // A number with seven digits is usually the shortest notation of some 32-bit float, so it proves nothing. For a
         // number with eight digits this is rarely a coincidence.
         let long = self.significant.at_least(7) as f64 >= MIN_ROUNDED_SHARE * self.count as f64;
         if !self.wide && long && self.significant.at_least(8) > 0 {

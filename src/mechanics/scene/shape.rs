@@ -1,17 +1,17 @@
 //! The built-in shapes of the triangular lattice, as sets of lattice cells.
 //!
-//! Each shape is a set of whole cells. Its origin is a lattice point, so that it can be rotated by 60° and moved by
-//! lattice steps without leaving the lattice. The centroids of the links are not lattice points, so their origins are
-//! corners.
+//! The origin of each shape is a lattice point, so that the shape can be rotated by 60° and moved by lattice steps
+//! without leaving the lattice. The centroids of the three links (`linkh`, `linkr` and `linkl`) are not lattice points,
+//! so the origin of a link is one of its two reentrant corners.
 //!
 //! | name | cells | origin |
 //! |---|---|---|
 //! | `up` | 1 | left end of its horizontal edge, the triangle above it |
 //! | `down` | 1 | left end of its horizontal edge, the triangle below it |
 //! | `hexagon` | 6 | its centre |
-//! | `linkh` | 6 | its left waist corner, (−½, 0) from the centroid |
-//! | `linkr` | 6 | its lower waist corner, (−¼, −√3/4) from the centroid |
-//! | `linkl` | 6 | its lower waist corner, (¼, −√3/4) from the centroid; mirror image of `linkr` |
+//! | `linkh` | 6 | its left reentrant corner, (−½, 0) from the centroid |
+//! | `linkr` | 6 | its lower reentrant corner, (−¼, −√3/4) from the centroid |
+//! | `linkl` | 6 | its lower reentrant corner, (¼, −√3/4) from the centroid; mirror image of `linkr` |
 
 use crate::geometry::{Cell, CellShape};
 

@@ -20,9 +20,9 @@ pub struct Sketch {
     pub bodies: Vec<SketchedBody>,
     /// The problems, in the order of the text; empty if the scene is valid.
     pub problems: SceneError,
-    /// The point of each problem in the drawing; `None` if it cannot be drawn.
+    /// For each problem, its point in the drawing; `None` if the problem does not belong to a body that can be drawn.
     pub places: Vec<Option<Spot>>,
-    /// The scene, if each of its bodies is valid. The bodies may overlap.
+    /// The scene, if each of its bodies is valid, with lengths in the units of the file. The bodies may overlap.
     pub(crate) scene: Option<Scene>,
     /// The units of the file, in which all coordinates of the sketch are given.
     pub(crate) units: UnitsEntry,

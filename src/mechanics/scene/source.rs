@@ -1,4 +1,5 @@
-//! [`Source`]: the text of a scene file, with the position of every value in the text.
+//! [`Source`]: the text of a scene file, with the position of every value in the text. Problems get their line and
+//! column from it.
 
 use std::ops::Range;
 
@@ -11,7 +12,7 @@ pub(super) struct Source<'t> {
     pub(super) text: &'t str,
     /// The values; `None` if the text is not JSON.
     pub(super) tree: Option<Tree<'t>>,
-    /// First byte of every line.
+    /// The index of the first byte of each line.
     lines: Vec<usize>,
 }
 
@@ -74,8 +75,9 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// Returns the range of bytes of the value or key at this path. Only the part on the first line of the value is
-    /// returned. If the text does not contain the whole path, returns the range of the deepest value that it contains.
+    /// Returns the range of bytes of the value or key at this path. Of a value with several lines, returns only the
+    /// range of the first line. If the text does not contain the whole path, returns the range of the deepest value on
+    /// the path that the text contains. `None` if the text is not JSON.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
@@ -84,7 +86,7 @@ impl<'t> Source<'t> {
                 (Segment::Index(number), NodeKind::List(list)) => tree.items(list).get(*number),
                 (Segment::Key(key), NodeKind::Object(object)) => {
                     let entries = tree.entries(object);
-                    // If a key occurs more than once, mark its last occurrence.
+                    // If the key itself is to be marked and it occurs more than once, mark its last occurrence.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
                     let entry = if last {
@@ -107,8 +109,8 @@ impl<'t> Source<'t> {
         Some(self.first_line(node.range.clone()))
     }
 
-    /// Returns the part of a range of bytes that lies on its first line. A marked value of twenty lines would hide the
-    /// message.
+    /// Returns the part of a range of bytes that lies on its first line, so that a message marks at most one line of
+    /// the text.
     fn first_line(&self, range: Range<usize>) -> Range<usize> {
         let text = self.text.get(range.clone()).unwrap_or("");
         let line = text.split('\n').next().unwrap_or("").trim_end();

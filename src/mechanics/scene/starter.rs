@@ -1,4 +1,4 @@
-//! The example scenes from which users can start; `drystone new` writes them.
+//! Two example scenes, which the command `drystone new` writes and which users can extend.
 
 /// Returns a small example as the text of a scene file. Its structure stands after every step. Users can extend it.
 ///

@@ -22,13 +22,14 @@ const MAX_PLACED_BLOCKS: usize = 8_000_000;
 
 /// The parts of the scene that the steps refer to.
 pub(super) struct StepContext<'s> {
-    /// Block numbers by name.
+    /// The indices of the blocks by name.
     pub(super) blocks: &'s Names<'s>,
-    /// Robot numbers by name.
+    /// The indices of the robots by name.
     pub(super) robots: &'s Names<'s>,
-    /// Every block's centroid; the origin for a block that could not be read.
+    /// The centroid of each block; the origin for a block that is not valid.
     pub(super) centroids: &'s [Point],
-    /// For each robot, the block in its key `holds` and the grip point on this block; `None` if it has no such key.
+    /// For each robot, the block in its key `holds` and the grip point on this block; `None` if the robot has no valid
+    /// key `holds`.
     pub(super) grips: &'s [Option<(BlockId, Point)>],
 }
 
@@ -54,8 +55,8 @@ pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
     }
 }
 
-/// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Stops early if the
-/// frames become too large in total.
+/// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Reports an error and
+/// stops if the frames contain more than [`MAX_PLACED_BLOCKS`] blocks in total.
 pub(super) fn frames(
     findings: &mut Findings,
     steps: &[StepEntry],
@@ -88,7 +89,7 @@ pub(super) fn frames(
 
 /// The placed blocks and the blocks held by robots, after the steps so far.
 struct StepState {
-    /// For each placed block, the number of the step that placed it, and its number in placing order.
+    /// For each placed block, the index of the step that placed it, and its number in placing order.
     placed_in_step: BTreeMap<BlockId, (usize, usize)>,
     /// The blocks in placing order.
     by_placing_order: BTreeMap<usize, BlockId>,

@@ -137,8 +137,8 @@ fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
     found.map(|range| (range, format))
 }
 
-/// Returns the message about a word or number that is not JSON but that another language would accept, such as `None`
-/// or `NaN`. `None` if `found` is not such a word or number.
+/// Returns the message about a word or number that is not valid in JSON, such as `True`, `NaN`, a string without quotes
+/// or `+1`. `None` if `found` is valid JSON, or neither a word nor a number.
 fn known_token(found: &str) -> Option<Wording> {
     let bare = found.trim_start_matches(['-', '+']);
     match bare {

@@ -3,9 +3,9 @@
 //! The entries of all lists are stored in one vector, and those of all objects in another. A file with many points
 //! therefore needs few allocations.
 //!
-//! The parser accepts strict JSON (RFC 8259), like serde_json; a test compares the two. Only numbers that are too
-//! large for a float are not an error here: they are reported later. The parser stops at the first error, and
-//! [`SyntaxError`] describes what was expected there.
+//! The parser accepts strict JSON (RFC 8259), like serde_json; a test compares both parsers. There is one difference: a
+//! number that is too large for a float is not an error here, but is reported later. The parser stops at the first
+//! error, and [`SyntaxError`] describes what was expected at this place.
 
 mod string;
 
@@ -93,7 +93,7 @@ pub(super) struct Entry<'t> {
 /// The place and the reason of an error in a JSON text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SyntaxError {
-    /// The byte at which reading stopped.
+    /// The index of the byte at which the error lies.
     pub(super) at: usize,
     /// The reason.
     pub(super) why: Why,
@@ -102,7 +102,8 @@ pub(super) struct SyntaxError {
 /// The reason why a text is not JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Why {
-    /// The text ends too early. Contains the innermost open bracket or quote, with its byte.
+    /// The text ends too early. Contains the innermost open bracket or quote, with the index of its byte; `None` if
+    /// nothing is open.
     End(Option<(char, usize)>),
     /// More brackets are open than [`MAX_DEPTH`].
     TooDeep,
@@ -151,7 +152,7 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     }
 }
 
-/// An estimate of the number of bytes for each value of a list. It is used to reserve memory.
+/// An estimate of the number of bytes of text for each list entry, used to reserve memory.
 const MIN_BYTES_PER_ITEM: usize = 8;
 
 struct Parser<'t> {
@@ -270,8 +271,8 @@ impl<'t> Parser<'t> {
         self.at += 1;
     }
 
-    /// Reads what follows a value in a list or object. True if it is a comma and another entry, false if it is the
-    /// closing bracket `close`.
+    /// Reads the comma after a value in a list or object. Returns true if a comma and another entry follow the value,
+    /// and false if the closing bracket `close` follows. The bracket itself is not read.
     fn another(&mut self, close: char) -> Result<bool, SyntaxError> {
         self.blanks();
         let comma = self.at;

@@ -7,7 +7,7 @@ use super::format::{ForceUnit, LengthUnit, UnitsEntry};
 use super::{Body, Scene};
 use crate::geometry::{Point, Polygon};
 
-/// A unit in which a quantity is written.
+/// A unit in which a scene file or a result gives a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Unit {
@@ -16,7 +16,7 @@ pub struct Unit {
     /// Its size in SI units.
     pub(crate) size: f64,
     /// Whether the scene file sets this unit. Otherwise it is an SI unit, and large or small numbers are written with
-    /// a prefix such as k.
+    /// a prefix such as k for 1000.
     pub(crate) is_chosen: bool,
 }
 
@@ -28,7 +28,7 @@ impl Unit {
 
     /// Converts a value from the SI unit to this unit.
     pub(crate) fn value_from_si(&self, value: f64) -> f64 {
-        // In an SI unit, return the value bit for bit.
+        // If this is the SI unit, return the value unchanged.
         if self.size == 1.0 {
             value
         } else {

@@ -194,7 +194,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(9.81)),
         ),
         Claim(
-            "Thickness of all blocks across the plane, in the length unit of the scene, at least 0. Default 1.",
+            "Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.",
             file(json!({ "thickness": 2 })),
             Result(WEIGHT, json!(19.62)),
         ),
@@ -288,7 +288,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/resultant/at", json!([0.625, 0])),
         ),
         Claim(
-            "Torque in N·m, anticlockwise positive. Default 0.",
+            "Torque in the force unit times the length unit of the scene, anticlockwise positive. Default 0.",
             pushed(json!({ "block": "a", "torque": 1 })),
             Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0])),
         ),

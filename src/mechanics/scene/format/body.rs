@@ -1,4 +1,4 @@
-//! The types of the scene file for bodies, and for the robots and loads that act on them.
+//! The types of the scene file for bodies, for the robots and loads that act on them, and for listed contacts.
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
@@ -14,8 +14,8 @@ use super::{CellEntry, Pair};
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct GroundEntry {
-    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
-    /// be concave.
+    /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must not
+    /// cross itself; it may be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
@@ -27,16 +27,16 @@ pub struct GroundEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
-    /// Name of a shape.
+    /// Name of a shape that gives the outline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Position of its origin: in the length unit of the scene, or a lattice point if the scene has a grid (whole
-    /// numbers for cells). Default [0, 0].
+    /// Position of the body's origin: in the length unit of the scene, or in lattice coordinates if the scene has a
+    /// grid (whole numbers for cells). Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Rotation about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60, or of 90 on
-    /// the square lattice. Default 0.
+    /// Rotation of the body about its own origin, before the body is moved, in degrees anticlockwise; for cells a
+    /// multiple of 60, or of 90 on the square lattice. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
@@ -63,8 +63,8 @@ pub struct BlockEntry {
     /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// Corners [x, y] of the outline in metres, clockwise or anticlockwise. The outline must not cross itself; it may
-    /// be concave.
+    /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must not
+    /// cross itself; it may be concave.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
     pub polygon: Option<Vec<Pair>>,
@@ -76,16 +76,16 @@ pub struct BlockEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
-    /// Name of a shape.
+    /// Name of a shape that gives the outline.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<String>,
-    /// Position of its origin: in the length unit of the scene, or a lattice point if the scene has a grid (whole
-    /// numbers for cells). Default [0, 0].
+    /// Position of the body's origin: in the length unit of the scene, or in lattice coordinates if the scene has a
+    /// grid (whole numbers for cells). Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub at: Option<Pair>,
-    /// Rotation about its own origin before it is moved, degrees anticlockwise; for cells a multiple of 60, or of 90 on
-    /// the square lattice. Default 0.
+    /// Rotation of the body about its own origin, before the body is moved, in degrees anticlockwise; for cells a
+    /// multiple of 60, or of 90 on the square lattice. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
@@ -153,7 +153,7 @@ pub struct LimitsEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub fy: Option<f64>,
-    /// Largest torque in N·m, at least 0. Default 0.
+    /// Largest torque in the force unit times the length unit of the scene, at least 0. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.0)))]
     pub torque: Option<f64>,
@@ -196,7 +196,7 @@ pub struct LoadEntry {
     /// Where the force acts, [x, y] in the length unit of the scene. Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
-    /// Torque in N·m, anticlockwise positive. Default 0.
+    /// Torque in the force unit times the length unit of the scene, anticlockwise positive. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub torque: Option<f64>,

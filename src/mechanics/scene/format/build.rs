@@ -1,5 +1,5 @@
-//! Builder methods for a scene file: one method for each key of the file, with the same name. Each method returns the
-//! object on which it was called.
+//! Builder methods that set the keys of a scene file in code. A method has the name of its key; a method that adds one
+//! entry to a list has the singular, such as `block` for the key `blocks`. Each method returns the changed object.
 //!
 //! Nothing is checked before [`SceneFile::build`]. That method applies the same rules as for a file and reports all
 //! problems at once.
@@ -53,7 +53,7 @@ macro_rules! body {
     () => {
         outline!();
         optional_setters! {
-            at: Pair, "Position of the body's origin [x, y], in the length unit of the scene; in lattice coordinates if the scene has a grid.";
+            at: Pair, "Position [x, y] of the body's origin, in the length unit of the scene; in lattice coordinates if the scene has a grid.";
             angle: f64, "Rotation of the body about its own origin, in degrees anticlockwise. The body is rotated before it is moved to `at`.";
             friction: f64, "Friction coefficient of this body, at least 0.";
         }
@@ -236,7 +236,7 @@ impl LimitsEntry {
     optional_setters! {
         fx: f64, "Largest horizontal force in the force unit of the scene, at least 0.";
         fy: f64, "Largest vertical force in the force unit of the scene, at least 0.";
-        torque: f64, "Largest torque in N·m, at least 0.";
+        torque: f64, "Largest torque in the force unit times the length unit of the scene, at least 0.";
         force: f64, "Limit in the force unit of the scene for `fx` and `fy` where these are not given, at least 0.";
     }
 }
@@ -276,7 +276,7 @@ impl LoadEntry {
     optional_setters! {
         force: Pair, "Force [x, y] in the force unit of the scene.";
         at: Pair, "Point [x, y] in the length unit of the scene at which the force acts. Without it, the force acts at the centroid of the block.";
-        torque: f64, "Torque in N·m, anticlockwise positive.";
+        torque: f64, "Torque in the force unit times the length unit of the scene, anticlockwise positive.";
     }
 }
 

@@ -5,8 +5,9 @@ use std::io;
 
 use serde_json::ser::Formatter;
 
-/// Objects down to the depth `depth` have one line for each entry. Each deeper object is written on one line.
+/// A JSON formatter that writes the outer objects with one line for each entry, and each deeper object on one line.
 pub(crate) struct Lines {
+    /// The number of levels of objects, from the outside, whose entries are on separate lines.
     depth: usize,
     /// For every open bracket: whether it opens an array, and whether its entries are on separate lines.
     open: Vec<(bool, bool)>,
@@ -16,7 +17,7 @@ pub(crate) struct Lines {
 
 impl Lines {
     /// Creates a formatter. Objects at the `depth` outermost levels get one line for each entry. Each object further
-    /// inside is written on one line.
+    /// inside is written on one line, unless it contains a list of objects.
     pub(crate) fn new(depth: usize) -> Lines {
         Lines {
             depth,

@@ -27,7 +27,7 @@ pub struct StepEntry {
     /// Blocks that robots take hold of, by robot.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub hold: Map<HoldEntry>,
-    /// Blocks that robots are about to place, by robot: drawn as outlines, they carry no force.
+    /// Blocks that robots are about to place, by robot. These blocks are drawn as outlines and carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
     /// The expected verdict. If the frame has this verdict, `check` succeeds, even if the frame falls. Default: that

@@ -39,7 +39,7 @@ macro_rules! codes {
 pub(in crate::mechanics::scene) use codes;
 
 codes! {
-    /// The kind of a problem. Later versions may add words, but never rename them.
+    /// The kind of a problem. Later versions may add codes, but the word of a code never changes.
     Code;
     NotReadable "not_readable" "the file cannot be read; the message gives the system's reason",
     InternalFault "internal_fault" "an internal error of the program occurred on this scene",

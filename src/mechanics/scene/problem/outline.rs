@@ -6,11 +6,11 @@ use super::{Code, Wording, digits, new_wording, pair, point};
 use crate::geometry::Point;
 use crate::scene::format::UnitsEntry;
 
-/// A side of an outline, given by the numbers of its corners.
+/// A side of an outline or of a hole, given by the indices of its two corners.
 pub(in crate::mechanics::scene) struct Side {
-    /// The hole that it belongs to; `None` for the outline.
+    /// The index of the hole to which the side belongs; `None` if it belongs to the outline.
     pub(in crate::mechanics::scene) hole: Option<usize>,
-    /// The numbers of its corners, from 0.
+    /// The indices of its two corners, from 0.
     pub(in crate::mechanics::scene) corners: [usize; 2],
 }
 
@@ -202,7 +202,7 @@ pub(in crate::mechanics::scene) fn angle_off_lattice(angle: f64, turn: f64) -> W
 
 /// The overlap of two bodies.
 pub(in crate::mechanics::scene) struct Common {
-    /// How far one body must move so that they no longer overlap, in the units of the file.
+    /// The depth of the overlap, in the units of the file: the distance by which one body must move to leave the other.
     pub(in crate::mechanics::scene) depth: f64,
     /// The common area, in the squared unit of length of the file.
     pub(in crate::mechanics::scene) area: f64,

@@ -12,7 +12,8 @@ use super::super::problem::{self, Wording};
 use super::super::source::{Mark, Source};
 use super::super::tree::{Entry, List, Node, NodeKind};
 
-/// In objects with more keys than this, repeated keys are found with a table.
+/// In objects with more keys than this, repeated keys are found with a table. In smaller objects, each key is compared
+/// with all keys before it.
 const MAX_KEYS_WITHOUT_TABLE: usize = 16;
 
 /// Reads the values of a scene file and collects their problems.

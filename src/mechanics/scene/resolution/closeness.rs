@@ -21,9 +21,10 @@ pub(super) struct Closeness {
     pub(super) exact: bool,
     /// The tolerance of healing, and where it comes from.
     reach: HealingReach,
-    /// The bodies and corners that healing moved.
+    /// The result of healing: how many bodies and corners moved, and how far.
     pub(super) healed: Healed,
-    /// The largest distance by which rounding can move a corner off the edge that it touches, in the units of the file.
+    /// The largest distance by which rounding can move a corner off the edge that it touches, in the units of the file;
+    /// 0 if no rounding was found, or if the tolerance is given.
     pub(super) misfit: f64,
 }
 
@@ -44,8 +45,8 @@ impl Closeness {
 }
 
 impl Resolution<'_> {
-    /// Determines the contact tolerance, and heals the bodies with it. Bodies are not changed if all of them consist
-    /// of lattice cells, if the file lists the contacts, or if a block has no outline.
+    /// Determines the contact tolerance, and heals the bodies with this tolerance. Bodies are not changed if all of
+    /// them consist of lattice cells, if the file lists the contacts, or if a block has no outline.
     pub(super) fn heal(
         &self,
         findings: &mut Findings,

@@ -12,7 +12,7 @@ use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
 /// The size of a schematic disc or support, as a fraction of the diagonal of the rectangle around all centres and
 /// contacts.
 const SYMBOL_SIZE_SHARE: f64 = 0.03;
-/// Corners of the schematic disc around a centre.
+/// The number of corners of the schematic disc around a centre.
 const DISC_CORNERS: usize = 8;
 
 impl Resolution<'_> {
@@ -72,7 +72,7 @@ impl Resolution<'_> {
     }
 
     /// Gives each block without an outline a schematic outline: the convex hull of its contacts and of a small disc
-    /// around its centre. If the scene has no ground, adds a small support behind each contact with the ground.
+    /// around its centre. If the scene has no ground, adds a small part of the ground at each contact with the ground.
     pub(super) fn add_schematic_outlines(
         &self,
         ground: &mut Vec<Option<Ground>>,

@@ -1,4 +1,4 @@
-//! Finds the outlines of all bodies in a scene file that can be drawn, even if these outlines are not valid.
+//! Finds the outlines with which the bodies of a scene file can be drawn, even if these outlines are not valid.
 
 use super::Resolution;
 use super::body::BodyEntry;
@@ -8,13 +8,13 @@ use crate::scene::format::{CellEntry, CellHalf, SceneFile};
 use crate::scene::number::MAX_MAGNITUDE;
 use crate::scene::{BlockId, BodyId, Scene};
 
-/// A body as written in the file, in its position in the scene.
+/// A body of the scene file, at its position in the scene. Healing does not change it.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SketchedBody {
     /// The id of the body.
     pub id: BodyId,
-    /// A block's id, or `ground[2]`.
+    /// The id of a block, or a name such as `ground[2]` for a part of the ground.
     pub name: String,
     /// Its outline and holes, in the units of the file. They may cross, and may have any number of corners.
     pub rings: Vec<Vec<Point>>,
@@ -39,8 +39,8 @@ impl Placement {
     }
 }
 
-/// Returns all bodies that can be drawn, the ground first. Also returns the scene if all its bodies are valid; the
-/// bodies may still overlap.
+/// Returns all bodies that can be drawn, the ground first, and the scene if all its bodies are valid. The bodies may
+/// still overlap. The scene is not converted to SI units: its lengths are in the units of the file.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
     unread: UnreadParts,
@@ -94,8 +94,8 @@ impl Resolution<'_> {
         }
     }
 
-    /// Returns the outline and holes of a body as written, rotated and moved to the body's position. Rings that cannot
-    /// be drawn are left out.
+    /// Returns the outline and holes of a body as written, rotated and moved to the body's position. Rings without
+    /// corners, or with coordinates that are too large, are left out.
     fn raw(&self, written: &BodyEntry<'_>, placement: Placement) -> Vec<Vec<Point>> {
         let shape = written.shape.and_then(|name| {
             let shapes = &self.file.shapes.0;

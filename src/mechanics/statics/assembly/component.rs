@@ -48,7 +48,7 @@ impl Assembly {
         parts
     }
 
-    /// True if no body touches the ground and no robot holds a body.
+    /// True if no body has a contact with the ground and no robot holds a body.
     pub fn is_unsupported(&self) -> bool {
         self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
     }

@@ -31,16 +31,17 @@ pub struct Assembly {
     pub contacts: Vec<AssemblyContact>,
     /// The grips of robots on bodies, in the order of the frame's holds.
     pub grips: Vec<AssemblyGrip>,
-    /// The direction of gravity, in newtons per newton of weight: a unit vector, unless a margin varies it.
+    /// The gravity vector, in newtons per newton of weight: a unit vector in the direction of gravity, unless a margin
+    /// varies it. Zero if weight is not simulated.
     pub pull: Vector,
     /// The factor on the listed loads: 1, unless a margin varies it.
     pub load_factor: f64,
-    /// The characteristic length L in metres, the median length of the interfaces. A torque M is treated as a force
-    /// M/L.
+    /// The characteristic length L in metres: the median length of the edge interfaces, if there are any. When torques
+    /// and forces are compared, a torque M counts as a force M/L.
     pub length: f64,
 }
 
-/// A force, and a moment about a body's centroid.
+/// A load on a body: a force at the body's centroid, and a moment about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadVector {
     /// Force, N.
@@ -72,7 +73,8 @@ impl LoadVector {
         }
     }
 
-    /// Returns the size of the load in newtons: the larger of the force and the moment divided by `length` (metres).
+    /// Returns the size of the load in newtons: the magnitude of the force, or the absolute moment divided by `length`
+    /// (metres) if that is larger.
     pub fn size(&self, length: f64) -> f64 {
         self.force.norm().max(self.moment.abs() / length)
     }
@@ -91,7 +93,8 @@ pub struct AssemblyBody {
     pub weight: f64,
     /// The sum of the loads that the scene lists for the block, without the load factor.
     pub listed: LoadVector,
-    /// The total load, without contacts and robots: pull · weight + load factor · listed.
+    /// The total load, without the forces of contacts and robots: [`Assembly::pull`] · weight + load factor · listed
+    /// loads.
     pub load: LoadVector,
 }
 
@@ -108,19 +111,21 @@ impl AssemblyBody {
 pub struct AssemblyContact {
     /// The index of the interface among the frame's interfaces.
     pub interface: usize,
-    /// The two bodies in the scene, that of `on` first.
+    /// The two bodies of the scene. The first is the body with the index `on`.
     pub bodies: [BodyId; 2],
-    /// The body on which the contact force acts with positive sign; the partner receives the opposite force.
+    /// The index of the body on which the contact force acts with positive sign. The other body receives the opposite
+    /// force.
     pub on: usize,
-    /// The other body, `None` for the ground.
+    /// The index of the other body; `None` for the ground.
     pub from: Option<usize>,
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the segment, metres; (−n_y, n_x) points from the first to the second.
+    /// Ends of the contact segment, metres. The tangent (−n_y, n_x) points from the first to the second. Equal for a
+    /// corner.
     pub ends: [Point; 2],
     /// The application points of the normal forces, metres: the ends, moved inward by the safety kernel.
     pub points: [Point; 2],
-    /// Unit normal into `on`.
+    /// Unit normal of the contact, which points into the body `on`.
     pub normal: Vector,
     /// Friction coefficient; 0 if friction is not simulated.
     pub friction: f64,
@@ -148,7 +153,7 @@ pub struct AssemblyGrip {
     pub hold: usize,
     /// The robot.
     pub robot: RobotId,
-    /// The held body.
+    /// The index of the held body.
     pub body: usize,
     /// The grip point, metres.
     pub at: Point,
@@ -157,7 +162,8 @@ pub struct AssemblyGrip {
 }
 
 impl Assembly {
-    /// Creates the assembly of a frame with its placed bodies only. The effects then add loads, contacts and grips.
+    /// Creates the assembly of a frame with its placed blocks as bodies, but without loads, contacts and grips. The
+    /// effects add these afterwards.
     pub fn without_effects(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> Assembly {
         let mut placed = frame.placed.clone();
         placed.sort();
@@ -182,8 +188,8 @@ impl Assembly {
         }
     }
 
-    /// Returns one entry for each of the `blocks` blocks of the scene: the index of its body, or `None` if it is not
-    /// placed.
+    /// Returns a list with one entry for each block of the scene: the index of its body, or `None` if the block has no
+    /// body in this assembly. `blocks` is the number of blocks of the scene.
     pub fn body_of_block(&self, blocks: usize) -> Vec<Option<usize>> {
         let mut body_of_block = vec![None; blocks];
         for (number, body) in self.bodies.iter().enumerate() {
@@ -226,8 +232,8 @@ pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> Loa
 
 /// Returns the characteristic length L of a frame in metres: the median length of its edge interfaces.
 ///
-/// Without edge interfaces it is the median square root of the placed blocks' areas. It depends only on the placed
-/// blocks, so the result of a step does not change with later steps.
+/// If there are no edge interfaces, L is the median square root of the placed blocks' areas. L depends only on the
+/// placed blocks, so the result of a step does not change with later steps.
 fn characteristic_length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]) -> f64 {
     let edges = interfaces.iter().filter(|i| i.kind == ContactKind::Edge);
     let area = |b: &BlockId| scene.blocks[b.0].body.polygon.area();

@@ -5,7 +5,8 @@ use super::{Assembly, AssemblyGrip};
 /// Some bodies of an assembly, with all other bodies fixed as if they were ground.
 #[derive(Clone, Debug)]
 pub struct Substructure {
-    /// The selected bodies as an assembly. Its length L is the median length of its contacts.
+    /// The selected bodies as an assembly. Its length L is the median length of its edge contacts, or the median radius
+    /// of its bodies if it has none.
     pub assembly: Assembly,
     /// For each body of the substructure: its index in the whole assembly.
     pub bodies: Vec<usize>,
@@ -19,7 +20,7 @@ pub struct Substructure {
 }
 
 impl Assembly {
-    /// Returns the substructure of the bodies with these indices. They must be in ascending order.
+    /// Returns the substructure of the bodies with these indices. The indices must be in ascending order.
     pub fn substructure(&self, bodies: &[usize]) -> Substructure {
         let mut place = vec![None; self.bodies.len()];
         for (number, body) in bodies.iter().enumerate() {
@@ -46,7 +47,7 @@ impl Assembly {
                 grips.push(number);
             }
         }
-        // The length L of the part: the median length of its contacts, or else the median radius of its bodies.
+        // The length L of the part is the median length of its edge contacts, or else the median radius of its bodies.
         let lengths = part.contacts.iter().map(|c| (c.ends[1] - c.ends[0]).norm());
         let lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
         let radii = part.bodies.iter().map(|body| body.radius());
@@ -62,7 +63,7 @@ impl Assembly {
     }
 
     /// Returns the connected components of the bodies for which `member` is true, as lists of body indices in ascending
-    /// order. Bodies are connected if they touch.
+    /// order. Two bodies are connected if there is a contact between them.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
         let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
         for contact in &self.contacts {

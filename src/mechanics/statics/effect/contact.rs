@@ -1,4 +1,4 @@
-//! Contact: two normal forces per edge interface, one at each end. They can press but never pull.
+//! Contact: two normal forces per edge interface, one at each application point. They can press but never pull.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
@@ -7,8 +7,8 @@ use crate::assembly::{Assembly, AssemblyContact};
 use crate::interface::{ContactKind, Interface};
 use crate::scene::BodyId;
 
-/// Normal forces between edges that touch. Applies if two bodies touch; contributes one smooth contact per edge
-/// interface.
+/// Normal forces between edges that touch. Applies if two bodies touch; contributes one contact without friction per
+/// edge interface.
 pub(super) struct Contact;
 
 impl Effect for Contact {

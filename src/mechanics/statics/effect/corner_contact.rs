@@ -6,8 +6,8 @@ use super::{Applicability, Effect, EffectName, FrameContext, contact};
 use crate::assembly::Assembly;
 use crate::interface::ContactKind;
 
-/// Forces at corners. Applies if the scene requests them and a corner touches something; contributes one contact with one
-/// application point for each such corner, with its friction.
+/// Forces at corners. Applies if the scene requests them and a corner touches another body, or if the scene lists its
+/// contacts. Contributes one contact with friction and with one application point for each corner or listed contact.
 pub(super) struct CornerContacts;
 
 impl Effect for CornerContacts {
@@ -22,15 +22,15 @@ impl Effect for CornerContacts {
             _ if !context.scene.corner_contacts => {
                 Applicability::skipped("not requested; corner contacts are unreliable")
             }
-            0 => Applicability::skipped("no tip touches another body"),
+            0 => Applicability::skipped("no corner touches another body"),
             1 if context.scene.lists_contacts() => {
                 Applicability::Applies("the scene lists 1 contact".to_owned())
             }
             n if context.scene.lists_contacts() => {
                 Applicability::Applies(format!("the scene lists {n} contacts"))
             }
-            1 => Applicability::Applies("1 tip touches another body".to_owned()),
-            n => Applicability::Applies(format!("{n} tips touch another body")),
+            1 => Applicability::Applies("1 corner touches another body".to_owned()),
+            n => Applicability::Applies(format!("{n} corners touch another body")),
         }
     }
 

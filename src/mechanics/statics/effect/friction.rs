@@ -1,7 +1,7 @@
 //! Friction: |T| ≤ μ (N1 + N2) at each interface (Coulomb's law).
 //!
-//! It adds two unknowns per application point. Each is a normal force together with the full friction in one
-//! direction. Source: [Vallat23](crate::doc::references) §2.0.3.
+//! There are two unknowns per application point, one for each edge of the friction cone: a normal force together with
+//! the full friction in one direction. Source: [Vallat23](crate::doc::references) §2.0.3.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;

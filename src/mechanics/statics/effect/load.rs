@@ -3,7 +3,8 @@
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::{Assembly, load_about};
 
-/// The loads that the scene lists. Applies if one of them acts on a placed block; adds them to the load vectors of bodies.
+/// The loads that the scene lists. Applies if one of them acts on a placed block; adds the loads to the load vectors of
+/// the bodies.
 pub(super) struct Loads;
 
 impl Effect for Loads {

@@ -1,8 +1,8 @@
 //! Margins: how far loads, friction, tilt, the safety kernel and the limits of robots may change before the verdict
 //! changes.
 //!
-//! They add no unknown to the frame's program; each margin solves separate programs. Sources: the load factor of limit
-//! analysis, Livesley 1978; the geometric safety factor, Heyman 1966.
+//! Margins add no unknown to the frame's program, because each margin solves separate programs. Sources: the load
+//! factor of limit analysis, Livesley 1978; the geometric safety factor, Heyman 1966.
 
 use super::{EffectName, EffectReport, counted};
 

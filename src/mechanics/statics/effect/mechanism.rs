@@ -1,7 +1,7 @@
 //! Mechanism: the motion with which a frame begins to collapse.
 //!
-//! It adds no unknown: the dual variables of the balance are virtual velocities, so the solution already contains the
-//! motion. Source: Livesley 1978, for the duality of balance and mechanism.
+//! The mechanism adds no unknown: the dual variables of the balance of forces are virtual velocities, so the solution
+//! already contains the motion. Source: Livesley 1978, for the duality of balance and mechanism.
 
 use super::{EffectName, EffectReport};
 

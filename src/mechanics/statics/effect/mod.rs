@@ -49,11 +49,12 @@ pub enum EffectName {
     Loads,
     /// Contact forces also act where a corner touches an edge or another corner.
     CornerContacts,
-    /// The least adhesion that a falling frame would need to stand.
+    /// The least additional forces with which a falling frame would stand: adhesion at contacts, or robot forces beyond
+    /// the limits.
     Sticking,
     /// The motion with which a frame collapses.
     Mechanism,
-    /// How far loads, friction and tilt may change before the verdict changes.
+    /// How far a quantity, such as loads, friction or tilt, may change before the verdict changes.
     Margins,
     /// Whether a frame stands only by a self-stress that its loads do not build up.
     Wedging,
@@ -121,7 +122,8 @@ pub struct EffectReport {
     pub simulated: bool,
     /// Why it was simulated or skipped, in words.
     pub why: String,
-    /// The number of force unknowns that it added to the programs, or would have added if it was skipped.
+    /// The number of force unknowns that the effect added to the programs. For a skipped effect, the number that it
+    /// would have added.
     pub unknowns: usize,
 }
 
@@ -198,7 +200,8 @@ trait Effect {
     fn contribute(&self, context: &FrameContext, assembly: &mut Assembly);
 }
 
-/// The effects in the order in which they contribute and are reported: friction and kernel change existing contacts.
+/// The effects in the order in which they contribute and are reported. Friction and kernel change contacts, so they
+/// come after the effect that adds edge contacts.
 const EFFECTS: [&dyn Effect; 8] = [
     &weight::Weight,
     &contact::Contact,
@@ -210,7 +213,8 @@ const EFFECTS: [&dyn Effect; 8] = [
     &corner_contact::CornerContacts,
 ];
 
-/// Builds the assembly of a frame from the effects that apply. Also returns a report on each effect.
+/// Builds the assembly of a frame from the effects that apply. Also returns a report on each effect that can act on the
+/// assembly, including skipped effects.
 ///
 /// The reports of simulated effects contain 0 unknowns at first. The unknowns are counted later, from the programs.
 pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {

@@ -1,4 +1,5 @@
-//! Robots: a force with the components F_x and F_y at the grip point of each held block, within the robot's limits.
+//! Robots: each robot that holds a block applies a force at its grip point, whose components F_x and F_y are within the
+//! robot's limits.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.6.
 

@@ -1,12 +1,13 @@
-//! Robot torque: a torque about the grip point, within the robot's limit.
+//! Robot torque: each robot that holds a block may also apply a torque to the block, within the robot's torque limit.
 //!
-//! Source: [Vallat23](crate::doc::references) §2.0.6. In §3 of that paper every limit is 0, because real robots control
-//! torque poorly.
+//! Source: [Vallat23](crate::doc::references) §2.0.6. In §3 of that paper every torque limit is 0, because real robots
+//! control torque poorly.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;
 
-/// Torques of robots. Applies if the torque limit of a holding robot is above 0; sets the limits of the grips.
+/// Torques of robots. Applies if the torque limit of a robot that holds a block is above 0; sets the torque limits of
+/// the grips.
 pub(super) struct RobotTorque;
 
 impl Effect for RobotTorque {

@@ -1,22 +1,22 @@
 //! The effect *sticking*: the missing forces, also called adhesion. With these additional forces, from mortar or from
-//! stronger robots, a falling structure would stand. They show where it fails.
+//! stronger robots, a falling structure would stand. The missing forces show where the structure fails.
 //!
-//! Two objectives are minimised one after the other (lexicographically): first the sum of sticking forces, then the sum
-//! of all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which adds both with a weight.
+//! Two objectives are minimised one after the other (lexicographically): first the sum of the missing forces, then the
+//! sum of all forces. Source: [Vallat23](crate::doc::references) §2.0.8, which minimises a weighted sum of both.
 
 use super::{EffectName, EffectReport, counted};
 
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Sticking;
 
-/// Whether the least sticking was computed, and why.
+/// Whether the least missing forces were computed, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AdhesionSearch {
-    /// Computed: admissible forces cannot balance the loads.
+    /// Computed, because admissible forces cannot balance the loads.
     Found,
-    /// Not computed: the frame stands.
+    /// Not computed, because the frame stands.
     NotNeeded,
-    /// Not computed: the frame falls, and only its verdict was requested.
+    /// Not computed, because the frame falls and only its verdict was requested.
     NotRequested,
 }
 

@@ -1,12 +1,13 @@
-//! Wedging: whether a frame stands only by a self-stress that its loads do not build up.
+//! Wedging: whether a frame stands only by a self-stress that its loads do not build up. A self-stress is a set of
+//! contact forces that balance each other without any load.
 //!
 //! Pure statics accepts any self-stress: a block between two walls "stands" at any μ > 0, squeezed by a force that
 //! nothing produces. The check for wedging adds no unknown to the frame's program and does not change the verdict.
 //!
-//! The model has a spring that can only press at every application point, and a spring along every interface. All have
-//! the same stiffness and no stress before the loads act; friction follows Coulomb's law. "Only by wedging" means that
-//! these springs have no state of rest. Source of the question and of its models H and A: Kao et al. 2022, Coupled
-//! Rigid-Block Analysis.
+//! The model has a normal spring at every application point, which can only press, and a tangential spring along every
+//! interface. All springs have the same stiffness and no stress before the loads act; friction follows Coulomb's law.
+//! "Only by wedging" means that these springs have no state of rest under the loads. Source of the question and of its
+//! models H and A: Kao et al. 2022, Coupled Rigid-Block Analysis.
 
 use super::{EffectName, EffectReport};
 

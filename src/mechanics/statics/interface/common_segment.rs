@@ -7,8 +7,8 @@ use crate::scene::{Scene, ToleranceSource};
 /// If a tolerance is given, a segment that covers this fraction of the shorter edge is a contact, however short the
 /// edge.
 ///
-/// Ten times this is more than a whole edge. If it were ten times smaller, two bricks that barely touch at their
-/// chamfers would have a contact.
+/// If this fraction were ten times larger, it would be more than a whole edge. If it were ten times smaller, two bricks
+/// that barely touch at their chamfers would have a contact.
 const CONTACT_PER_EDGE: f64 = 0.5;
 
 /// Edges shorter than this fraction of a given tolerance are not real edges: healing moved their two corners to one
@@ -18,15 +18,16 @@ const CONTACT_PER_EDGE: f64 = 0.5;
 /// smaller, it would be close to the rounding errors of the coordinates.
 const MIN_EDGE_PER_TOLERANCE: f64 = 1e-6;
 
-/// The segment that two opposite edges both cover, measured along their mean direction from the start of the
-/// first edge.
+/// The segment that two edges of opposite direction both cover. Coordinates along the segment are measured along the
+/// mean direction of the edges, from the start of the first edge.
 pub(super) struct CommonSegment {
     a: Edge,
     b: Edge,
-    /// The mean direction of the two edges, that of the first.
+    /// The mean direction of the two edges, oriented like the first edge.
     along: Vector,
-    /// The coordinates of its two ends along the mean direction, metres.
+    /// The coordinate of the segment's start along the mean direction, metres.
     pub(super) start: f64,
+    /// The coordinate of the segment's end along the mean direction, metres.
     pub(super) end: f64,
 }
 
@@ -94,7 +95,7 @@ impl CommonSegment {
         self.a.from + self.along * s + self.outward() * height
     }
 
-    /// Returns the gap along this segment, for edges that do not touch.
+    /// Returns this segment as a [`GapSegment`], for edges that do not touch.
     pub(super) fn open(&self) -> GapSegment {
         let at = self.a.from + self.along * ((self.start + self.end) / 2.0);
         let ends = [self.start, self.end].map(|s| (self.middle(s), self.gap(s).abs()));

@@ -1,8 +1,8 @@
 //! Finds corner contacts: a corner touches an edge or another corner, and the two bodies have no edge interface there.
 //!
-//! Vallat (2023) omits them as unreliable; a scene requests them with `"corner_contacts": true`. If a corner touches an
-//! edge, the normal is that of the edge. If two corners touch, the normal has the direction of the difference of their
-//! inward unit bisectors.
+//! Vallat (2023) omits corner contacts as unreliable; a scene requests them with `"corner_contacts": true`. If a corner
+//! touches an edge, the normal is that of the edge. If two corners touch, the normal has the direction of the
+//! difference of their inward unit bisectors.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
 use crate::scene::{BodyId, Scene};
 
-/// Two corners whose unit bisectors differ by at most this have no defined normal, because both point in the same
-/// direction.
+/// If the difference of the unit bisectors of two corners has at most this length, the contact has no defined normal,
+/// because both corners point in the same direction.
 const PARALLEL_BISECTORS: f64 = 1e-9;
 
-/// A corner contact is part of another contact of the two bodies if their distance is at most this multiple of the
-/// tolerance.
+/// A corner that touches another body is part of a known contact of the two bodies if its distance from this contact is
+/// at most this multiple of the tolerance.
 ///
 /// The ends of an interface and the corner are each displaced by up to one tolerance.
 const SAME_CONTACT_REACH: f64 = 4.0;
@@ -28,9 +28,9 @@ const LATTICE_TOLERANCE_PER_SIDE: f64 = 1e-6;
 struct Tip {
     body: BodyId,
     at: Point,
-    /// The vector of the side that ends here.
+    /// The vector of the side that ends at this corner.
     before: Vector,
-    /// The vector of the side that begins here.
+    /// The vector of the side that begins at this corner.
     after: Vector,
 }
 
@@ -47,7 +47,7 @@ impl Tip {
     }
 }
 
-/// A corner and the side that begins in it.
+/// A corner and the side of the outline that begins at this corner.
 struct CornerSide {
     /// Its index among all corners of the scene.
     number: usize,
@@ -62,8 +62,8 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
         _ => scene.tolerance_between(a, b).gap,
     };
     let index = BoxIndex::new(corner_sides(scene), |place| place.side.bounds());
-    // Go through the corners in the order of the scene. If several corners are at the same point, the first one becomes
-    // the contact.
+    // Go through the corners in the order of the scene. If several corners of two bodies are at the same point, the
+    // first of them becomes the contact.
     let mut places: Vec<&CornerSide> = index.all().map(|(_, place)| place).collect();
     places.sort_unstable_by_key(|place| place.number);
     let mut found: Vec<Interface> = Vec::new();

@@ -1,5 +1,5 @@
-//! Finds the interfaces of scenes that are not on a lattice: edges of two bodies that face each other within the
-//! tolerance.
+//! Finds the edge interfaces of scenes in which not all bodies consist of lattice cells: edges of two bodies that face
+//! each other within the contact tolerance.
 //!
 //! 1. A bounding-volume hierarchy over position and direction returns the pairs of edges that may face each other.
 //! 2. [`compare`] decides for each pair: common segment, too short, or apart.
@@ -31,9 +31,10 @@ const FULL_TURN: f64 = 4.0;
 /// Edges with a gap above this fraction of a block's size are not near misses: they were not drawn to touch.
 const MAX_GAP_PER_SIZE: f64 = 0.01;
 
-/// Common segments up to this fraction of the tolerance's shortest contact are not even reported as too short.
+/// Common segments are ignored, and not reported as too short, if their length is at most this fraction of
+/// [`Tolerance::min_length`].
 ///
-/// They result from rounding where a corner touches the end of an edge.
+/// Such segments result from rounding where a corner touches the end of an edge.
 const CORNER_ROUNDING: f64 = 1e-3;
 
 /// An edge longer than this fraction of a block's size (four times its area over its perimeter) is a side on which the
@@ -49,7 +50,7 @@ struct Side {
     /// Its index among the body's edges.
     number: usize,
     edge: Edge,
-    /// The largest distance of edges of other bodies that are considered, metres.
+    /// The largest distance at which edges of other bodies are compared with this edge, metres.
     search_distance: f64,
 }
 
@@ -112,7 +113,7 @@ enum Relation {
     Touching(Interface, f64),
     /// They touch along a segment that is too short for an interface.
     TooShort(Interface),
-    /// They do not touch along this segment.
+    /// They face each other along this segment with a gap wider than the tolerance: a near miss.
     Apart(GapSegment),
 }
 

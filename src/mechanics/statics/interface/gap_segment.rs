@@ -1,7 +1,7 @@
 //! [`GapSegment`]: a segment along which the edges of two bodies face each other without touching.
 //!
-//! [`without_outline`] drops the segments that belong to the shape of an outline. It keeps those that may have been
-//! meant to touch.
+//! [`without_outline`] drops the segments whose gap only follows from the rounded shape of an outline. It keeps the
+//! segments whose edges may have been meant to touch.
 
 use crate::geometry::{Point, Tolerance};
 
@@ -42,8 +42,8 @@ impl GapSegment {
     }
 }
 
-/// Drops the gaps between two bodies that only follow from the shape of a rounded outline. Returns the gaps that may
-/// have been meant to touch.
+/// Drops the gaps between two bodies that only follow from the shape of a rounded outline. Returns the gaps between
+/// edges that may have been meant to touch.
 ///
 /// Two bodies that touch cannot be moved towards each other. A round stone that touches the ground is near it on both
 /// sides, because its outline turns there: no tolerance can close this gap without bending the outline. These steps

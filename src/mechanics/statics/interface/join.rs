@@ -24,8 +24,8 @@ pub(super) const JOIN_REACH: f64 = 4.0;
 /// drawn curve would be joined.
 const SAME_LINE_TOL: f64 = 1e-6;
 
-/// Joins the contact segments of one pair of bodies that continue each other. Returns the joined segments and the
-/// segments that continue no other segment.
+/// Joins the contact segments of one pair of bodies that continue each other. Returns the joined segments, and also the
+/// segments that were not joined with any other segment.
 pub(super) fn join_segments(segments: Vec<Interface>, tolerance: Tolerance) -> Vec<Interface> {
     let mut remaining = SegmentGrid::new(segments, JOIN_REACH * tolerance.gap);
     let mut joined = Vec::new();

@@ -1,7 +1,7 @@
-//! Finds the interfaces of lattice scenes with integer arithmetic, so the result is exact.
+//! Finds the interfaces of scenes whose bodies consist of lattice cells. Integer arithmetic makes the result exact.
 //!
-//! Two cells share an edge if the outline of one contains it in one direction and the outline of the other in the
-//! opposite direction. Consecutive edges between the same two bodies along one line are one interface.
+//! Two bodies share a cell edge if the outline of one body contains the edge in one direction, and the outline of the
+//! other in the opposite direction. Consecutive edges between the same two bodies along one line are one interface.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,8 @@ use crate::scene::{BodyId, Scene};
 
 type Node = (i64, i64);
 
-/// The bodies that own each unit length of a lattice. When a block is added to a structure, its contacts are looked up
-/// here.
+/// For each directed edge of a lattice cell: the bodies whose outline contains this edge. When a block is added to a
+/// structure, its contacts are looked up in this table.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LatticeEdges {
     owners: BTreeMap<(Node, Node), Vec<BodyId>>,
@@ -56,7 +56,7 @@ impl LatticeEdges {
         lattice: &Lattice,
         edges: impl Iterator<Item = ((Node, Node), BodyId)>,
     ) -> Vec<Interface> {
-        // The unit lengths that each pair of bodies shares in each direction, as a map from start node to end node. The
+        // The cell edges that each pair of bodies shares in each direction, as a map from start node to end node. The
         // direction is that of the first body's edge.
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
@@ -86,7 +86,7 @@ pub(super) fn find(scene: &Scene, lattice: &Lattice) -> Vec<Interface> {
     edges.interfaces(scene, lattice, all)
 }
 
-/// Joins consecutive unit lengths between the same two bodies along one line into one interface each.
+/// Joins consecutive cell edges between the same two bodies along one line into one interface. Returns all interfaces.
 fn joined(
     scene: &Scene,
     lattice: &Lattice,

@@ -1,8 +1,8 @@
-//! [`Interface`]: a contact of two bodies along a common segment of their edges. [`Interfaces`]: all contacts of a
-//! scene, for all frames.
+//! [`Interface`]: a contact of two bodies along a common segment of their edges, or at a point. [`Interfaces`]: all
+//! contacts of a scene, for all frames.
 //!
-//! Invariant: the first body of an interface is a block, and the normal points into it. Edges that are too short or too
-//! far apart for an interface are reported in [`Interfaces::notices`], so that none is dropped silently.
+//! Invariant: the first body of an interface is a block, and the normal points into this block. Edges that are slightly
+//! too far apart for an interface, and common segments that are too short, are reported in [`Interfaces::notices`].
 
 mod corner;
 mod common_segment;
@@ -34,13 +34,14 @@ pub enum ContactKind {
 /// A contact of two bodies: a common segment of their edges, or a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
-    /// The two bodies. The first is always a block; of two blocks it is the later one in the file.
+    /// The two bodies. The first is always a block. If both are blocks, the first is the later block in the file.
     pub bodies: [BodyId; 2],
     /// Edge or corner.
     pub kind: ContactKind,
-    /// Ends of the segment, metres; (−n_y, n_x) points from the first to the second. Equal for a corner.
+    /// Ends of the contact segment, metres. The tangent (−n_y, n_x) points from the first to the second. Equal for a
+    /// corner.
     pub ends: [Point; 2],
-    /// Unit normal into `bodies[0]`.
+    /// Unit normal of the contact, which points into `bodies[0]`.
     pub normal: Vector,
     /// Friction coefficient.
     pub friction: f64,
@@ -87,23 +88,24 @@ pub fn application_points(ends: [Point; 2], kernel: f64) -> [Point; 2] {
     [ends[0] + inward, ends[1] - inward]
 }
 
-/// Two edges that face each other without touching, with a gap of less than a hundredth of the smaller block's size.
+/// Two edges that face each other without touching, with a gap of at most a hundredth of the smaller block's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearMiss {
     /// The two bodies, in the order in which an interface would list them.
     pub bodies: [BodyId; 2],
-    /// The middle of the segment along which they face each other.
+    /// The middle of the segment along which the two edges face each other.
     pub at: Point,
     /// The widest gap along the segment, metres.
     pub distance: f64,
 }
 
-/// A gap within the tolerance that a stone of the same height keeps open: the two bodies do not touch there.
+/// A gap within the tolerance that a stone of about the same height keeps open. While the stone is present, the two
+/// bodies do not touch there.
 #[derive(Clone, Debug)]
 pub(crate) struct PinnedGap {
     /// The two bodies, the position and the width of the gap.
     gap: NearMiss,
-    /// The stone.
+    /// The stone that keeps the gap open.
     stone: BlockId,
 }
 
@@ -122,19 +124,21 @@ impl PinnedGap {
 pub struct Interfaces {
     /// The contacts, in the order of the bodies' numbers and then of their ends.
     pub all: Vec<Interface>,
-    /// Edges that nearly touch: the verdict may depend on them.
+    /// Edges that nearly touch. The verdict may depend on whether they count as touching.
     pub near_misses: Vec<NearMiss>,
-    /// Segments that are too short for an interface, but longer than rounding: the verdict may depend on them.
+    /// Common segments that are too short for an interface, but longer than the rounding error of coordinates. The
+    /// verdict may depend on whether they count as interfaces.
     pub slivers: Vec<Interface>,
     /// Gaps within the tolerance that stones keep open.
     pub(crate) pinned_gaps: Vec<PinnedGap>,
-    /// Sentences about edges that are too short or too far apart for an interface.
+    /// Sentences for users about common segments that are too short, and edges that are too far apart, for an
+    /// interface.
     pub notices: Vec<String>,
 }
 
 impl Interfaces {
-    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if it is made of lattice
-    /// cells, otherwise within its tolerance.
+    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if all bodies consist of
+    /// lattice cells, otherwise within the contact tolerance.
     ///
     /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched
     /// only if the scene requests them.
@@ -192,7 +196,7 @@ impl Interfaces {
         });
     }
 
-    /// Returns a copy in which the slivers, contacts that are too short, count as interfaces too.
+    /// Returns a copy in which the slivers (common segments that are too short) count as interfaces too.
     pub(crate) fn with_slivers(&self) -> Interfaces {
         let mut all = self.clone();
         all.all.append(&mut all.slivers);
@@ -243,8 +247,8 @@ fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
 /// Returns the unit normal n that is exactly perpendicular to the segment between two ends. The tangent (−n_y, n_x)
 /// points from the first end to the second.
 ///
-/// Friction is one force per interface, which acts along the line through the two ends. The moment of this force is the
-/// same at both ends only if the normal is exactly perpendicular to this line.
+/// Friction is one force per interface, which acts along the line through the two ends. The moment of this force does
+/// not depend on its point on the line only if the normal is exactly perpendicular to the line.
 fn normal_across(ends: [Point; 2]) -> Vector {
     quarter_turn((ends[0] - ends[1]).normalize())
 }

@@ -12,9 +12,9 @@ pub(super) struct Notices {
     short_count: usize,
     /// The length of the longest of these segments, metres.
     longest_short: f64,
-    /// The largest length that was required, metres.
+    /// The largest [`Tolerance::min_length`] of the pairs of bodies with such a segment, metres.
     required_length: f64,
-    /// Pairs of bodies that nearly touch: their names as text, and their distance in metres.
+    /// Pairs of bodies that nearly touch: a text with both names, and the distance of their edges in metres.
     unjoined: Vec<(String, f64)>,
 }
 

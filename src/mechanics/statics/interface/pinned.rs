@@ -26,11 +26,11 @@ impl<'a> ContactsByBody<'a> {
     }
 }
 
-/// Finds the stone between the two bodies of a gap that keeps the gap open. `None` if there is no such stone.
+/// Finds a stone that lies between the two bodies of a gap and keeps the gap open. `None` if there is no such stone.
 ///
-/// Such a stone touches the two bodies on opposite sides, and its height between them is about the width of the gap:
-/// more than half of it, and at most 1.1 times the width plus `tolerance` metres. Only bodies for which `is_present` is
-/// true are considered.
+/// Such a stone touches the two bodies on opposite sides. Its height between them is more than half the width of the
+/// gap, and at most 1.1 times the width plus `tolerance` metres. Only bodies for which `is_present` is true are
+/// considered.
 pub(crate) fn pinning_stone(
     gap: &NearMiss,
     contacts: &ContactsByBody,

@@ -11,7 +11,8 @@ use crate::scene::BodyId;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Resultant {
-    /// The body on which it acts; the other body receives the opposite force.
+    /// The body on which the resultant acts: the first body of the interface. The other body receives the opposite
+    /// force.
     pub on: BodyId,
     /// The point of action Σ N_k p_k / Σ N_k, metres; the middle of the interface if there is no normal force.
     pub at: Point,
@@ -19,8 +20,8 @@ pub struct Resultant {
     pub force: Vector,
 }
 
-/// Returns the resultant of the normal forces N1 and N2 at the application points and of the friction force, in
-/// newtons.
+/// Returns the resultant of the normal forces N1 and N2 at the application points (`normal`) and of the friction force
+/// along the tangent, all in newtons. `kernel` is the safety kernel, which determines the application points.
 ///
 /// Friction acts along the line of the interface and has the same moment at each of its points. The resultant at
 /// Σ N_k p_k / Σ N_k therefore has the moment of all forces together.
