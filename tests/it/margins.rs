@@ -304,8 +304,8 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
     assert_eq!(compared, 30);
 }
 
-/// The number of changed frames that were analysed for the margins.
-fn changed_frames(frame: &FrameAnalysis) -> usize {
+/// The number of verdicts that were computed for the margins.
+fn verdicts(frame: &FrameAnalysis) -> usize {
     let effect = frame
         .effects
         .iter()
@@ -313,17 +313,17 @@ fn changed_frames(frame: &FrameAnalysis) -> usize {
     let why = &effect.expect("every effect is listed").why;
     let mut words = why.split_whitespace();
     let number = words.find_map(|word| word.parse().ok());
-    number.unwrap_or_else(|| panic!("no number of changed frames in {why:?}"))
+    number.unwrap_or_else(|| panic!("no number of verdicts in {why:?}"))
 }
 
 /// A margin that one program computes is confirmed by the forces and the motion of this program. A search needs about
-/// one step for each one or two digits. So few changed frames are analysed.
+/// one step for each one or two digits. So few verdicts are computed.
 #[test]
-fn a_margin_needs_few_verdicts_of_changed_frames() {
+fn a_margin_needs_few_verdicts_of_verdicts() {
     for (file, most) in [(wall(8, 8), 6), (arch(31, 0.3, 0.7), 60)] {
         let frame = frames(&scene(&file)).remove(0);
-        let count = changed_frames(&frame);
-        assert!(count <= most, "{count} changed frames were analysed");
+        let count = verdicts(&frame);
+        assert!(count <= most, "{count} verdicts were computed");
         let found = frame.margins.expect("margins were requested");
         for margin in [&found.horizontal_load.left, &found.tilt.right] {
             assert!(matches!(margin, Margin::Value { .. }), "{margin:?}");
@@ -339,7 +339,7 @@ fn a_margin_requested_alone_has_the_same_value() {
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &options).frames.remove(0);
-    assert!(changed_frames(&alone) < changed_frames(&all));
+    assert!(verdicts(&alone) < verdicts(&all));
     let (all, alone) = (
         all.margins.expect("margins were requested"),
         alone.margins.expect("margins were requested"),

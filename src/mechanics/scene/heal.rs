@@ -430,15 +430,16 @@ impl Scene {
         }
         if let Some(body) = first_kept {
             let (name, bounds) = (self.name(body), self.body(body).polygon.bounds());
-            let (least, most) = (bounds.min, bounds.max);
+            let [least, most] = [bounds.min, bounds.max]
+                .map(|corner| [corner.x, corner.y].map(|v| self.units.length().value_from_si(v)));
             let more = match kept {
                 1 => String::new(),
                 n => format!(" and {} more", n - 1),
             };
             words += &format!(
-                "; {name} (from {:.4}, {:.4} to {:.4}, {:.4}){more} stayed as written: healing would damage its shape \
+                "; {name} (from {:.4}, {:.4} to {:.4}, {:.4} {unit}){more} stayed as written: healing would damage its shape \
                  or deepen an overlap",
-                least.x, least.y, most.x, most.y
+                least[0], least[1], most[0], most[1]
             );
         }
         Some(words)

@@ -40,7 +40,7 @@ fn robot_limits_that_may_be_zero_are_found_in_groups() {
     let options = Options::default()
         .margins(true)
         .margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
-    // The margins of the robots, and the number of changed frames that were analysed for them.
+    // The margins of the robots, and the number of verdicts that were computed for them.
     let robot_margins = |file: &Value| {
         let frame = Analysis::with(scene(file), &options).frames.remove(0);
         let mut effects = frame.effects.iter();

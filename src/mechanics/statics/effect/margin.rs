@@ -16,7 +16,7 @@ pub fn report(decided_count: Option<usize>) -> EffectReport {
         None => EffectReport::skipped(NAME, "not requested", 0),
         Some(n) => EffectReport::simulated(
             NAME,
-            format!("requested; analysed {}", counted(n, "changed frame")),
+            format!("requested; computed {}", counted(n, "verdict")),
             0,
         ),
     }
