@@ -229,8 +229,8 @@ fn an_equal_frame_has_the_margins_of_the_earlier_one() {
             .find(|e| e.effect == EffectName::Margins);
         effect.expect("every effect is listed").why.clone()
     };
-    assert!(!why(0).contains(" 0 changed"), "{}", why(0));
-    assert!(why(2).contains(" 0 changed"), "{}", why(2));
+    assert!(!why(0).contains(" 0 verdicts"), "{}", why(0));
+    assert!(why(2).contains(" 0 verdicts"), "{}", why(2));
 }
 
 /// On a slope steeper than its friction angle, a block falls. With gravity tilted towards the slope, it would stand.
