@@ -80,7 +80,7 @@ pub(crate) struct Import {
     /// Density in kg/m³ of all blocks that have none
     #[arg(long, value_name = "KG/M3")]
     density: Option<f64>,
-    /// Thickness of all blocks across the plane, in metres
+    /// Thickness of all blocks perpendicular to the plane, in metres
     #[arg(long, value_name = "M")]
     thickness: Option<f64>,
     /// Safety kernel, 0 to 1

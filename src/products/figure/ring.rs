@@ -38,19 +38,24 @@ pub fn ring(theme: &Theme) -> Drawing {
     let mut y = centre.y + RING_RADII.1 + 40.0;
     items.extend(robots(PagePoint::new(centre.x, y), theme));
     y += 32.0;
-    items.push(line(y, "robots, over and over"));
+    items.push(line(y, "robots, repeated in this order"));
     y += 30.0;
     let arrow = straight(PagePoint::new(centre.x - 34.0, y), (67.0, 0.0), 5.6);
-    let failure =
-        Group::with_class("failure").titled(format!("What fails wears {}", theme.failure.css()));
+    let failure = Group::with_class("failure").titled(format!(
+        "Missing forces have the colour {}",
+        theme.failure.css()
+    ));
     items.push(failure.with(Path::filled(arrow, theme.failure)).into());
     y += 28.0;
-    items.push(line(y, "what would have to stick or be given"));
+    items.push(line(
+        y,
+        "missing forces: adhesion, friction or robot forces",
+    ));
     Drawing {
         width: PAGE_WIDTH,
         height: (y + 24.0).ceil(),
         title: "The colours of forces".into(),
-        description: "The forces on a block wear one colour; block i, in placing order from 1, takes entry i mod \
+        description: "All forces on a block have one colour; block i, in placing order from 1, takes entry i mod \
                       the number of colours, counted anticlockwise from the right."
             .into(),
         background: Some(theme.page),
@@ -75,7 +80,7 @@ fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
     let ink = theme.letters_on(colour, None);
     let words = Text::new(at, blocks.as_str(), Face::SansBold, 12.0, ink);
     Group::with_class("sector")
-        .titled(format!("Blocks {blocks} wear {}", colour.css()))
+        .titled(format!("Blocks {blocks} have the colour {}", colour.css()))
         .with(sector.with_stroke(Stroke::new(theme.page, 2.0)))
         .with(words.anchored(Anchor::Middle))
 }
@@ -88,7 +93,7 @@ fn robots(centre: PagePoint, theme: &Theme) -> Vec<Item> {
         let disc = Path::filled(Outline::circle(centre.moved(x, 0.0), 13.0), *colour)
             .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
         Group::with_class("robot")
-            .titled(format!("Robot {number} wears {}", colour.css()))
+            .titled(format!("Robot {number} has the colour {}", colour.css()))
             .with(disc)
             .into()
     };

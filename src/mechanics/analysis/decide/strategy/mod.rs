@@ -15,7 +15,8 @@ use crate::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverS
 /// cost too much.
 pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
 
-/// How a component was decided. A later variant means that a harder method was needed.
+/// How a component was decided. The variants are ordered: the result of a frame names the last method among those of its
+/// components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Method {
