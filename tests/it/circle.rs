@@ -1,4 +1,4 @@
-//! No files of one folder import each other, directly or through other files. Source files are read as text, without
+//! The imports between the files of a folder form no cycle, not even through other files. Source files are read as text, without
 //! comments, strings and tests.
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -157,11 +157,11 @@ fn the_key_of_a_line_of_thrust_names_only_lines_that_are_drawn() {
             lines.any(|l| !classes(&l.items, &[class]).is_empty())
         };
         let words = words(&drawing);
-        let named = ["line of thrust, this thick", "line of thrust of the forces"];
+        let named = ["line of thrust; this width", "line of thrust of the forces"];
         let is_named = named.iter().any(|line| words.contains(line));
         assert_eq!(is_named, has("force"), "{words}");
         assert_eq!(words.contains("schematic"), has("schematic"), "{words}");
-        assert!(words.contains("this thick for"), "{words}");
+        assert!(words.contains("this width shows"), "{words}");
     }
 }
 

@@ -83,7 +83,11 @@ impl Check {
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
-                Ok(source) => sources.push((number, source)),
+                // A block that a scene does not have is refused before any scene is analysed.
+                Ok(source) => match self.capacity.add_to(Options::default(), &source.scene) {
+                    Ok(_) => sources.push((number, source)),
+                    Err(complaint) => refused.push((number, path, complaint)),
+                },
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }

@@ -194,7 +194,8 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     // Step 2: find the nodes near sides of other bodies.
     let sides = sides(bodies, &nodes);
     let found = nodes_near_sides(&nodes, &sides, gaps, kept);
-    // If all nodes already lie on their sides, return the bodies unchanged.
+    // Return the bodies unchanged if every corner is exactly at its node, and every node lies on its sides, none of which
+    // is curved.
     let fits = |b: &NodeNearSide<'_>| {
         !b.side.curved && b.off <= EXACT_DISTANCE_TOL * nodes.all[b.node].gap
     };

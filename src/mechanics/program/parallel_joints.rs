@@ -97,8 +97,8 @@ fn rotated(direction: Vector, angle: f64) -> Vector {
     )
 }
 
-/// Returns the angle between a direction and the nearest coordinate axis, in radians, anticlockwise positive, from −π/4
-/// to π/4.
+/// Returns the angle from the nearest coordinate half-axis (±x or ±y) to a direction, in radians from −π/4 to π/4,
+/// anticlockwise positive.
 fn angle_to_axis(direction: Vector) -> f64 {
     let axis = if direction.x.abs() >= direction.y.abs() {
         Vector::new(direction.x.signum(), 0.0)

@@ -327,8 +327,8 @@ enum Site {
     GripAdhesion(usize),
 }
 
-/// Returns the contact or grip at which a force of amount 1 acts, and the components of the force: (N1, N2, T) at a
-/// contact, (F_x, F_y, M/L) at a grip.
+/// Returns the site at which a force of amount 1 acts, and the components of the force: (N1, N2, T) at a contact,
+/// (F_x, F_y, M/L) at a grip. The adhesion of a contact or grip has a site of its own.
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {

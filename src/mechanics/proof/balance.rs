@@ -153,7 +153,8 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
     all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load.
+/// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load. A value of τ up
+/// to [`NEGLIGIBLE_IMBALANCE`] is only an upper bound.
 ///
 /// Bodies are processed in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound
 /// exceeds the largest τ found so far.

@@ -345,7 +345,7 @@ fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
             (point - (edge.from + along * share.clamp(0.0, 1.0))).norm()
         })
         .fold(f64::INFINITY, f64::min);
-    // Rounding can move a point on the boundary outside by a small distance, which is not reported.
+    // Because of rounding, a point on the boundary can seem to lie slightly outside. Do not report such points.
     let noise = 1e-9 * polygon.bounds().diagonal();
     (distance > gap.max(noise)).then_some(distance)
 }

@@ -28,12 +28,7 @@ impl Unit {
 
     /// Converts a value from the SI unit to this unit.
     pub(crate) fn value_from_si(&self, value: f64) -> f64 {
-        // If this is the SI unit, return the value unchanged.
-        if self.size == 1.0 {
-            value
-        } else {
-            value / self.size
-        }
+        value / self.size
     }
 }
 

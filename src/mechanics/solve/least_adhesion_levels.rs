@@ -129,7 +129,7 @@ fn concentrate(
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    // The smaller load of the two bodies on which a column acts.
+    // The smallest load above 0 of the blocks on which a column acts; 1 if there is none.
     let block_loads = block_loads(&face.loads);
     let lighter_load = |column: &Column| {
         let loads = column.entries().map(|(row, _)| block_loads[row / 3]);

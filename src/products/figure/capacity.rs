@@ -319,7 +319,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let fill = theme.page.mixed(theme.motion, DISPLACED_OPACITY);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     group = group.with(Path::filled(goes, fill).with_stroke(Stroke::new(edge, line.width)));
-    // The arrow has the direction of the outward normal of the edge, in which the loaded point begins to move.
+    // The loaded point begins to move in the direction of the outward normal of the edge. The arrow has this direction.
     let own = moved.get(plan.capacity.block.0).and_then(Option::as_ref);
     let from = place(own.map_or(plan.point, |d| d.moved(plan.point)));
     // An arrow shorter than 17 pixels would have no visible shaft on a narrow page.

@@ -40,7 +40,7 @@ pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
     let contact = Some(largest::sentence(scene, found)).filter(|words| !words.is_empty());
     match (missing, contact) {
         (Some(missing), Some(contact)) => {
-            format!("{missing}; {contact}, the missing forces included")
+            format!("{missing}; {contact}, in the balance with the missing forces")
         }
         (missing, contact) => missing.or(contact).unwrap_or_default(),
     }
@@ -161,8 +161,8 @@ impl Sentences<'_> {
         body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// Returns the joints between a body and other bodies, each with the other body. Joints to bodies at rest come
-    /// first.
+    /// Returns the joints between a rigid body of the mechanism and the blocks or ground outside it, each with that block
+    /// or ground. Joints to ground and to blocks at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =

@@ -52,8 +52,8 @@ pub(crate) struct FigureContext<'a> {
     pub statements: Vec<String>,
     /// The extreme thrust states of all frames; computed when they are first needed.
     pub thrust: OnceCell<Vec<ThrustStates>>,
-    /// The sum of the penalties of badly placed labels so far. A label without a free position, or inside another
-    /// block, adds 1. An amount, or a name that the text mentions, adds 100 if it has no free position.
+    /// The sum of the penalties of badly placed labels so far. An amount, or a name that the text mentions, adds 100 if
+    /// it has no free position. Another label adds 1 if it is left out, lies inside another block, or leaves its row.
     pub cramped: Cell<usize>,
 }
 
@@ -85,9 +85,8 @@ impl<'a> FigureContext<'a> {
     }
 
     /// Returns this context with more space around the content of each frame: `across` metres on the left and on the
-    /// right, `up` metres above, and `down` metres below.
+    /// right, `up` metres above, and `down` metres below. No space is added below if ground is visible at the lower edge.
     pub fn with_room(mut self, across: f64, up: f64, down: f64) -> FigureContext<'a> {
-        // If ground is visible at the lower edge, add no space below it.
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
             _ => down,

@@ -28,9 +28,10 @@ pub(crate) const BUILD: Forces = Forces {
 };
 
 /// The note on missing forces in the legend.
-const INCLUDED: &str = "arrows and fills include the missing forces";
+const INCLUDED: &str = "arrows and fills show the balance with the missing forces";
 /// The same note for a figure in which the arrows of missing forces have a larger scale.
-const INCLUDED_LARGER: &str = "arrows and fills include the missing forces, which are drawn larger";
+const INCLUDED_LARGER: &str =
+    "arrows and fills show the balance with the missing forces, whose arrows have a larger scale";
 
 /// True if the arrows of missing forces are drawn at a larger scale than other arrows.
 fn own_scale(marks: &Marks) -> bool {

@@ -100,9 +100,10 @@ pub struct Options {
     pub titles: bool,
     /// Whether the captions of frames are drawn.
     pub captions: bool,
-    /// Whether verdicts and the texts below them are drawn.
+    /// Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.
     pub verdicts: bool,
-    /// Whether the scale of arrows and the legend are drawn.
+    /// Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and the
+    /// list of forces.
     pub keys: bool,
     /// Whether a scale bar in metres is drawn.
     pub scale_bar: bool,
@@ -172,8 +173,8 @@ impl Options {
         theme: Theme, "Colours, widths and font sizes.";
         titles: bool, "Whether the title of the figure is drawn.";
         captions: bool, "Whether the captions of frames are drawn.";
-        verdicts: bool, "Whether verdicts and the texts below them are drawn.";
-        keys: bool, "Whether the scale of arrows and the legend are drawn.";
+        verdicts: bool, "Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.";
+        keys: bool, "Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and the list of forces.";
         scale_bar: bool, "Whether a scale bar in metres is drawn.";
         dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
         with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon.";

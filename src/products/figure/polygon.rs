@@ -134,7 +134,7 @@ impl PanelContent for ForcePolygon {
         });
         let scales: Vec<(usize, f64)> = scales.collect();
         if joined {
-            let what = "the same corner of the polygon, drawn at two places".to_owned();
+            let what = "the same corner of the force polygon, drawn at two places".to_owned();
             entries.push(Entry::Symbol(join_symbol, JOIN_SYMBOL, what));
         }
         entries.extend(scale_entries(&scales, context.analysis.scene.units.force()));
@@ -150,7 +150,7 @@ impl PanelContent for ForcePolygon {
             return why;
         }
         let (how, why) = match (frame_analysis.verdict, closed(outer(marks))) {
-            (_, false) => ("the force polygon stays open".to_owned(), why),
+            (_, false) => ("the force polygon is open".to_owned(), why),
             (Verdict::Stable, true) => ("the force polygon is closed".to_owned(), why),
             (Verdict::Unstable, true) => closure::reason(scene, frame_analysis, marks),
             (Verdict::Undecided, true) => {
@@ -199,7 +199,7 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     // open polygon, the second line would look like the line of the gap, so it is left out.
     let closed = closed(outer(marks));
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
-        let title = "The same point, drawn at two positions";
+        let title = "The same corner of the force polygon, drawn at two places";
         let stroke = join_stroke(theme);
         polygon.items.push(dashed("join", title, *join, stroke));
     }

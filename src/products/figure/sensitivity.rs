@@ -277,8 +277,8 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
     plan.changes.iter().map(entry).collect()
 }
 
-/// Returns the legend entry for the scale of the arrows; `None` if the arrows have no effect. `pixels` is the length of
-/// an arrow that shows a growth of the margin of 1 per metre.
+/// Returns the legend entry for the scale of the arrows; `None` if there are no arrows. `pixels` is the length, in pixels,
+/// of an arrow that shows a growth of the margin of 1 per metre.
 fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;

@@ -128,7 +128,7 @@ impl PanelContent for ThrustLine {
                 true => " in a frame that falls",
                 false => "",
             };
-            let line = format!("forces carried{place}, this thick for {largest}");
+            let line = format!("forces carried{place}; this width shows {largest}");
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if through || schematic || falls {
@@ -140,10 +140,10 @@ impl PanelContent for ThrustLine {
             entries.extend(limit_entries(context));
         }
         if schematic {
-            // Only one entry of the legend explains what the thickness of the line means.
+            // Only one entry of the legend explains what the width of the line means.
             let thick = match through || falls {
                 true => String::new(),
-                false => format!(", this thick for {largest}"),
+                false => format!(" (this width shows {largest})"),
             };
             let what = match context.options.is_column() {
                 true => format!("schematic{thick}: no single line of action in the block"),
@@ -184,11 +184,11 @@ impl PanelContent for ThrustLine {
 fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
     let mut frames = 0..context.analysis.frames.len();
     match central_thrust_text(context) {
-        Some(thrust) => format!("most central line{thrust}; this thick for {largest}"),
+        Some(thrust) => format!("most central line{thrust}; this width shows {largest}"),
         None if frames.any(|frame| has_many_lines(context, frame)) => {
-            format!("line of thrust of the forces of least sum, this thick for {largest}")
+            format!("line of thrust of the forces of least sum; this width shows {largest}")
         }
-        None => format!("line of thrust, this thick for {largest}"),
+        None => format!("line of thrust; this width shows {largest}"),
     }
 }
 

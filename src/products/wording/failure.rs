@@ -77,7 +77,7 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             force,
             ..
         } => format!(
-            "robot {} cannot hold {}: its force would have to exceed the limits by ({}, {}) {}",
+            "robot {} cannot hold {}: it would need an additional force of ({}, {}) {} beyond its limits",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
             digits(units.force().value_from_si(force.x)),
@@ -90,10 +90,15 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             torque,
             ..
         } => format!(
-            "robot {} cannot hold {}: its torque would have to exceed the limit by {}",
+            "robot {} cannot hold {}: it would need an additional {} torque of {} beyond its limit",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            number::amount(torque, units.torque())
+            if torque < 0.0 {
+                "clockwise"
+            } else {
+                "anticlockwise"
+            },
+            number::amount(torque.abs(), units.torque())
         ),
     }
 }
@@ -195,7 +200,7 @@ pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) ->
         ),
         (
             touching,
-            "even with adhesion at every contact and robot, the fall would not stop",
+            "even if all contacts could stick and no robot had limits, no forces would balance the loads",
         ),
     ];
     let mut sentences = Vec::new();

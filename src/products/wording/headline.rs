@@ -102,7 +102,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::Kernel => match end(margin.interval.high(), &three_down) {
             Some(most) => format!("It stands up to a safety kernel of {most}"),
-            None => "It stands with every safety kernel up to 1".to_owned(),
+            None => "It stands even with the largest safety kernel, 1".to_owned(),
         },
         _ => format!("{}: {}", margin.name, margin.sentence()),
     }

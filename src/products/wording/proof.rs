@@ -92,8 +92,8 @@ pub fn sentence(proof: Proof) -> String {
                 )
             } else {
                 format!(
-                    "The best forces found do not balance: they would have to change by {} times their size. The \
-                     limit is {band}.",
+                    "The best forces found do not prove that the structure stands: to balance and to respect the \
+                     contacts, they would have to change by {} times their size. The limit is {band}.",
                     rough(worst)
                 )
             }

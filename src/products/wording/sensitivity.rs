@@ -276,9 +276,9 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     }
 }
 
-/// Writes a value of a margin with three significant digits. Tilt and horizontal load have their direction instead of
-/// a sign: `5.00° left`. The direction is not fixed for an end of an interval, because a change can move the end to the
-/// other side of 0.
+/// Writes the value of a margin with three significant digits. For tilt and horizontal load, a word replaces the sign:
+/// −5 becomes `5.00° left`. The word depends only on the sign, also for an end of an interval: a right (upper) end
+/// below 0 is written as `left`.
 pub fn value(kind: MarginKind, value: f64) -> String {
     let side = match value {
         v if v < 0.0 => " left",

@@ -196,10 +196,18 @@ fn says_failure(text: &str, failure: &Value) -> bool {
         kind => {
             let [robot, block] = [name(&failure["robot"]), name(&failure["holds"])];
             let values = match kind {
-                "robot_torque" => vec![number(torque)],
+                "robot_torque" => vec![number(torque).abs()],
                 _ => pair(force).to_vec(),
             };
-            (format!("robot {robot} cannot hold {block}"), values)
+            let sense = match kind {
+                "robot_torque" if number(torque) < 0.0 => " additional clockwise torque",
+                "robot_torque" => " additional anticlockwise torque",
+                _ => " additional force",
+            };
+            (
+                format!("robot {robot} cannot hold {block}: it would need an{sense}"),
+                values,
+            )
         }
     };
     text.lines().any(|line| says(line, &words, &values))
@@ -323,6 +331,6 @@ fn unsupported_blocks_are_reported_with_their_true_reason() {
         says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"),
         "{table}"
     );
-    let touches = "nothing carries tip: even with adhesion at every contact and robot, the fall would not stop";
+    let touches = "nothing carries tip: even if all contacts could stick and no robot had limits, no forces would balance the loads";
     assert!(says(touches), "{table}");
 }

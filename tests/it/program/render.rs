@@ -258,7 +258,7 @@ fn every_kind_of_figure_states_what_it_shows() {
             "block lintel turns about a corner on block left",
             "there is no mechanism",
         ),
-        ("thrust", "so it is not in equilibrium", "this thick for"),
+        ("thrust", "so it is not in equilibrium", "this width shows"),
         (
             "kernel",
             "no forces balance the structure",

@@ -62,7 +62,7 @@ impl ProofCache {
 
     /// True if some forces in the cache balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
-        // The latest forces are tried first, because a search changes the component in small steps.
+        // Try the latest forces first: they belong to the previous value of a search, which is usually the most similar.
         let mut latest_first = self.forces.iter().rev();
         latest_first.any(|cached| {
             let forces = cached.transfer_to(component.assembly);

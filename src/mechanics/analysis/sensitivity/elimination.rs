@@ -1,4 +1,5 @@
-//! [`Elimination`]: solves small dense systems of linear equations, also if they have many solutions or none.
+//! [`Elimination`]: solves small dense systems of linear equations. If a system has many solutions, the result contains a
+//! basis of its null space. If a system has no solution, the remaining error of its rows shows this.
 //!
 //! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
 
@@ -9,10 +10,10 @@
 /// a pivot.
 const PIVOT_TOL: f64 = 1e-8;
 
-/// All solutions of a system of equations with several right-hand sides.
+/// The solutions of a system of equations with several right-hand sides.
 pub(super) struct Elimination {
     /// For each right-hand side, the solution in which the free unknowns are 0, and the largest remaining error of a
-    /// row.
+    /// row. If this error is large, the system has no solution for this right-hand side.
     pub solutions: Vec<(Vec<f64>, f64)>,
     /// A basis of the solutions for the right-hand side 0.
     pub null_space: Vec<Vec<f64>>,

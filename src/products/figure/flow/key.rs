@@ -40,8 +40,8 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(legend::robots(context));
     if all.iter().any(|s| !s.1.exact) {
         let words = match context.options.is_column() {
-            true => "paths inside blocks are schematic, widths exact",
-            false => "inside a block, paths are schematic and widths are exact",
+            true => "paths inside blocks are schematic, widths to scale",
+            false => "inside a block, paths are schematic and widths are to scale",
         };
         entries.push(Entry::Note(words.to_owned()));
     }
@@ -86,7 +86,10 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
             ),
             false => String::new(),
         };
-        let words = format!("{what}, this wide for {}{least}", quantity(amount, newtons));
+        let words = format!(
+            "{what}; this width shows {}{least}",
+            quantity(amount, newtons)
+        );
         entries.push(Entry::Line(carried(theme, verdict), width, words));
     }
     if let Some(verdict) = any(StrandKind::Weight) {

@@ -316,9 +316,11 @@ impl ForceDistribution<'_> {
         strands
     }
 
-    /// Returns the position of a strand at the point where the force `acting` acts, and its direction there, which is
-    /// that of `force`. The strand connects this force with `partner`. The strands to all `partners` lie next to each
-    /// other in the order of their positions across the force. `sum` is the sum of the magnitudes of all `partners`, N.
+    /// Returns the position and the direction of one end of a strand, where the force `acting` acts. The strand has the
+    /// direction of `force`: this is `acting.force` at the beginning of a strand, and its opposite at the end. `partner`
+    /// is the force at the other end of the strand. The strands to all `partners` lie side by side, in the order of their
+    /// positions across `force`; those of a missing force lie on one side of the point. `sum` is the sum of the
+    /// magnitudes of all `partners`, N.
     fn end(
         &self,
         acting: &ForceOnBlock,

@@ -139,7 +139,7 @@ impl Sheet<'_> {
         let frame_analysis = &self.analysis.frames[self.frame];
         if frame_analysis.unsupported.contains(&self.block) {
             notes.push(
-                "the forces on this block do not balance, because not even adhesion could hold it"
+                "the forces on this block do not balance: it falls even if all contacts could stick"
                     .to_owned(),
             );
         }

@@ -1,5 +1,5 @@
-//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, and the
-//! lines that show coordinates. Each function adds its shapes to the ink, which names must not cover.
+//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, the axes, and
+//! the dashed lines from points to the axes. Each function adds its shapes to the [`Ink`], which names must not cover.
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;

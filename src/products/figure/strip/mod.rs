@@ -71,8 +71,9 @@ fn with_room_for_labels(
     if cramped == 0 || options.zoom.is_some() || scale <= 0.0 {
         return figure;
     }
-    // Some labels have no good position. Draw the figure again with more space around the structure. Use this figure
-    // if at least half of these labels have a good position there.
+    // Some labels are placed badly. Draw the figure again with more space around the structure; for a flat structure,
+    // try several amounts of space. Use the figure with the smallest penalty for its labels
+    // (`FigureContext::cramped`), if this penalty is at most half of that of the first figure.
     let mut best = (figure, cramped);
     let count = if flat { SPACES_FOR_NAMES.len() } else { 1 };
     // Labels of a flat structure rarely need space below the ground.

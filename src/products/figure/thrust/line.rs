@@ -144,7 +144,8 @@ fn joined_lines<'s>(
         .collect()
 }
 
-/// Describes a segment of the line of thrust: its block, the origin of the force along it, and this force.
+/// Describes a segment of the line of thrust: its block, what exerts the force along the segment, and the magnitude of
+/// this force.
 fn title(scene: &Scene, frame_analysis: &FrameAnalysis, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.origin {

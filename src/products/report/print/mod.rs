@@ -71,7 +71,7 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
         if section.begins_page {
             flow.new_page();
         } else if number > 0 && !section.title.is_empty() {
-            // Reserve enough space for the pictures of the section.
+            // Begin a new page unless there is space for the heading and one row of pictures.
             flow.reserve(420.0);
         }
         match (section.letter.as_str(), section.title.as_str()) {

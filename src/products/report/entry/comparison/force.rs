@@ -50,7 +50,7 @@ impl<'a> SharedForces<'a> {
                 &heads[0],
                 &heads[1],
                 "#change of the magnitude",
-                "#change as a vector, relative to the larger force",
+                "#magnitude of the vector change, relative to the larger force",
             ],
         );
         for force in self.changed() {
