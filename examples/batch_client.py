@@ -1,4 +1,7 @@
-"""Checks many scenes from Python with one process of drystone. Each scene and each result is one line of JSON."""
+"""Checks many scenes from Python with a single process of `drystone batch`.
+
+Each scene is sent to the process as one line of JSON, and each result is read as one line of JSON.
+"""
 import json
 import subprocess
 
@@ -6,7 +9,7 @@ process = subprocess.Popen(["drystone", "batch", "-"], stdin=subprocess.PIPE, st
 
 
 def check(scene):
-    """The result of one scene."""
+    """Returns the result of one scene, a dict with the keys of a scene file."""
     process.stdin.write(json.dumps(scene) + "\n")
     process.stdin.flush()
     return json.loads(process.stdout.readline())

@@ -1,4 +1,4 @@
-//! Computes which forces a lintel can carry, and how it falls under larger forces.
+//! Computes which forces a lintel on two posts can carry, and which blocks move under larger forces.
 //!
 //! Change the numbers below: the span, the posts, the friction, or the point at which the force acts.
 
@@ -11,7 +11,7 @@ use drystone::scene::Point;
 use drystone::scene::format::{BlockEntry, Pair};
 use drystone::{Analysis, Scene};
 
-/// Distance between the posts, metres.
+/// Clear distance between the posts, metres.
 const SPAN: f64 = 4.0;
 /// Width and height of a post, metres.
 const POST: (f64, f64) = (1.0, 3.0);
@@ -69,7 +69,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         capacity.reach([1.0, 0.0])
     );
 
-    // The largest force to the right that is carried for every tilt of up to 2° and every friction from 0.5 to 0.7.
+    // The largest force to the right that the lintel carries at every tilt of up to 2° to either side, with every
+    // friction coefficient from 0.5 to 0.7.
     let cases = Cases::default().tilt(-2.0, 2.0).friction(0.5, 0.7);
     let for_all = analysis.capacity(0, &request.cases(cases))?;
     println!(

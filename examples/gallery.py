@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent.parent / "assets" / "gallery"
-# The options of the figures, which show the flow of forces.
+# The options of `drystone render`. The figures show the flow of forces.
 LOOK = ["--kind", "flow", "--no-key", "--width-mm", "100", "--dpi", "120"]
 
 
@@ -32,7 +32,7 @@ class Scene:
         self.file["blocks"].append({"id": name, "polygon": rounded(polygon)})
 
     def both(self, name, polygon):
-        """Adds a block and its mirror image about x = 0."""
+        """Adds a block and its mirror image about x = 0, with the suffixes e and w in their names."""
         self.add(name + "w", mirrored(polygon))
         self.add(name + "e", polygon)
 
@@ -51,7 +51,7 @@ def rounded(polygon):
 
 
 def courses(scene, both, name, left, right, bottom, top, count):
-    """Adds a stack of blocks of equal height."""
+    """Adds a stack of `count` blocks of equal height. If `both` is true, also adds the mirror images of the blocks."""
     height = (top - bottom) / count
     for i in range(count):
         polygon = box(left, bottom + i * height, right, bottom + (i + 1) * height)
@@ -64,7 +64,10 @@ def polar(centre, radius, degrees):
 
 
 def voussoir(centre, inner, outer, start, end, curved=True):
-    """Returns the outline of a voussoir: the part of a ring between two angles, in degrees."""
+    """Returns the outline of a voussoir: the part of a ring between the angles `start` and `end`, in degrees.
+
+    If `curved` is true, each curved side has an additional corner in the middle.
+    """
     middle = (start + end) / 2
     below = [polar(centre, inner, a) for a in ([start, middle, end] if curved else [start, end])]
     above = [polar(centre, outer, a) for a in ([end, middle, start] if curved else [end, start])]
@@ -74,7 +77,7 @@ def voussoir(centre, inner, outer, start, end, curved=True):
 def aqueduct():
     scene = Scene("Aqueduct of two tiers", [box(-2, -1, 23, 0)], density=2300, friction=0.65)
     pitch, pier, ring, bays = 7.0, 1.4, 0.55, 3
-    # Two rings stand on each pier. The lowest course fills the gap between their feet.
+    # The rings of two neighbouring bays stand on one pier. The lowest course fills the gap between their feet.
     inner = (pitch - pier) / 2
     outer = inner + ring
     level = 0.0
@@ -89,7 +92,8 @@ def aqueduct():
             centre = ((bay + 0.5) * pitch, spring)
             for k in range(count):
                 scene.add(f"{names}{bay}v{k + 1}", voussoir(centre, inner, outer, angles[k], angles[k + 1], curved=False))
-        # Courses fill the space between the rings. Each ends at the height of a corner of the extrados.
+        # Courses of stones fill the space between the rings of neighbouring bays. The top of each course is at the
+        # height of a corner of the extrados.
         half = count // 2
         backs = [(outer * math.cos(math.radians(a)), spring + outer * math.sin(math.radians(a))) for a in angles[: half + 1]]
         for p in range(bays + 1):
@@ -117,7 +121,7 @@ def gabled_wall():
     openings = [(3.8, 5.2, 0, 6), (4.0, 5.0, 9, 12)]  # left, right, first course of the opening, first course above it
 
     def ends(y):
-        """Returns the left and right end of the wall at a height."""
+        """Returns the x coordinates of the left and the right end of the wall at the height y."""
         inset = max(0.0, y - eaves) / rise * width / 2
         return inset, width - inset
 
@@ -131,7 +135,7 @@ def gabled_wall():
         for part, ((l0, r0), (l1, r1)) in enumerate(parts):
             joints = [k * stone / 2 for k in range(1, 21) if k % 2 == row % 2]
             for left, right, _, above in openings:
-                if row == above:  # the lintel
+                if row == above:  # this course contains the lintel of the opening
                     joints = [j for j in joints if not left - 0.75 < j < right + 0.75] + [left - 0.4, right + 0.4]
             joints = sorted(j for j in joints if l1 + 0.3 < j < r1 - 0.3)
             bottoms, tops = [l0, *joints, r0], [l1, *joints, r1]
@@ -140,7 +144,7 @@ def gabled_wall():
                 if tops[k + 1] - tops[k] > 1e-9:
                     polygon.append((tops[k], high))
                 scene.add(f"{row + 1}{'ab'[part] if len(parts) > 1 else ''}-{k + 1}", polygon)
-    # The loads from two purlins and from the ridge of the roof.
+    # The loads from two purlins on each slope and from the ridge of the roof.
     for y, force in [(4.4, 4000), (6.0, 4000)]:
         for x, side in zip(ends(y), (1, -1)):
             at = (x + 0.25 * side, y)
@@ -150,16 +154,20 @@ def gabled_wall():
 
 
 def block_at(scene, point):
-    """Returns the name of the block under a point, or of the block that contains the point."""
+    """Returns the name of the highest block that is below the point or contains it."""
     x, y = point
     under = [b for b in scene.file["blocks"] if min(p[0] for p in b["polygon"]) <= x <= max(p[0] for p in b["polygon"])]
     return max((b for b in under if min(p[1] for p in b["polygon"]) < y - 1e-6), key=lambda b: min(p[1] for p in b["polygon"]))["id"]
 
 
 def flyer(wall, pier, seat, low, high, centre, count):
-    """Returns the stones of a flying buttress between a pier and a wall. Its lower edge is an arc, its upper edge is straight.
-    The lowest stone stands on a seat in front of the pier; `seat` is the length of this seat. `low` and `high` are the heights
-    of the lower and upper edges, at the pier and at the wall. The centre of the arc is `centre` metres inside the wall."""
+    """Returns the stones of a flying buttress between a pier and a wall.
+
+    The lower edge of the flying buttress is an arc, and the upper edge is straight. `wall` and `pier` are the x
+    coordinates of the faces of the wall and of the pier. The lowest stone stands on a seat in front of the pier; `seat`
+    is the length of this seat. `low` and `high` are the heights of the lower and of the upper edge, each at the pier
+    and at the wall. The centre of the arc is `centre` metres inside the wall.
+    """
     (pier_low, wall_low), (pier_high, wall_high) = low, high
     x0, x1 = centre, centre + pier - seat - wall
     centre_y = (x1 * x1 - x0 * x0 + pier_low * pier_low - wall_low * wall_low) / (2 * (pier_low - wall_low))
@@ -204,7 +212,8 @@ def corbelled_vault():
 def cathedral():
     scene = Scene("Section of a Gothic church", [box(-15.5, -1.2, 15.5, 0)], density=2200, friction=0.7)
     aisle, spring = 5.0, 13.0
-    # The piers of the nave: the parts below the vaults of the aisle and of the nave, and the wall above.
+    # The piers of the nave, from below: the parts up to the vault of the aisle and up to the vault of the nave, and the
+    # wall above.
     courses(scene, True, "n", 4.6, 6.65, 0, aisle, 4)
     courses(scene, True, "m", 4.6, 6.2, aisle, spring, 7)
     courses(scene, True, "w", 5.05, 6.2, spring, 18, 4)
@@ -215,7 +224,7 @@ def cathedral():
     courses(scene, True, "u", 11.2, 13.6, 10.4, 13.4, 3)
     scene.both("t", box(11.5, 13.4, 13.3, 14.4))
     scene.both("p", [(11.6, 14.4), (13.2, 14.4), (12.4, 18.2)])
-    # The vault of the nave: stones with horizontal beds at its feet, a pointed ring, and a keystone.
+    # The vault of the nave: stones with horizontal beds at the feet of the vault, a pointed ring, and a keystone.
     centre, inner, outer = (-2.3, spring), 6.9, 7.35
     foot, key, count = 22.0, 66.0, 7
     back, cut = 5.05, 11.0
@@ -247,7 +256,7 @@ def cathedral():
     scene.both("k", [right[0], right[1], apex[1], left[1], left[0], apex[0]])
     for k, stone in enumerate(flyer(6.2, 11.2, 0.6, (10.4, 13.8), (12.4, 15.4), 0.6, 6)):
         scene.both(f"f{k + 1}", stone)
-    # The timber roof.
+    # The loads of the timber roof on the walls.
     scene.load("w4w", (-5.6, 18), (0, -45000))
     scene.load("w4e", (5.6, 18), (0, -45000))
     return scene

@@ -2,12 +2,14 @@
 
     python examples/gym_arch.py --voussoirs 13 --seconds 5
 
-An action is a number: a robot places one of the voussoirs and holds it, or a robot releases the voussoir that it holds. The
-reward is 1 for each voussoir after which the structure stands, 10 for the finished arch that stands without robots, and -1
-for a fall or for an action that is not possible. A fall ends the episode.
+An action is a number that stands for one of two things: a robot places one of the voussoirs and holds it, or a robot
+releases the voussoir that it holds. The reward is 1 for each voussoir after which the structure stands, 10 for the
+finished arch that stands without robots, and -1 for a fall or for an action that is not possible. A fall or the
+finished arch ends the episode.
 
-With `solver="highs"`, a linear program of scipy decides each step instead of drystone, and with `solver="compas_cra"` the
-function `rbe_solve` of that package. The script measures all solvers that are installed.
+With `solver="highs"`, a linear program that scipy solves decides each step instead of drystone. With
+`solver="compas_cra"`, the function `rbe_solve` of the package compas_cra decides each step. The script measures all
+solvers that are installed.
 """
 
 from __future__ import annotations
@@ -43,7 +45,7 @@ def voussoirs(count: int, span: float = 4.0, thickness: float = 0.6) -> list[lis
 
     def at(radius: float, number: int) -> tuple[float, float]:
         angle = math.pi * (1 - number / count)
-        # The springings lie exactly on the ground.
+        # Set the height to exactly 0, so that the first and the last joint lie on the ground without rounding.
         height = 0.0 if number in (0, count) else radius * math.sin(angle)
         return (radius * math.cos(angle), height)
 
@@ -51,7 +53,7 @@ def voussoirs(count: int, span: float = 4.0, thickness: float = 0.6) -> list[lis
 
 
 class DrystoneSolver:
-    """Decides each step with a session of drystone."""
+    """Decides with a session of drystone whether the structure stands after each step."""
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         self.outlines = outlines
@@ -74,7 +76,10 @@ class DrystoneSolver:
 
 
 class StepSolver:
-    """Keeps the placed voussoirs and those that robots hold, for solvers that decide each step anew with `stands`."""
+    """The base class of solvers that decide each step anew with `stands`.
+
+    The class keeps the numbers of the placed voussoirs and of those that robots hold.
+    """
 
     def reset(self) -> None:
         self.placed: set[int] = set()
@@ -94,7 +99,10 @@ class StepSolver:
 
 
 class HighsSolver(StepSolver):
-    """Decides each step with a linear program for HiGHS, which gets the joints. drystone finds the joints itself."""
+    """Decides each step with a linear program for HiGHS.
+
+    The joints are computed from the order of the voussoirs, whereas drystone finds the joints itself.
+    """
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         import numpy
@@ -166,8 +174,11 @@ class HighsSolver(StepSolver):
 
 
 class CraSolver(StepSolver):
-    """Decides each step with `rbe_solve` of compas_cra. The joints of the whole arch are found once. compas_cra has
-    no robots, so a held block is a support, without a limit on its force."""
+    """Decides each step with `rbe_solve` of compas_cra.
+
+    The joints of the whole arch are found once, in the constructor. compas_cra has no robots, so a held block is
+    a support, without a limit on the force of the support.
+    """
 
     def __init__(self, outlines: list[list[tuple[float, float]]]) -> None:
         import compas_cra.equilibrium
@@ -180,7 +191,7 @@ class CraSolver(StepSolver):
         self.blocks = []
         whole = CRA_Assembly()
         floor = [(-9, 0), (9, 0), (9, -1), (-9, -1)]
-        # Outlines are clockwise; faces have to point outwards.
+        # The outlines are clockwise. Reverse them, because the normals of the faces have to point outwards.
         for number, outline in enumerate([one[::-1] for one in (*outlines, floor)]):
             corners = [(x, y, z) for y in (0.0, 1.0) for x, z in outline]
             sides = [[(k + 1) % 4, k, 4 + k, 4 + (k + 1) % 4] for k in range(4)]
@@ -222,11 +233,11 @@ class CraSolver(StepSolver):
 
 SOLVERS = {"drystone": DrystoneSolver, "highs": HighsSolver, "compas_cra": CraSolver}
 NEEDS = {"drystone": "drystone", "highs": "scipy", "compas_cra": "compas_cra"}
-"""The package that each solver needs."""
+"""For each solver, the package that the solver needs."""
 
 
 class ArchEnv(Base):
-    """The Gymnasium environment."""
+    """The Gymnasium environment for an arch of `count` voussoirs. `solver` is a key of `SOLVERS`."""
 
     metadata = {"render_modes": ["svg"]}
 
@@ -249,7 +260,10 @@ class ArchEnv(Base):
         return self._observation(), {}
 
     def actions(self) -> list[int]:
-        """Returns the possible actions. A robot that holds nothing can place a voussoir next to another or on the ground."""
+        """Returns the possible actions.
+
+        A robot that holds nothing can place a voussoir next to a placed voussoir or on the ground.
+        """
         free = [n for n in range(self.count) if n not in self.placed and self._reachable(n)]
         actions = [r * self.count + n for r in (0, 1) if self.robots[r] not in self.held for n in free]
         return actions + [2 * self.count + r for r in (0, 1) if self.robots[r] in self.held]
@@ -290,7 +304,10 @@ class ArchEnv(Base):
 
 
 def played(env: ArchEnv, seconds: float, seed: int) -> tuple[int, float, list[float]]:
-    """Plays random episodes for some seconds. Returns the number of steps, their processor time in seconds, and all rewards."""
+    """Plays random episodes for `seconds` of wall time.
+
+    Returns the number of steps, the processor time of these steps in seconds, and the reward of each step.
+    """
     chance = random.Random(seed)
     steps, rewards = 0, []
     env.reset()
@@ -313,7 +330,7 @@ def main() -> None:
     environments = {solver: ArchEnv(arguments.voussoirs, solver) for solver in solvers}
     steps, same, both = (dict.fromkeys(solvers, 0) for _ in range(3))
     spent = dict.fromkeys(solvers, 0.0)
-    # The solvers take turns, so that other work on the machine slows all of them.
+    # The solvers take turns, so that other work on the machine slows all solvers about equally.
     for turn in range(10):
         rewards = {}
         for solver, environment in environments.items():

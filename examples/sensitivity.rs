@@ -1,5 +1,5 @@
-//! Prints how the load factor of an arch changes with its friction and its corners, to find changes that make it
-//! stronger.
+//! Prints how the load factor of an arch changes with friction and with the corners of the voussoirs, to find changes
+//! that make the arch stronger.
 //!
 //! Change the numbers below and run `cargo run --example sensitivity`.
 
@@ -49,8 +49,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             end.value + 0.1 * friction
         );
     }
-    // Print the corners with the largest gradients. Each corner moves in the direction in which the load factor grows
-    // most.
+    // Print the corners with the largest gradients. Each printed move is in the direction in which the load factor
+    // grows most.
     let mut corners: Vec<_> = end.corners.iter().collect();
     let steepness = |moves: CornerMoves| moves.gradient().map_or(0.0, |slope| slope.norm());
     corners.sort_by(|a, b| steepness(b.moves).total_cmp(&steepness(a.moves)));

@@ -2,8 +2,8 @@
 
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
 
-One third each are piles of randomly shifted bricks, leaning towers and semicircular arches. Some of them stand and some fall.
-With --broken N, every Nth line is truncated, as may happen in a real corpus.
+One third each of the scenes are piles of randomly shifted bricks, leaning towers and semicircular arches. Some of the
+scenes stand and some fall. With --broken N, every Nth line is truncated, as may happen in a real corpus.
 """
 
 import argparse
@@ -44,7 +44,10 @@ def tower(generator):
 
 
 def arch(generator):
-    """Returns ten voussoirs of a semicircular arch. An arch thinner than about 0.1075 of its radius falls (Milankovitch)."""
+    """Returns ten voussoirs of a semicircular arch with a random thickness.
+
+    An arch of many voussoirs falls if it is thinner than about 0.1075 of its radius (Milankovitch).
+    """
     thickness = generator.uniform(0.08, 0.2)
     inner, outer = 1 - thickness / 2, 1 + thickness / 2
 

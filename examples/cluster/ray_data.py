@@ -4,10 +4,10 @@
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
     python3 examples/cluster/ray_data.py corpus.ndjson answers.parquet --drystone target/release/drystone
 
-The corpus is divided into parts at the ends of lines. One process of drystone analyses each part and writes one result for
-each line. If this process or its worker fails, results are missing: the task of the part fails, and Ray runs it again from the
-start. In the end, every scene has exactly one result. --kill N kills N of the processes while they work, to test this. The
-corpus must be in a folder that every machine can read.
+The corpus is divided into parts at the ends of lines. For each part, one process of drystone analyses the lines and
+writes one result for each line. If a process or its worker fails, results are missing: the task of the part fails, and
+Ray runs the task again from the start. In the end, every scene has exactly one result. To test this, --kill N kills N
+of the processes while they work. The corpus must be in a folder that every machine can read.
 """
 
 import argparse
@@ -28,7 +28,11 @@ import ray
 
 
 def parts(corpus, lines_each):
-    """Returns for each part of the file: the number of its first line, its offset and length in bytes, and its number of lines."""
+    """Returns a dict for each part of the file.
+
+    `first` is the number of the first line of the part, from 1; `offset` and `length` are in bytes; `lines` is the
+    number of lines of the part.
+    """
     found = []
     with open(corpus, "rb") as file:
         first, offset, count, length = 1, 0, 0, 0
@@ -76,7 +80,10 @@ def analysed(corpus, binary, fields, pids):
 
 
 def kill_some(pids, count, after):
-    """Kills `count` of the running processes, one every `after` seconds."""
+    """Kills `count` of the processes of drystone while they run, one every `after` seconds.
+
+    `pids` is a folder with a file for each running process, whose name is the id of the process.
+    """
     killed = 0
     while killed < count:
         time.sleep(after)

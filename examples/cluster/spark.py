@@ -4,9 +4,10 @@
     python3 examples/cluster/corpus.py 1000000 > corpus.ndjson
     python3 examples/cluster/spark.py corpus.ndjson answers.parquet --drystone target/release/drystone
 
-One process of drystone analyses each partition of the lines and writes one result for each line. If this process or its
-machine fails, results are missing: the task of the partition fails, and Spark runs it again from the start. In the end, every
-scene has exactly one result. --kill N kills N of the processes while they work, to test this.
+The lines of the corpus are divided into partitions. For each partition, one process of drystone analyses the lines and
+writes one result for each line. If a process or its machine fails, results are missing: the task of the partition
+fails, and Spark runs the task again from the start. In the end, every scene has exactly one result. To test this,
+--kill N kills N of the processes while they work.
 """
 
 import argparse
@@ -43,7 +44,7 @@ def analysed(binary, fields, pids):
                     process.stdin.write(line.encode() + b"\n")
                 process.stdin.close()
             except BrokenPipeError:
-                pass  # The count of results below detects this.
+                pass  # The process has ended early. The count of results below detects this.
 
         feeder = threading.Thread(target=feed)
         feeder.start()
@@ -68,7 +69,10 @@ def analysed(binary, fields, pids):
 
 
 def kill_some(pids, count, after):
-    """Kills `count` of the running processes, one every `after` seconds."""
+    """Kills `count` of the processes of drystone while they run, one every `after` seconds.
+
+    `pids` is a folder with a file for each running process, whose name is the id of the process.
+    """
     killed = 0
     while killed < count:
         time.sleep(after)

@@ -1,4 +1,4 @@
-// Draws arrows on the stage for forces between blocks, missing forces and loads. Also draws the grips of robots.
+// Draws arrows on the stage for forces between blocks, missing forces and loads, and marks for the grips of robots.
 
 import { add, dot, length, scale, subtract } from "./geometry.js";
 import { legible, newtons, set, svg } from "./dom.js";
@@ -71,7 +71,8 @@ export function drawMissing(stage, { result, stale }) {
     const force = inPixels(failure.force, factor);
     const pull = failure.kind === "tension";
     labels.push(labelNextTo(pull ? at : add(at, scale(force, 0.6)), force, failure.amount));
-    // If a joint opens, the missing force would pull both blocks together. Otherwise it acts on the first body.
+    // If a joint opens, the missing force would pull both blocks together. Otherwise, the missing force is drawn on the
+    // first body.
     const arrows = pull ? [arrowPath(subtract(at, force), at, 4), arrowPath(add(at, force), at, 4)] : [arrowPath(at, add(at, force), 5)];
     return [...arrows.map((d) => svg("path", { class: "missing", d })), ...(pull ? [] : [point])];
   });
@@ -148,7 +149,8 @@ export function drawRobots(stage, { resolved, frame }) {
 }
 
 /**
- * Keeps one element for each item from drawing to drawing, so that an element with the focus keeps it.
+ * Updates one element for each item, and reuses the elements of the last drawing. An element with the focus then does
+ * not lose the focus.
  * @template T
  * @param {Element} layer @param {T[]} items @param {(item: T, element: Element) => void} update @param {() => Element} create
  */

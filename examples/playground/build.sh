@@ -7,7 +7,7 @@
 #
 # Needs a Rust toolchain from rustup, with the component rust-src, because the standard library is compiled for size
 # as well. If rustup cannot fetch this component, its target wasm32-unknown-unknown is used, and the module is larger.
-# If rustup can fetch neither, or with --debian, the compiler of Debian's packages is unpacked in target/. It is not
+# If rustup can fetch neither, or with --debian, the compiler of Debian's packages is unpacked in target/, but not
 # installed.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

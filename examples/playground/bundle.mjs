@@ -36,8 +36,8 @@ async function boot({ main, modules, scenes, style }) {
 }
 
 /**
- * Returns the worker with the library as text and packed bytes. A worker from a file may neither import nor fetch
- * anything, and it may not be a module.
+ * Returns the worker with the library as text and packed bytes. On a page that is opened from a
+ * disk, a worker may neither import nor fetch anything, and it may not be a module.
  * @param {string} worker @param {string} library @param {string} wasm in base64
  */
 function joined(worker, library, wasm) {
@@ -49,7 +49,7 @@ function joined(worker, library, wasm) {
   return `const [init, drystone] = (() => {\n${inside}\nreturn [__wbg_init, { ${names.join(", ")} }];\n})();\n${worker.replace(/^import init.*$/m, "")}`;
 }
 
-/** Runs in the worker. @param {string} text packed bytes in base64 @returns {Promise<ArrayBuffer>} */
+/** Unpacks the compressed library. This function runs in the worker. @param {string} text packed bytes in base64 @returns {Promise<ArrayBuffer>} */
 function unpack(text) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();

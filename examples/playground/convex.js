@@ -20,7 +20,7 @@ export function convexPieces(outline) {
   return pieces;
 }
 
-/** Cuts off one corner after the other. @param {Point[]} outline @returns {Point[][]} */
+/** Divides an outline into triangles, by cutting off one corner after the other. @param {Point[]} outline @returns {Point[][]} */
 function triangles(outline) {
   const ring = signedArea(outline) < 0 ? outline.toReversed() : [...outline];
   const found = [];
@@ -65,7 +65,8 @@ function union(one, other) {
     const j = other.indexOf(one[(i + 1) % one.length]);
     if (j < 0 || other[(j + 1) % other.length] !== one[i]) continue;
     const rest = (/** @type {Point[]} */ list, /** @type {number} */ from) => list.map((_, k) => list[(from + k) % list.length]);
-    // Both pieces without their common edge: each begins behind it and ends before it.
+    // Join both rings of corners without the common edge: each ring begins at the end of this edge and ends at the
+    // start of the edge.
     const whole = [...rest(one, i + 1), ...rest(other, j + 1).slice(1, -1)];
     return isConvex(whole) ? whole : null;
   }

@@ -1,5 +1,5 @@
-// Implements dragging in an SVG with mouse, touch or pen. It does not depend on scenes: the caller decides what can
-// be dragged, and what a move does. There is at most one move for each frame of the screen.
+// Implements dragging in an SVG with mouse, touch or pen. This module does not depend on scenes: its caller decides
+// what can be dragged, and what a move does. The caller is told of at most one move for each frame of the screen.
 
 /** @typedef {import("./geometry.js").Point} Point */
 /**

@@ -1,6 +1,6 @@
 // Changes to a scene. Each function changes the parsed scene that it gets, and only the keys that it needs to change.
 // Coordinates keep the number of decimals of the scene, because the library estimates the rounding error of the
-// coordinates from it.
+// coordinates from this number.
 
 import { add, centroid, round, roundPoint, subtract, turn } from "./geometry.js";
 import { gridOf, nearestNode, toLattice, toMetres } from "./lattice.js";
@@ -51,7 +51,8 @@ export function turnBody(scene, body, degrees, decimals) {
     const full = (((entity.angle ?? 0) + Math.sign(degrees) * part) % 360 + 360) % 360;
     if (full === 0) delete entity.angle;
     else entity.angle = full;
-    // The body was turned about its origin. Move its centroid back as near to its old position as the lattice allows.
+    // The angle turns the body about its origin. Choose `at` so that the centroid is as near to its old position as
+    // the lattice allows.
     const outline = outlineOf(scene, entity)?.[0];
     if (outline) entity.at = nearestNode(grid, add(toMetres(grid, entity.at ?? [0, 0]), subtract(body.centre, centroid(outline))));
     return;
@@ -162,7 +163,7 @@ export function moveGrip(scene, hold, to, decimals) {
   }
 }
 
-/** Makes a robot hold a block, or release it. @param {any} scene @param {string} id @param {number} frame @param {import("./scene.js").Hold[]} holds of this step */
+/** Makes a robot hold a block; if robots hold the block already, they release it. @param {any} scene @param {string} id @param {number} frame @param {import("./scene.js").Hold[]} holds of this step */
 export function toggleHold(scene, id, frame, holds) {
   const held = holds.filter((hold) => hold.block === id);
   scene.robots = list(scene.robots);
@@ -200,7 +201,7 @@ export function setFriction(scene, mu) {
   for (const body of [...list(scene.blocks), ...list(scene.ground)]) if (body) delete body.friction;
 }
 
-/** Turns gravity. At 0° it points down. @param {any} scene @param {number} degrees anticlockwise */
+/** Turns gravity. At 0°, gravity points down. @param {any} scene @param {number} degrees anticlockwise */
 export function setTilt(scene, degrees) {
   const size = Math.hypot(...gravityOf(scene)) || 9.81;
   const angle = (degrees * Math.PI) / 180;

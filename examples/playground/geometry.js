@@ -109,9 +109,9 @@ export function isConvex(polygon) {
 }
 
 /**
- * Returns the shortest move of `a` after which it does not overlap `b`, or null if they do not overlap. Both must be
- * convex, because the separating-axis test uses the normals of all edges. If `a` did not overlap `b` before, it moves
- * back to the same side of `b`, so that it never passes through.
+ * Returns the shortest move of `a` after which it does not overlap `b`, or null if they do not overlap. Both
+ * polygons must be convex, because the separating-axis test uses the normals of all edges. If `a` did not overlap `b`
+ * at its position `before`, it moves back to the same side of `b`, so that `a` never passes through `b`.
  * @param {Point[]} a @param {Point[]} b @param {number} slack overlaps below this many metres do not count
  * @param {Point[]} [before] where `a` was
  * @returns {Point | null}

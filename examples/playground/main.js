@@ -37,7 +37,7 @@ new Outputs(store, solver, figures, say);
 function figureOptions(kind) {
   const body = store.body(store.selected) ?? store.resolved.bodies.findLast((b) => b.list === "blocks" && store.current.placed.has(b.id));
   const capacity = kind === "capacity" && body?.list === "blocks" ? { capacity: `${body.id}@${body.centre.map((c) => c.toFixed(6)).join(",")}` } : {};
-  // At this width the letters of the figure are as large as those of the page.
+  // Give the figure the width of its panel, so that its letters are as large as those of the page.
   const width = Math.max(340, Math.round(byId("figure-panel").clientWidth));
   return { frame: store.frame + 1, theme: theme.dark ? "dark" : "thesis", width_px: width, ...capacity };
 }

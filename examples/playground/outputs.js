@@ -85,7 +85,7 @@ export class Outputs {
     return url.href;
   }
 
-  /** The address bar always holds the scene, so that a bookmark keeps it. */
+  /** Writes the scene into the address bar, so that a bookmark contains the scene. */
   async updateAddress() {
     if (this.store.dragging) return;
     const link = await this.link();

@@ -1,5 +1,6 @@
 // Converts a scene file to what the stage shows: outlines in metres, and for each step the placed, held and planned
-// blocks. It accepts incomplete scenes: while a user types, keys may be missing or have values of a wrong type.
+// blocks. This module accepts incomplete scenes: while a user types, keys may be missing or have values of a wrong
+// type.
 
 import { bounds, centroid, turn, add, signedArea } from "./geometry.js";
 import { builtIn, gridOf, outlineOfCells, toMetres } from "./lattice.js";
@@ -34,7 +35,7 @@ export const blockId = (block, index) => (typeof block?.id === "string" ? block.
 /** @param {any} robot @param {number} index */
 export const robotId = (robot, index) => (typeof robot?.id === "string" ? robot.id : `r${index}`);
 
-/** The largest numbers that the stage shows, so that a harmful link cannot block the browser. The library gets the whole scene. */
+/** The largest numbers of parts that the stage shows, so that a harmful link cannot block the browser. The library gets the whole scene. */
 const MOST_BODIES = 5000;
 const MOST_PLACED = 1_000_000;
 
@@ -130,7 +131,7 @@ function framesOf(scene) {
   });
 }
 
-/** The bodies of one step: the ground, and the blocks that stand. @param {Resolved} resolved @param {number} frame */
+/** The bodies of one step: the ground, and the blocks that are placed. @param {Resolved} resolved @param {number} frame */
 export function standing(resolved, frame) {
   const { placed } = resolved.frames[Math.min(frame, resolved.frames.length - 1)];
   return resolved.bodies.filter((b) => b.list === "ground" || placed.has(b.id));

@@ -16,7 +16,8 @@ function standingHexagon(radius) {
 }
 
 /**
- * A voussoir at the crown of a semicircular arch. Its sides point to the centre of the arch, which is below it.
+ * A voussoir at the crown of a semicircular arch. The sides of the voussoir point to the centre of the arch, which is
+ * below the voussoir.
  * @param {number} size its height @param {number} [angle] the angle between its sides, degrees
  * @returns {Point[]}
  */

@@ -92,7 +92,7 @@ export class Sliders {
   /** @param {any | null} margins those of the library, or null while they are unknown */
   showMargins(margins) {
     for (const entry of this.rows) {
-      // At factor 0 there are no loads to multiply, so keep the interval that was found before.
+      // At load factor 0, the library gets no loads and finds no interval of the factor. Keep the last interval.
       if (entry.parameter.id === "load" && this.store.factor === 0 && margins) continue;
       entry.interval = margins ? entry.parameter.interval(margins.intervals ?? {}, this.store) : undefined;
       this.stretch(entry);

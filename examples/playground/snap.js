@@ -1,5 +1,5 @@
-// Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid,
-// and it does not overlap other blocks, because stones cannot pass through each other.
+// Computes the position of a dragged block. The block snaps to the edges of near neighbours, otherwise to the grid. The
+// block does not overlap other blocks, because stones cannot pass through each other.
 
 import { convexPieces } from "./convex.js";
 import { add, cross, dot, length, near, pushOut, scale, signedArea, subtract } from "./geometry.js";
@@ -113,8 +113,8 @@ function overlap(a, b, c, d, along) {
 const gridShift = (at, grid) => Math.round(at / grid) * grid - at;
 
 /**
- * Returns how far the block can move from its last position towards the requested one. It moves in steps smaller than
- * itself, so that it does not jump over other blocks but slides along them.
+ * Returns how far the block can move from its last position towards the requested one. The block moves in steps
+ * that are smaller than the block, so that it does not jump over other blocks but slides along them.
  * @param {Outline} body @param {Point} wish @param {Outline[]} others @param {number} slack @param {Point} last
  * @returns {Point}
  */
@@ -135,7 +135,7 @@ function slide(body, wish, others, slack, last) {
   return at;
 }
 
-/** Returns the convex pieces of a body. A body with holes gets none, because other blocks may lie in its holes. @param {Outline} body */
+/** Returns the convex pieces of a body. For a body with holes the list is empty, because other blocks may lie in the holes. @param {Outline} body */
 const piecesOf = (body) => (body.holes?.length ? [] : convexPieces(body.outline));
 
 /** Returns the move, changed so that the block does not overlap the others. @param {Outline} body @param {Point} move @param {Outline[]} others @param {number} slack @param {Point} last @returns {Point} */
@@ -143,7 +143,7 @@ function outOfOthers(body, move, others, slack, last) {
   const pieces = piecesOf(body);
   let result = move;
   const before = pieces.map((piece) => shift(piece, last));
-  // A block between two others may be pushed from one into the other. After a few rounds it stays where it was.
+  // A block between two others may be pushed from one into the other. The number of rounds is therefore limited.
   for (let round = 0; round < 6; round++) {
     const now = pieces.map((piece) => shift(piece, result));
     const box = moved(body.box, result);

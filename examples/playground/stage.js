@@ -36,7 +36,7 @@ export class Stage {
     for (const name of ["grid", "planned", "forces", "missing", "draft"]) set(this.layers[name], { "aria-hidden": "true" });
     /** @type {Map<string, { group: SVGElement, path: SVGElement, label: SVGElement, d: string, text: string }>} */
     this.drawn = new Map();
-    /** The length of the arrow for one newton, in metres. It is constant while a load is dragged. */
+    /** The length of an arrow of a load for one newton, in metres. This length is constant while a load is dragged. */
     this.loadScale = 1;
   }
 
@@ -178,8 +178,8 @@ export class Stage {
       const next = points[(i + 1) % points.length];
       const [x, y] = this.view.toPixels(p);
       const [mx, my] = this.view.toPixels([(p[0] + next[0]) / 2, (p[1] + next[1]) / 2]);
-      // There are two elements for each corner. They keep their place in the document, so that one with the focus
-      // keeps it.
+      // There are two elements for each corner. The elements are reused and keep their place in the document, so that
+      // an element with the focus does not lose the focus.
       const corner = layer.children[2 * i] ?? layer.appendChild(svg("circle"));
       const middle = layer.children[2 * i + 1] ?? layer.appendChild(svg("circle"));
       const name = legible(/** @type {Body} */ (body).id);

@@ -19,7 +19,7 @@ export class Theme {
       try {
         localStorage.setItem(KEY, this.chosen);
       } catch {
-        // As above, the choice is lost when the page is closed.
+        // Without storage, the choice is lost when the page is closed.
       }
       this.show();
       changed();

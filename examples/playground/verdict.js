@@ -70,7 +70,7 @@ function joint({ kind, bodies, amount }) {
   return kind === "friction" ? `${newtons(amount)} of friction is missing between ${a} and ${b}` : `${a} would have to stick to ${b} with ${newtons(amount)}`;
 }
 
-/** Makes a message safe, because it may quote names from the scene. @param {any} text */
+/** Makes a message of the library safe to show, because the message may quote names from the scene. @param {any} text */
 const legiblePart = (text) => String(text ?? "").split(/(\s)/).map((word) => (/^\s$/.test(word) ? " " : legible(word))).join("");
 
 /** @param {string} text */

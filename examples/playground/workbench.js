@@ -42,7 +42,7 @@ export class Workbench extends EventTarget {
     new ResizeObserver(() => this.resized()).observe(root);
   }
 
-  /** Draws once before the next frame of the screen, even if it is called several times. */
+  /** Requests a drawing before the next frame of the screen. Several requests lead to a single drawing. */
   draw() {
     this.scheduled ||= requestAnimationFrame(() => {
       this.scheduled = 0;
@@ -79,7 +79,7 @@ export class Workbench extends EventTarget {
     this.fallLater();
   }
 
-  /** Shows the fall once when a structure begins to fall. */
+  /** Shows the motion of the blocks once when a structure begins to fall. */
   fallOnce() {
     const now = this.store.text + this.store.frame;
     if (this.store.dragging || this.stale || this.result?.verdict !== "unstable" || this.shown === now) return;

@@ -4,7 +4,8 @@
 import init, * as drystone from "./pkg/drystone.js";
 
 const ready = init();
-// The first request gets the error; until then, it must not count as unhandled.
+// If the library cannot start, the answer to the first request contains the error. Until then, the browser must not
+// report the error as unhandled.
 ready.catch(() => {});
 
 /** @type {Record<string, (message: any) => any>} */

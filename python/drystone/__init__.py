@@ -1,4 +1,4 @@
-"""Computes whether a structure of dry-laid blocks stands and how forces run through it, and draws both.
+"""Computes whether a structure of dry-laid blocks stands, and which forces act in it. Draws figures of the results.
 
 >>> import drystone as ds
 >>> scene = ds.Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
@@ -17,7 +17,10 @@ from ._session import Session
 
 
 def figure_kinds() -> dict[str, str]:
-    """Returns the kinds of figures, each with a line of help. ``freebody``, the figure of one block, is not in this list."""
+    """Returns a dict from each kind of figure to a line of help.
+
+    The kind ``freebody``, the figure of one block, is not in this dict.
+    """
     return dict(kinds())
 
 

@@ -10,7 +10,7 @@ from ._drystone import run
 
 def main() -> int:
     """Runs drystone with the arguments of this process and returns the exit code."""
-    # Python would handle an interrupt only after the program has ended.
+    # Let an interrupt (Ctrl+C) end the process at once. Python would handle it only after `run` has returned.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["drystone", *sys.argv[1:]])
 

@@ -1,4 +1,4 @@
-"""Analyses of one scene, or of many scenes on all cores."""
+"""The functions :func:`check` and :func:`check_many`, which analyse one scene, or many scenes on all cores."""
 
 from __future__ import annotations
 
@@ -32,19 +32,21 @@ def check(
     for_all: str | None = None,
     sensitivity: str | None = None,
 ) -> Result:
-    """Analyses a scene: the verdict with its proof, the forces, and the failures if the scene falls.
+    """Analyses a scene and returns, for each frame, the verdict with its proof, the forces, and the failures.
 
-    ``margins`` is ``True`` for all margins, or a list of "friction", "tilt", "horizontal_load", "kernel", "load_factor" and
-    "robots". ``wedging`` tests whether a frame stands only by wedging. ``verdict_only`` leaves out all results that the
-    verdict does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in seconds, ``contact_tolerance`` in
-    metres. ``notes`` adds notes on values that are allowed but probably not intended.
+    ``margins`` is ``True`` for all margins, or one or several of "friction", "tilt", "horizontal_load", "kernel",
+    "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``verdict_only=True``
+    leaves out all results that the verdict does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in
+    seconds, and ``contact_tolerance`` is in metres. ``notes=False`` leaves out the notes on values of the scene that
+    are allowed but probably not intended.
 
-    ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid, ``("lintel", (2, 3))`` at a point,
-    ``("lintel", (1, 3), (3, 3))`` at a contact between two points. With ``for_all``, such as
-    ``"tilt=±2,friction=0.5..0.7"``, only forces are returned that the block can carry for all values in these ranges.
+    ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid (or at the grip point, if a
+    robot holds the block), ``("lintel", (2, 3))`` at a point, ``("lintel", (1, 3), (3, 3))`` at a contact between two
+    points. ``for_all``, such as ``"tilt=±2,friction=0.5..0.7"``, restricts the capacity to forces that the block can
+    carry for all values in these ranges.
 
-    ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load. The margin is
-    "load_factor", "tilt", "horizontal_load", "friction" or "kernel".
+    ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load. The margin
+    is "load_factor", "tilt", "horizontal_load", "friction" or "kernel".
 
     Raises :class:`SceneError` if the scene is not valid.
 
@@ -76,9 +78,10 @@ def check_many(
 ) -> Results:
     """Analyses many scenes on all cores; the results are in the order of the scenes.
 
-    ``errors`` is "raise" or "keep"; with "keep", the results contain the :class:`SceneError` of a scene that is not valid.
-    ``progress`` is called with the number of scenes that are done; an exception that it raises ends the analysis.
-    ``threads`` is the number of threads, or 0 for one per core. All other arguments are those of :func:`check`.
+    With ``errors="raise"``, a scene that is not valid raises its :class:`SceneError`. With ``errors="keep"``, the
+    results contain this error in place of the result of the scene. ``progress`` is a function that is called with the
+    number of scenes that are done; an exception in ``progress`` ends the analysis. ``threads`` is the number of
+    threads, or 0 for one per core. All other arguments are those of :func:`check`.
     """
     if errors not in ("raise", "keep"):
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
@@ -124,7 +127,10 @@ def analysis_options(
     for_all: str | None = None,
     sensitivity: str | None = None,
 ) -> _drystone.Options:
-    """Returns the options of an analysis. Recently used options are cached."""
+    """Converts the arguments of an analysis to an ``Options`` object. Recently used objects are cached.
+
+    ``located`` is true if problems have lines and columns, because the scene was read from text.
+    """
     names: tuple[str, ...] | None
     if isinstance(margins, str):
         names = (margins,)

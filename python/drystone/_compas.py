@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 S = TypeVar("S", bound="Scene")
 
 _PLANES = {"xz": (0, 2, 1), "yz": (1, 2, 0), "xy": (0, 1, 2)}
-"""For each plane: the index of the axis to the right, of the axis up, and of the axis perpendicular to the plane."""
+"""For each plane: the indices of the axes that point right, up, and perpendicular to the plane (0: x, 1: y, 2: z)."""
 
 
 def scene_of(cls: type[S], assembly: Any, plane: str, keys: dict[str, Any]) -> S:
-    """Makes the scene of an assembly."""
+    """Makes a scene of the class ``cls`` from an assembly. ``keys`` are the keyword arguments of the scene."""
     if plane not in _PLANES:
         raise DrystoneError(f'plane is "xz", "yz" or "xy", not {plane!r}')
     right, up, across = _PLANES[plane]
@@ -46,7 +46,7 @@ def scene_of(cls: type[S], assembly: Any, plane: str, keys: dict[str, Any]) -> S
 
 
 def _blocks(assembly: Any) -> list[tuple[Any, Any]]:
-    """Returns pairs of node and block. This works with assemblies of all versions of ``compas_assembly``."""
+    """Returns the blocks of an assembly as pairs (node, block), for every version of ``compas_assembly``."""
     graph = getattr(assembly, "graph", assembly)
     pairs = []
     for node in graph.nodes():
@@ -61,7 +61,11 @@ def _is_support(assembly: Any, node: Any, block: Any) -> bool:
 
 
 def _prism(block: Any, node: Any, right: int, up: int, across: int) -> tuple[list[list[float]], float]:
-    """Returns the outline of a prism and its thickness, in metres."""
+    """Returns the outline of a prism, and its thickness perpendicular to the plane of the scene, in metres.
+
+    ``right``, ``up`` and ``across`` are the axes in ``_PLANES``. Raises :class:`DrystoneError` if the block is not a
+    prism.
+    """
     ends = []
     for face in block.faces():
         corners = [block.vertex_coordinates(vertex) for vertex in block.face_vertices(face)]

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 
 class DrystoneError(Exception):
-    """A request that drystone cannot fulfil. The message says what to change."""
+    """A request that drystone cannot fulfil. The message says what is wrong or what to change."""
 
 
 @dataclass(frozen=True)
 class Problem:
     """One problem of a scene.
 
-    ``line`` and ``column`` count from 1. Both are ``None`` if the scene was made in Python.
+    ``code`` is the kind of problem, and ``path`` is its place in the scene. ``line`` and ``column`` are its position in
+    the text of the scene, from 1; both are ``None`` if the scene was made in Python, or if the problem has no position.
     """
 
     code: str
@@ -26,7 +27,7 @@ class Problem:
 
 
 class SceneError(DrystoneError):
-    """A scene that is not valid. ``problems`` lists all its problems."""
+    """The exception for a scene that is not valid. ``problems`` contains all problems of the scene."""
 
     problems: tuple[Problem, ...]
 

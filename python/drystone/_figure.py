@@ -16,7 +16,10 @@ _FORMATS = ("svg", "png", "pdf", "tikz")
 
 
 class Figure:
-    """A figure. It is drawn when it is converted to a format. A notebook displays it."""
+    """A figure of a result or of a scene.
+
+    A figure is drawn when it is converted to a format. A notebook displays it.
+    """
 
     def __init__(
         self,
@@ -32,14 +35,14 @@ class Figure:
 
     @classmethod
     def of_analysis(cls, analysis: _drystone.Analysis, frame: int | None, options: Mapping[str, Any]) -> Figure:
-        """Makes a figure of an analysis."""
+        """Makes a figure of one frame of an analysis, or of all frames if ``frame`` is ``None``."""
         made = cls(analysis, frame, options)
         words(options)
         return made
 
     @classmethod
     def of_problems(cls, text: str) -> Figure:
-        """Makes a figure of a scene that is not valid: its outlines, with the problems marked."""
+        """Makes a figure of a scene that is not valid, from its text: the outlines, with the problems marked."""
         return cls(None, None, {}, text)
 
     def svg(self) -> str:
@@ -47,8 +50,8 @@ class Figure:
         return self._bytes("svg", {}).decode()
 
     def png(self, *, width: int | None = None, scale: float | None = None, dpi: float | None = None) -> bytes:
-        """Returns the figure as PNG. Its size is given by ``width`` in pixels, by ``scale`` in pixels per unit of the
-        drawing, or by ``dpi`` in dots per inch together with ``width_mm``.
+        """Returns the figure as PNG. The size of the picture is given by ``width`` in pixels, by ``scale`` in pixels
+        per unit of the drawing, or by ``dpi`` in dots per inch together with the ``width_mm`` of the figure.
         """
         return self._bytes("png", {"width": width, "scale": scale, "dpi": dpi})
 
@@ -61,7 +64,7 @@ class Figure:
         return self._bytes("tikz", {}).decode()
 
     def save(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Writes a ``.svg``, ``.png``, ``.pdf`` or ``.tikz`` file."""
+        """Writes the figure to a ``.svg``, ``.png``, ``.pdf`` or ``.tikz`` file. ``options`` are additional options."""
         ending = Path(path).suffix[1:].lower()
         if ending not in _FORMATS:
             raise DrystoneError(f"{os.fspath(path)}: a figure can be saved as .{', .'.join(_FORMATS)}")
@@ -84,7 +87,10 @@ class Figure:
 
 
 def words(options: Mapping[str, Any]) -> list[str]:
-    """Converts keyword arguments to command-line options of ``drystone render``."""
+    """Converts keyword arguments to command-line options of ``drystone render``.
+
+    For example, ``width_mm=84`` becomes ``--width-mm=84``. A value that is ``None`` or ``False`` is left out.
+    """
     made = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
@@ -107,7 +113,7 @@ def animate(
     path: str | os.PathLike[str],
     options: Mapping[str, Any],
 ) -> None:
-    """Writes an animation."""
+    """Writes an animation of the frames to a ``.png`` or ``.gif`` file; of one frame if ``frame`` is not ``None``."""
     ending = Path(path).suffix.lower()
     if ending not in (".png", ".gif"):
         raise DrystoneError(f"{os.fspath(path)}: an animation can be saved as .png or .gif")
@@ -115,6 +121,9 @@ def animate(
 
 
 def html_image(svg: str) -> str:
-    """Returns an ``img`` element with the SVG. Ids in the SVG then cannot conflict with ids of other figures on the page."""
+    """Returns an HTML element ``img`` that contains the SVG.
+
+    In an ``img``, the ids in the SVG cannot conflict with ids of other figures on the page.
+    """
     data = base64.b64encode(svg.encode()).decode()
     return f'<img alt="Figure" style="max-width:100%" src="data:image/svg+xml;base64,{data}">'

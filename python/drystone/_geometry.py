@@ -1,4 +1,4 @@
-"""Converts outlines and numbers from lists, numpy arrays, shapely polygons and GeoJSON to those of a scene file."""
+"""Converts outlines and numbers to lists and numbers for a scene file: from lists, numpy, shapely and GeoJSON."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Outline = Any
 
 
 def plain(value: object) -> Any:
-    """Converts a value of numpy to a value that JSON can represent; for ``json.dumps(default=plain)``."""
+    """Converts a value, such as a numpy array, to a value that JSON can represent. Used as ``default`` of ``json``."""
     for method in ("tolist", "item"):
         convert = getattr(value, method, None)
         if convert is not None:
@@ -61,14 +61,14 @@ def rings(outline: Any) -> list[list[list[float]]]:
 
 
 def outline(polygon: Outline | None, holes: Iterable[Outline] | None) -> tuple[list[list[float]] | None, list[list[list[float]]]]:
-    """Returns the outer ring, or ``None`` if there is no polygon, and the rings of all holes."""
+    """Returns the outer ring of ``polygon`` (``None`` without a polygon), and the rings of its holes and ``holes``."""
     found = [] if polygon is None else rings(polygon)
     inner = found[1:] + [ring(one) for one in holes or ()]
     return found[0] if found else None, inner
 
 
 def body(polygon: Outline | None, holes: Iterable[Outline] | None, keys: dict[str, Any]) -> dict[str, Any]:
-    """Returns the keys of a body that are not ``None``, together with its outline."""
+    """Returns the entry of a body in a scene file: its outline, and the keys whose value is not ``None``."""
     entry: dict[str, Any] = {key: value for key, value in keys.items() if value is not None}
     outer, inner = outline(polygon, holes)
     if outer is not None:
@@ -89,7 +89,10 @@ def block(
 
 
 def capacity_word(capacity: str | tuple[Any, ...]) -> str:
-    """Returns the value of the option ``--capacity``, such as ``lintel@2,3``: the block, and the points if there are any."""
+    """Returns the value of the option ``--capacity``, such as ``lintel@2,3``.
+
+    ``capacity`` is the name of a block, or a tuple of the name and of one or two points.
+    """
     if isinstance(capacity, str):
         return capacity
     block, *points = capacity

@@ -10,11 +10,14 @@ from ._errors import DrystoneError
 
 
 _PLATE = {"facecolor": "#e9e4d8", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
-"""The plate behind the name of a block, so that arrows do not cross the name."""
+"""The style of the box behind the name of a block. The box keeps the name readable where arrows cross it."""
 
 
 def draw(analysis: _drystone.Analysis, frame: int, ax: Any, *, forces: bool, labels: bool) -> Any:
-    """Draws one frame in metres and returns the axes."""
+    """Draws the frame with the index ``frame`` in metres and returns the axes.
+
+    New axes are made if ``ax`` is ``None``.
+    """
     try:
         import matplotlib.pyplot as plt
     except ImportError:
@@ -55,8 +58,8 @@ def _body(ax: Any, rings: list[list[list[float]]], gid: str, **look: Any) -> Non
 
 
 def _forces(ax: Any, analysis: _drystone.Analysis, frame: int, corners: list[list[float]]) -> None:
-    """Draws arrows for the forces of contacts, robots and failures in one scale. The length of the longest arrow is a third
-    of the larger of the width and height of the structure.
+    """Draws arrows for the forces of contacts, robots and failures, all in the same scale. The longest arrow is a third
+    as long as the structure is wide or high, whichever is larger. ``corners`` are the corners of the placed blocks.
     """
     from matplotlib.patches import FancyArrowPatch
 

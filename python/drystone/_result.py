@@ -1,4 +1,4 @@
-"""Results: attributes with the names of the keys of the JSON result, and tables."""
+"""Results of an analysis. The attributes of a result have the names of the keys of the JSON result."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Record(dict[str, Any]):
-    """An object of a result: a dict whose keys are also attributes."""
+    """An object in a result: a dict whose keys can also be read as attributes."""
 
     def __getattr__(self, name: str) -> Any:
         try:
@@ -50,7 +50,7 @@ class Table:
         return len(self._native)
 
     def __getitem__(self, column: str) -> numpy.ndarray[Any, Any]:
-        """Returns a column as an array."""
+        """Returns the column with this name as an array."""
         for name, (kind, values) in zip(self._native.names(), self._native.columns()):
             if name == column:
                 return _array(kind, values)
@@ -61,7 +61,7 @@ class Table:
         return iter(self.columns)
 
     def to_numpy(self) -> numpy.ndarray[Any, Any]:
-        """Returns a structured array with a field for each column."""
+        """Returns the table as a structured array with a field for each column."""
         import numpy
 
         columns = self._arrays()
@@ -80,7 +80,7 @@ class Table:
         return {name: _array(*column) for name, column in zip(self._native.names(), self._native.columns())}
 
     def to_dicts(self) -> list[dict[str, Any]]:
-        """Returns a dict for each row. This needs no other package."""
+        """Returns the table as a list with a dict for each row. The method needs no other package."""
         columns: list[Any] = []
         for kind, values in self._native.columns():
             if kind == "U":
@@ -110,55 +110,60 @@ class Table:
 
 
 class _Answer:
-    """The base class of a result and of one of its frames."""
+    """The base class of :class:`Result` (all frames) and :class:`Frame` (one frame)."""
 
     _native: _drystone.Analysis
     _frame: int | None
 
     @property
     def contacts(self) -> Table:
-        """The contacts between bodies, with the forces on ``body_0`` in N."""
+        """A table of the contacts between bodies, with the forces on ``body_0`` in N."""
         return self._table("contacts")
 
     @property
     def failures(self) -> Table:
-        """The failures: the missing forces with which the structure would stand, in N or N·m."""
+        """A table of the failures: the missing forces and torques with which the blocks would stand, in N and N·m."""
         return self._table("failures")
 
     @property
     def blocks(self) -> Table:
-        """The placed blocks: weight in N, area in m², centroid in metres, and the motion in which they begin to fall."""
+        """A table of the placed blocks: weight in N, area in m², centroid in m, and motion as the collapse begins."""
         return self._table("blocks")
 
     @property
     def robots(self) -> Table:
-        """The robots that hold a block, with their forces on the block in N and their torques in N·m."""
+        """A table of the robots that hold a block, with their forces on the block in N and their torques in N·m."""
         return self._table("robots")
 
     def _table(self, name: str) -> Table:
         return Table(self._native.table(name, self._frame), name)
 
     def figure(self, kind: str = "forces", *, theme: str | None = None, width_mm: float | None = None, **options: Any) -> Figure:
-        """Returns a figure. ``drystone.figure_kinds()`` lists the kinds and ``drystone.themes()`` the themes.
+        """Returns a figure of a kind in ``drystone.figure_kinds()``, in a theme in ``drystone.themes()``.
 
-        ``width_mm`` is the printed width: 84 for one column of a journal, 174 for two columns. ``options`` are options of
-        ``drystone render``, such as ``amounts=True``, ``fill="stress"``, ``block="a"`` and ``no_title=True``.
+        ``width_mm`` is the printed width: 84 for one column of a journal, 174 for two columns. ``options`` are options
+        of ``drystone render``, such as ``amounts=True``, ``fill="stress"``, ``block="a"`` and ``no_title=True``.
 
-        The kinds "margin" and "sensitivity" show the margin ``margin="friction"``, and the kind "capacity" shows the block
-        ``capacity="lintel"`` or ``capacity=("lintel", (2, 3))``. If the result lacks values that a figure shows, they
-        are computed for the figure.
+        For the kinds "margin" and "sensitivity", the argument ``margin``, such as ``margin="friction"``, selects the
+        margin. For the kind "capacity", the argument ``capacity`` selects the block and the point, as in
+        :func:`drystone.check`. If the result lacks values that a figure shows, these values are computed for the
+        figure.
         """
         return Figure.of_analysis(self._native, self._frame, {"kind": kind, "theme": theme, "width_mm": width_mm, **options})
 
     def animate(self, path: str | os.PathLike[str], *, seconds: float = 1.0, kind: str = "forces", **options: Any) -> None:
-        """Writes an animation of the frames as a ``.gif`` or an animated ``.png``. Each frame is shown for ``seconds``."""
+        """Writes an animation of the frames as a ``.gif`` or an animated ``.png``.
+
+        Each frame is shown for ``seconds``.
+        """
         animate(self._native, self._frame, path, {"kind": kind, "animate": seconds, **options})
 
     def draw(self, ax: Any = None, *, forces: bool = True, labels: bool = True) -> Any:
-        """Draws on axes of matplotlib, in metres, and returns the axes.
+        """Draws one frame on axes of matplotlib, in metres, and returns the axes.
 
-        Blocks are patches and forces are arrows in ``ax.patches``. Their ``gid`` is "ground", "block:NAME", "force:NAME" or
-        "failure:NAME", so that a script can find and change them.
+        A result of several frames draws the last frame. If ``ax`` is ``None``, new axes are made. Blocks are patches
+        and forces are arrows in ``ax.patches``. The ``gid`` of a patch or an arrow is "ground", "block:NAME",
+        "force:NAME" or "failure:NAME", so that a script can find and change it.
         """
         from ._matplotlib import draw
 
@@ -176,7 +181,7 @@ class Frame(_Answer):
 
     @property
     def number(self) -> int:
-        """The number of this frame, from 0."""
+        """The index of this frame in the list of frames, from 0."""
         assert self._frame is not None
         return self._frame
 
@@ -192,7 +197,7 @@ class Frame(_Answer):
 
     @property
     def margins(self) -> Any:
-        """The margins: the interval of each parameter in which the frame stands. ``None`` if no margins were requested."""
+        """The margins of this frame, which show how far it is from collapse. ``None`` if no margins were requested."""
         return self._record().get("margins")
 
     def __getattr__(self, name: str) -> Any:
@@ -207,7 +212,7 @@ class Frame(_Answer):
         raise TypeError("a frame cannot be used as a truth value; use .stands")
 
     def to_dict(self, *, timing: bool = True) -> dict[str, Any]:
-        """Returns the frame's part of :meth:`Result.to_dict`."""
+        """Returns the entry of this frame in the list ``frames`` of :meth:`Result.to_dict`."""
         made: dict[str, Any] = self._result.to_dict(timing=timing)["frames"][self.number]
         return made
 
@@ -235,7 +240,10 @@ class Result(_Answer):
 
     @property
     def scene(self) -> Scene:
-        """The scene as it was when it was checked. Raises :class:`DrystoneError` if the result comes from a session."""
+        """The scene as it was when it was analysed.
+
+        Raises :class:`DrystoneError` if the result comes from a session.
+        """
         if self._scene is None:
             raise DrystoneError("the result of a session has no scene file; build a Scene with the same blocks and check it")
         return self._scene
@@ -253,7 +261,7 @@ class Result(_Answer):
 
     @property
     def frames(self) -> list[Frame]:
-        """The frames: one for each step, or a single frame if the scene has no steps."""
+        """The frames of the result: one for each step, or a single frame if the scene has no steps."""
         return [Frame(self, number) for number in range(len(self._native.verdicts()))]
 
     @property
@@ -265,7 +273,10 @@ class Result(_Answer):
         return frames[0].margins
 
     def to_json(self, *, timing: bool = True) -> str:
-        """Returns the result as JSON, as ``drystone check --json`` prints it. ``timing=False`` leaves out solving times."""
+        """Returns the result as JSON, as ``drystone check --json`` prints it.
+
+        ``timing=False`` leaves out solving times.
+        """
         return self._native.to_json(self._path, timing, True)
 
     def to_dict(self, *, timing: bool = True) -> dict[str, Any]:
@@ -274,7 +285,7 @@ class Result(_Answer):
         return made
 
     def report(self, path: str | os.PathLike[str], *, title: str | None = None, theme: str | None = None) -> None:
-        """Writes a report as a ``.html``, ``.pdf``, ``.md`` or ``.json`` file."""
+        """Writes a report on the scene to a ``.html``, ``.pdf``, ``.md`` or ``.json`` file."""
         text = self.scene.to_json()
         self._native.report(os.fspath(path), self._path or "scene.json", text, title, theme)
 
@@ -352,7 +363,7 @@ class Results(Sequence["Result | SceneError"]):
         return self.table.to_pandas()
 
     def to_numpy(self) -> numpy.ndarray[Any, Any]:
-        """Returns the table as a structured array."""
+        """Returns the table :attr:`table` as a structured array."""
         return self.table.to_numpy()
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
@@ -367,7 +378,7 @@ class Results(Sequence["Result | SceneError"]):
 
 
 _CODES: dict[str, Any] = {"f8": "d", "i8": "q", "?": "?"}
-"""The codes of ``memoryview`` for the numpy types of columns."""
+"""For each numpy type of a column, the format code of ``memoryview``."""
 
 _WORDS = {"stable": "stands", "unstable": "falls", "undecided": "undecided"}
 
@@ -376,13 +387,13 @@ _PLURALS = {"stable": "stand", "unstable": "fall", "undecided": "undecided", "re
 
 
 def _counted(verdicts: list[str]) -> str:
-    """Returns the number of scenes or frames with each verdict, in words."""
+    """Returns the number of scenes or frames with each verdict in words, such as "2 stand, 1 falls"."""
     counts = [(verdicts.count(word), word, plural) for word, plural in _PLURALS.items() if word in verdicts]
     return ", ".join(f"{count} {_WORDS.get(word, plural) if count == 1 else plural}" for count, word, plural in counts)
 
 
 def _array(kind: str, values: Any) -> numpy.ndarray[Any, Any]:
-    """Returns a column as an array: a copy that can be changed."""
+    """Converts the values of a column to an array. ``kind`` is the numpy type of the values, or "U" for text."""
     import numpy
 
     return numpy.array(values, dtype=str) if kind == "U" else numpy.frombuffer(values, dtype=kind)

@@ -1,4 +1,4 @@
-"""The builder of scenes: keyword arguments with the names of the scene file's keys."""
+"""The class :class:`Scene`, which builds a scene. Its keyword arguments have the names of the keys of a scene file."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from ._geometry import Outline, Point
 class Scene:
     """A structure of blocks, ground and robots, and the steps in which it is built.
 
-    Lengths are in metres, forces in newtons, masses in kilograms, angles in degrees anticlockwise; y points up. The names
-    of arguments are the keys of a scene file. Arguments that are not given have the defaults of the file format. Methods
-    that add a part change the scene and return it.
+    Lengths are in metres and forces in newtons, unless ``units`` sets other units. Masses are in kilograms, angles are
+    in degrees anticlockwise, and y points up. The names of arguments are the keys of a scene file. Arguments that are
+    not given have the defaults of the file format. Methods that add a part to a scene change this scene and return it.
 
-    A scene is checked when it is used; :meth:`validate` checks it immediately.
+    A scene is checked when it is analysed; :meth:`validate` checks a scene immediately.
 
     >>> scene = Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
     >>> scene.block("post", [(0, 0), (1, 0), (1, 3), (0, 3)], density=2400)
@@ -52,13 +52,13 @@ class Scene:
         self._file: dict[str, Any] | None = {"drystone": 1, **keys, "blocks": []}
         # The text of the scene file; None if it has to be written from `_file`.
         self._text: str | None = None
-        # True if the text was read from a file or a string, so that problems have lines.
+        # True if the text was read from a file or a string. Only then do problems have lines and columns.
         self._located = False
         self._path: str | None = None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
-        """Makes a scene from the text of a scene file. Its problems have lines and columns."""
+        """Makes a scene from the text of a scene file. The problems of such a scene have lines and columns."""
         scene = cls()
         scene._file, scene._text, scene._located = None, text, True
         return scene
@@ -74,7 +74,7 @@ class Scene:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene from a scene file."""
+        """Reads a scene from a scene file. Raises :class:`DrystoneError` if the file is not UTF-8 text."""
         try:
             text = Path(path).read_text(encoding="utf-8-sig")
         except UnicodeDecodeError as error:
@@ -87,8 +87,9 @@ class Scene:
     def from_compas(cls, assembly: Any, *, plane: str = "xz", **keys: Any) -> Scene:
         """Makes a scene from an assembly of prismatic blocks of ``compas_assembly``.
 
-        The blocks are prisms perpendicular to ``plane`` ("xz", "yz" or "xy"), and the scene has their outlines in this
-        plane. Supports become ground. ``keys`` are keys of a scene; the default ``thickness`` is that of the blocks.
+        Each block must be a prism perpendicular to ``plane`` ("xz", "yz" or "xy"). The scene has the outlines of the
+        prisms in this plane. Supports become parts of the ground. ``keys`` are keyword arguments of :class:`Scene`; the
+        default of ``thickness`` is the thickness of the blocks.
         """
         from ._compas import scene_of
 
@@ -129,15 +130,20 @@ class Scene:
         material: str | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a rigid block; one of ``polygon``, ``cells`` and ``shape`` gives its outline."""
+        """Adds a rigid block.
+
+        One of ``polygon``, ``cells`` and ``shape`` gives its outline; ``centre`` replaces an outline.
+        """
         keys = _without(locals(), "self", "id", "polygon", "holes")
         return self._add("blocks", _geometry.block(id, polygon, holes, keys))
 
     def blocks(self, features: Any, *, id: str = "id", **keys: Any) -> Scene:
-        """Adds a block for each feature of a GeoDataFrame, or of an object whose ``__geo_interface__`` is a FeatureCollection.
+        """Adds a block for each feature of a FeatureCollection, such as a GeoDataFrame.
 
-        Columns with the name of a key of a block, such as ``density`` or ``fill``, set this key. ``id`` is the column with
-        the names of the blocks; without this column, blocks are numbered. ``keys`` are the same for all blocks.
+        ``features`` is a dict, or an object with ``__geo_interface__``. A column with the name of a key of a block,
+        such as ``density`` or ``fill``, sets this key. ``id`` is the name of the column with the names of the blocks;
+        without such a column, the blocks are numbered. ``keys`` are keys of all added blocks; a column takes
+        precedence.
         """
         collection = getattr(features, "__geo_interface__", features)
         if not isinstance(collection, Mapping) or "features" not in collection:
@@ -158,7 +164,7 @@ class Scene:
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
     ) -> Scene:
-        """Adds a shape that bodies can use by its name."""
+        """Adds a shape. The argument ``shape`` of blocks and of the ground refers to it by its name."""
         return self._name("shapes", name, _geometry.body(polygon, holes, {"cells": cells}))
 
     def material(
@@ -169,11 +175,11 @@ class Scene:
         friction: float | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a material that bodies can use by its name."""
+        """Adds a material. The argument ``material`` of blocks and of the ground refers to it by its name."""
         return self._name("materials", name, _without(locals(), "self", "name"))
 
     def friction_pair(self, first: str, second: str, friction: float) -> Scene:
-        """Sets the friction coefficient between two materials."""
+        """Sets the friction coefficient between the materials with the names ``first`` and ``second``."""
         return self._add("friction_pairs", {"between": [first, second], "friction": friction})
 
     def robot(
@@ -184,7 +190,11 @@ class Scene:
         holds: str | None = None,
         at: Point | None = None,
     ) -> Scene:
-        """Adds a robot. ``limits`` has ``force``, ``fx`` and ``fy`` in N and ``torque`` in N·m."""
+        """Adds a robot. ``limits`` is a dict that may contain ``force``, ``fx`` and ``fy`` in N, and ``torque`` in N·m.
+
+        ``holds`` is the block that the robot holds in a scene without steps, and ``at`` is the grip point on this
+        block.
+        """
         return self._add("robots", _without(locals(), "self"))
 
     def load(
@@ -206,10 +216,10 @@ class Scene:
         *,
         friction: float | None = None,
     ) -> Scene:
-        """Adds a contact between two bodies at a point in metres.
+        """Adds a contact between two bodies at the point ``at`` in metres.
 
-        ``normal`` is the direction of the normal into the first body, in degrees anticlockwise from the x axis. If a scene
-        lists contacts, drystone does not search for other contacts.
+        ``normal`` is the direction of the normal, which points into the first body, in degrees anticlockwise from the x
+        axis. If a scene lists contacts, drystone does not search for other contacts.
         """
         return self._add("contacts", _without(locals(), "self"))
 
@@ -224,11 +234,14 @@ class Scene:
         plan: Mapping[str, str] | None = None,
         expect: str | None = None,
     ) -> Scene:
-        """Adds a step of the assembly. Robots first release blocks; then blocks are removed, placed and held, in this order."""
+        """Adds a step of the assembly.
+
+        Robots first release blocks; then blocks are removed, placed and held, in this order.
+        """
         return self._add("steps", _without(locals(), "self"))
 
     def validate(self) -> Scene:
-        """Checks the scene without analysing it.
+        """Checks the scene without an analysis, and returns the scene.
 
         Raises :class:`SceneError` with all problems if the scene is not valid.
         """
@@ -236,16 +249,19 @@ class Scene:
         return self
 
     def to_dict(self) -> dict[str, Any]:
-        """Returns the keys of the scene file."""
+        """Returns the scene file as a dict."""
         made: dict[str, Any] = json.loads(_dumps(self._loaded()))
         return made
 
     def to_json(self) -> str:
-        """Returns the text of the scene file: as it was read, or formatted by drystone if the scene was made in Python."""
+        """Returns the text of the scene file.
+
+        The text is returned as it was read. If the scene was made or changed in Python, drystone formats the text.
+        """
         return self._json() if self._located else _drystone.formatted(self._json())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the scene file."""
+        """Writes the scene to a scene file."""
         Path(path).write_text(self.to_json(), encoding="utf-8")
 
     def copy(self) -> Scene:
@@ -272,7 +288,7 @@ class Scene:
         return f"<Scene{title}: {', '.join(part for part in counted if part)}>"
 
     def _repr_svg_(self) -> str:
-        """Returns the figure of the forces, or of the problems if the scene is not valid."""
+        """Returns an SVG figure of the forces, or of the problems if the scene is not valid."""
         return self._picture().svg()
 
     def _repr_html_(self) -> str:
@@ -287,7 +303,7 @@ class Scene:
             return Figure.of_problems(self._json())
 
     def _json(self) -> str:
-        """Returns the text of the scene file that is analysed."""
+        """Returns the text of the scene file that an analysis reads."""
         if self._text is None:
             self._text = _dumps(self._file)
         return self._text
@@ -299,7 +315,7 @@ class Scene:
         return made
 
     def _loaded(self) -> dict[str, Any]:
-        """Returns the keys of the scene file. On the first call they are read from the text."""
+        """Returns the scene file as a dict. If there is only the text so far, the dict is read from the text."""
         if self._file is None:
             text = self._json()
             try:
@@ -354,6 +370,9 @@ def _counted(file: dict[str, Any], key: str, one: str, several: str, *, always: 
 
 
 def _drystone_keys(name: str) -> set[str]:
-    """Returns the keys of a type of object of the scene file, such as "BlockEntry", from the schema."""
+    """Returns the keys of one type of object in a scene file, from the JSON Schema.
+
+    ``name`` is, for example, "BlockEntry".
+    """
     schema = json.loads(_drystone.schema())
     return set(schema["$defs"][name]["properties"])

@@ -1,4 +1,4 @@
-"""Sessions: a verdict after every step."""
+"""The class :class:`Session`, which gives a verdict after every step of a construction."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from ._scene import _dumps
 class Session:
     """A structure under construction, for planners and training loops.
 
-    A session starts with a scene without steps. Each step returns the verdict: "stable", "unstable" or "undecided". A step
-    that is not possible raises :class:`DrystoneError` and does not change the session.
+    A session starts with a scene without steps. The methods :meth:`place`, :meth:`remove`, :meth:`hold` and
+    :meth:`release` are the steps of a session. Each step returns the verdict: "stable", "unstable" or "undecided". A
+    step that is not possible raises :class:`DrystoneError` and does not change the session.
 
     >>> from drystone import Scene
     >>> session = Session(Scene().ground([(-9, -1), (9, -1), (9, 0), (-9, 0)]).robot("crane"))
@@ -52,11 +53,14 @@ class Session:
         return self._native.remove(block)
 
     def hold(self, robot: str, block: str, at: Point | None = None) -> str:
-        """Makes a robot hold a block and returns the verdict. ``at`` is the grip point in metres; default: the centroid."""
+        """Makes a robot hold a block and returns the verdict.
+
+        ``at`` is the grip point in metres; the default is the centroid of the block.
+        """
         return self._native.hold(robot, block, None if at is None else (float(at[0]), float(at[1])))
 
     def release(self, robot: str) -> str:
-        """Makes a robot release its block and returns the verdict."""
+        """Makes a robot release the block that it holds, and returns the verdict."""
         return self._native.release(robot)
 
     @property
@@ -89,9 +93,12 @@ class Session:
         return self.check(margins=kinds or True).margins
 
     def capacity(self, block: str, *points: Point, for_all: str | None = None) -> Any:
-        """Returns all forces (Fx, Fy) that a block can carry: at its centroid, at one point, or at a contact between two points.
+        """Returns all forces (Fx, Fy) that a block can carry at a point, in addition to its present loads.
 
-        If a robot holds the block and no point is given, the result has the forces that this robot may exert.
+        Without ``points``, the force acts at the centroid of the block; if a robot holds the block, the result instead
+        contains the forces that this robot may exert at its grip point. With one point, the force acts at this point.
+        With two points, the force acts at a contact between these points. ``for_all`` is that of
+        :func:`drystone.check`.
         """
         return json.loads(self._native.capacity(_geometry.capacity_word((block, *points)), for_all), object_hook=Record)
 

@@ -36,10 +36,10 @@ pub type Pair = [f64; 2];
 #[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
 #[non_exhaustive]
 pub struct SceneFile {
-    /// Path or address of the JSON Schema, for editors; ignored.
+    /// Path or address of the JSON Schema, for editors; drystone ignores this key.
     #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
-    /// Version of the scene format: 1.
+    /// Version of the scene format; must be 1.
     pub drystone: Version,
     /// Title of the scene, for reports and captions.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,15 +53,16 @@ pub struct SceneFile {
     /// Date of the calculation, for reports: any text. Reports never read a clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub date: Option<String>,
-    /// The units of this file: those of lengths and forces. Masses stay in kg, densities in kg/m³ and gravity in m/s².
-    /// Default: metres and newtons.
+    /// Units of lengths and forces in this file. Masses stay in kg, densities in kg/m³ and gravity in m/s². Default:
+    /// metres and newtons.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub units: Option<UnitsEntry>,
     /// Gravity [x, y] in m/s². Weights act in this direction; with [0, 0], no weight acts. Default [0, -9.81].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
     pub gravity: Option<Pair>,
-    /// Friction coefficient μ of bodies and materials that give none, at least 0. Default 0.7.
+    /// Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one. Default
+    /// 0.7.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.7)))]
     pub friction: Option<f64>,
@@ -70,7 +71,7 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0)))]
     pub kernel: Option<f64>,
-    /// Density in kg/m³ of blocks and materials that give none, at least 0. Default 1.
+    /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub density: Option<f64>,
@@ -78,7 +79,7 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
     pub thickness: Option<f64>,
-    /// Materials by name.
+    /// Materials of blocks and of the ground, by name.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub materials: Map<MaterialEntry>,
     /// Friction coefficients between pairs of materials.
@@ -87,8 +88,8 @@ pub struct SceneFile {
     /// The lattice. With a lattice, `at` of a body is in lattice coordinates, and outlines may be sets of cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridEntry>,
-    /// Shapes by name. The triangular lattice also has the shapes up, down, hexagon, linkh, linkr and linkl; these
-    /// names are reserved.
+    /// Shapes that bodies can use as outlines, by name. The triangular lattice also has the built-in shapes up, down,
+    /// hexagon, linkh, linkr and linkl; these names are reserved.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub shapes: Map<ShapeEntry>,
     /// Parts of the ground: they support any load and never move.
@@ -96,18 +97,19 @@ pub struct SceneFile {
     pub ground: Vec<GroundEntry>,
     /// The blocks.
     pub blocks: Vec<BlockEntry>,
-    /// The contacts between bodies, as points with a normal. If any are listed, contacts are not computed from the
-    /// outlines.
+    /// The contacts between bodies, as points with a normal. If any contact is listed, no contacts are computed from
+    /// the outlines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactEntry>,
-    /// Robots, each of which can hold one block.
+    /// Robots, each of which can hold one block at a time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub robots: Vec<RobotEntry>,
     /// Loads on blocks, in addition to their weights.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadEntry>,
-    /// Edges within this distance of each other, in the length unit of the scene, touch. Bodies may overlap by up to
-    /// this depth. At least 0. Default: estimated from how the coordinates are written and how large the scene is.
+    /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and bodies
+    /// may overlap by up to this depth. Default: estimated from how the coordinates are written and how large the scene
+    /// is.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub contact_tolerance: Option<f64>,
@@ -122,7 +124,7 @@ pub struct SceneFile {
     /// The expected verdict of every frame whose step has no `expect`. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
-    /// Codes of notes that are switched off.
+    /// Codes of notes that are switched off, such as `no_ground`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub silence: Vec<String>,
 }
@@ -197,21 +199,22 @@ impl Default for Version {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct MaterialEntry {
-    /// Density in kg/m³, at least 0.
+    /// Density in kg/m³, at least 0, of blocks of this material that give none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub density: Option<f64>,
-    /// Friction coefficient, at least 0.
+    /// Friction coefficient, at least 0, of bodies of this material that give none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb".
+    /// Fill colour, "#rrggbb" or "#rgb", of bodies of this material that give none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
 }
 
-/// The friction coefficient between two materials. It replaces all other coefficients of bodies of these materials.
+/// The friction coefficient between two materials. At an interface between bodies of these materials, this coefficient
+/// replaces those of the bodies, of the materials and of the scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -220,7 +223,7 @@ pub struct FrictionPairEntry {
     /// Names of the two materials, in any order. If both names are equal, the coefficient applies between two bodies
     /// of this material.
     pub between: [String; 2],
-    /// Friction coefficient, at least 0.
+    /// Friction coefficient at interfaces between bodies of these materials, at least 0.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: f64,
 }
@@ -290,7 +293,7 @@ pub struct ShapeEntry {
     /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, connected by edges, each listed once.
+    /// Lattice cells that form the outline, connected by common edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,

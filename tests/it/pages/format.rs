@@ -121,7 +121,7 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
             ),
         ),
         Claim(
-            "Keys with a default may be left out",
+            "All keys may be left out, except those that the tables below mark as *required*",
             without("ground"),
             Result(STANDS, json!("unstable")),
         ),
@@ -136,13 +136,13 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
             Refused("missing_key", "blocks"),
         ),
         Claim(
-            "`null` has the same meaning as leaving the key out",
+            "the value `null` has the same meaning as leaving the key out",
             file(json!({ "title": null, "gravity": null, "grid": null,
             "friction": null, "kernel": null, "contact_tolerance": null, "$schema": null })),
             stands(),
         ),
         Claim(
-            "`null` has the same meaning as leaving the key out",
+            "the value `null` has the same meaning as leaving the key out",
             block(
                 json!({ "cells": null, "shape": null, "at": null,
             "weight": null, "fill": null }),
@@ -164,7 +164,7 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
     for key in lists.into_iter().chain(["drystone", "blocks"]) {
         let refused = Refused("wrong_type", "found null");
         assert_claims(vec![Claim(
-            "`null` is an error for a required key, and for a key whose value is a list or an object of named entries",
+            "`null` is an error for required keys, for keys whose value is a list",
             file(json!({ key: null })),
             refused,
         )]);
@@ -189,7 +189,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(9.81)),
         ),
         Claim(
-            "Density in kg/m³ of blocks and materials that give none, at least 0. Default 1.",
+            "Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default 1.",
             file(json!({})),
             Result(WEIGHT, json!(9.81)),
         ),
@@ -199,7 +199,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(WEIGHT, json!(19.62)),
         ),
         Claim(
-            "Friction coefficient μ of bodies and materials that give none, at least 0. Default 0.7.",
+            "Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one. Default 0.7.",
             file(json!({})),
             Result(MU, json!(0.7)),
         ),
@@ -236,12 +236,12 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/kind", json!("corner")),
         ),
         Claim(
-            "Default: its number in the list, from 1.",
+            "Default: the number of the block in the list, from 1.",
             block(json!({ "id": null }), json!({})),
             Result("/frames/0/interfaces/0/bodies", json!(["1", "ground"])),
         ),
         Claim(
-            "Default: \"r\" and its number in the list, from 0.",
+            "Default: \"r\" and the number of the robot in the list, from 0.",
             file(json!({ "robots": [{ "holds": "a" }] })),
             Result("/frames/0/robots/0/id", json!("r0")),
         ),
@@ -253,7 +253,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/robots/0/at", json!([0.5, 0.5])),
         ),
         Claim(
-            "Its largest force and torque. Default: any force, no torque.",
+            "Largest force and torque of the robot. Default: any force, no torque.",
             held(json!(null)),
             stands(),
         ),
@@ -278,12 +278,12 @@ fn defaults_and_units_are_those_of_the_page() {
             Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 10.0] })),
         ),
         Claim(
-            "Where the force acts, [x, y] in the length unit of the scene. Default: the block's centroid.",
+            "Point [x, y], in the length unit of the scene, at which the force acts. Default: the block's centroid.",
             pushed(json!({ "block": "a", "force": [0, -10] })),
             Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 20.0] })),
         ),
         Claim(
-            "Where the force acts, [x, y] in the length unit of the scene.",
+            "Point [x, y], in the length unit of the scene, at which the force acts.",
             pushed(json!({ "block": "a", "force": [0, -10], "at": [0.75, 9] })),
             Result("/frames/0/interfaces/0/resultant/at", json!([0.625, 0])),
         ),

@@ -249,7 +249,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             json!([]),
         ),
         at(
-            "the step's title; empty if it has none",
+            "the title of the step; empty if the step has none",
             &flat,
             "/frames/0/title",
             json!(""),
@@ -426,7 +426,7 @@ fn requested_values_are_present_and_others_are_not() {
             None,
         ),
         there(
-            "the scene's title; empty if it has none",
+            "the title of the scene; empty if the scene has none",
             &stands,
             &plain,
             "/scene",

@@ -23,7 +23,7 @@ pub struct GroundEntry {
     /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, connected by edges, each listed once.
+    /// Lattice cells that form the outline, connected by common edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -40,27 +40,28 @@ pub struct GroundEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
-    /// Name of its material.
+    /// Name of the material of the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Its own friction coefficient, at least 0.
+    /// Friction coefficient of the body, at least 0. Default: that of its material, else that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb".
+    /// Fill colour of the body, "#rrggbb" or "#rgb".
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
 }
 
-/// A rigid block; one of `polygon`, `cells` and `shape` gives its outline. A block with listed `contacts` may give its
-/// `centre` instead.
+/// A rigid block; one of `polygon`, `cells` and `shape` gives its outline. A block may have a `centre` instead of an
+/// outline; it then touches other bodies only at listed `contacts`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct BlockEntry {
-    /// Its name, used once; neither empty nor `ground`. Default: its number in the list, from 1.
+    /// Name of the block, used by no other block; neither empty nor `ground`. Default: the number of the block in the
+    /// list, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
     /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must not
@@ -72,7 +73,7 @@ pub struct BlockEntry {
     /// not inside another hole.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells, connected by edges, each listed once.
+    /// Lattice cells that form the outline, connected by common edges, each listed once.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub cells: Option<Vec<CellEntry>>,
@@ -89,30 +90,31 @@ pub struct BlockEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = 0.0)))]
     pub angle: Option<f64>,
-    /// Name of its material.
+    /// Name of the material of the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Point [x, y] in the length unit of the scene at which the weight acts, for a block without an outline. Such a
     /// block needs a `mass` or a `weight`, and touches other bodies only at the `contacts` of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre: Option<Pair>,
-    /// Weight in the force unit of the scene along gravity, at least 0. Takes precedence over `mass` and `density`.
+    /// Weight of the block in the force unit of the scene, in the direction of gravity, at least 0. A `weight` takes
+    /// precedence over `mass` and over every density.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub weight: Option<f64>,
-    /// Mass in kg, at least 0. Takes precedence over `density`.
+    /// Mass of the block in kg, at least 0. A `mass` takes precedence over every density.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub mass: Option<f64>,
-    /// Its own density in kg/m³, at least 0.
+    /// Density of the block in kg/m³, at least 0. Default: that of its material, else that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub density: Option<f64>,
-    /// Its own friction coefficient, at least 0.
+    /// Friction coefficient of the body, at least 0. Default: that of its material, else that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb".
+    /// Fill colour of the body, "#rrggbb" or "#rgb".
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
     pub fill: Option<String>,
@@ -124,17 +126,17 @@ pub struct BlockEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct RobotEntry {
-    /// Its name, used once. Default: "r" and its number in the list, from 0.
+    /// Name of the robot, used by no other robot. Default: "r" and the number of the robot in the list, from 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// The block it holds in a scene without steps.
+    /// Name of the block that the robot holds in a scene without steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub holds: Option<String>,
-    /// Grip point [x, y] in the length unit of the scene on the block that it `holds`; ignored without `holds`.
+    /// Grip point [x, y], in the length unit of the scene, on the block in the key `holds`; ignored without `holds`.
     /// Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
-    /// Its largest force and torque. Default: any force, no torque.
+    /// Largest force and torque of the robot. Default: any force, no torque.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsEntry>,
 }
@@ -169,13 +171,13 @@ pub struct LimitsEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct ContactEntry {
-    /// Names of the two bodies; `ground` is the ground.
+    /// Names of the two bodies that touch; `ground` is the ground.
     pub bodies: [String; 2],
-    /// The point [x, y] in the length unit of the scene.
+    /// Point [x, y], in the length unit of the scene, at which the two bodies touch.
     pub at: Pair,
     /// Direction of the normal, which points into the first body: degrees anticlockwise from the x axis.
     pub normal: f64,
-    /// Friction coefficient, at least 0. Default: that of the scene.
+    /// Friction coefficient at the contact, at least 0. Default: that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub friction: Option<f64>,
@@ -187,13 +189,13 @@ pub struct ContactEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct LoadEntry {
-    /// The loaded block.
+    /// Name of the loaded block.
     pub block: String,
     /// Force [x, y] in the force unit of the scene. Default [0, 0].
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, 0.0])))]
     pub force: Option<Pair>,
-    /// Where the force acts, [x, y] in the length unit of the scene. Default: the block's centroid.
+    /// Point [x, y], in the length unit of the scene, at which the force acts. Default: the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
     /// Torque in the force unit times the length unit of the scene, anticlockwise positive. Default 0.

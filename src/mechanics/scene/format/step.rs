@@ -15,23 +15,23 @@ pub struct StepEntry {
     /// Title of the frame after this step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
-    /// Robots that release their blocks.
+    /// Names of the robots that release their blocks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub release: Vec<String>,
-    /// Blocks that are removed.
+    /// Names of the blocks that are removed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remove: Vec<String>,
-    /// Blocks that are placed, in this order.
+    /// Names of the blocks that are placed, in this order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub place: Vec<String>,
-    /// Blocks that robots take hold of, by robot.
+    /// For each robot that takes hold of a block: the name of the block, or a grip.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub hold: Map<HoldEntry>,
-    /// Blocks that robots are about to place, by robot. These blocks are drawn as outlines and carry no force.
+    /// Blocks that robots are about to place, by robot. Planned blocks are drawn as outlines and carry no force.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub plan: Map<String>,
-    /// The expected verdict. If the frame has this verdict, `check` succeeds, even if the frame falls. Default: that
-    /// of the scene.
+    /// The expected verdict of the frame after this step. For the exit code of `check`, a frame with its expected
+    /// verdict counts as a success, even if the frame falls. Default: the `expect` of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
 }
@@ -72,10 +72,10 @@ impl Default for HoldEntry {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct GripEntry {
-    /// The block held.
+    /// Name of the block that the robot holds.
     pub block: String,
-    /// The grip point [x, y] in the length unit of the scene. Default: the robot's own `at` for the block it `holds`,
-    /// else the centroid.
+    /// The grip point [x, y] in the length unit of the scene. Default: the robot's own `at` if this block is the one in
+    /// the robot's key `holds`, else the block's centroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Pair>,
 }

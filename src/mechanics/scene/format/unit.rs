@@ -4,7 +4,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The units of the file. Figures, tables and reports also use these units; results in JSON are in metres and newtons.
+/// The units of the file. Figures, tables and reports also use the units of the file; results in JSON are in metres and
+/// newtons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(deny_unknown_fields)]

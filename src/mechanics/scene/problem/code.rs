@@ -45,7 +45,7 @@ codes! {
     InternalFault "internal_fault" "an internal error of the program occurred on this scene",
     NoSuchFrame "no_such_frame" "`--frame` names a frame that the scene does not have",
     NotUtf8 "not_utf8" "the bytes are not UTF-8 text",
-    EmptyFile "empty_file" "the file contains only white space",
+    EmptyFile "empty_file" "the file is empty or contains only white space",
     EndsEarly "ends_early" "the text ends before its brackets or quotes are closed",
     NestedTooDeep "nested_too_deep" "more than 127 brackets are open at once",
     OtherFormat "other_format" "the text is written in another format, such as YAML, TOML or XML",
@@ -55,7 +55,7 @@ codes! {
     UnknownKey "unknown_key" "the format has no such key in this object",
     DuplicateKey "duplicate_key" "a key occurs twice in one object",
     MissingKey "missing_key" "a required key is missing",
-    UnknownChoice "unknown_choice" "a word is not one of the allowed values",
+    UnknownChoice "unknown_choice" "a word is not an allowed value, or a contact is between a body and itself",
     UnknownVersion "unknown_version" "the version of the scene format is not known",
     NotFinite "not_finite" "a number is infinite or not a number",
     TooLarge "too_large" "a number, a weight or a lattice coordinate is too large",
@@ -86,7 +86,7 @@ codes! {
     PlacedTwice "placed_twice" "a block is placed or planned although it is already placed",
     NotPlaced "not_placed" "a block is removed or held although it is not placed",
     RemovedWhileHeld "removed_while_held" "a block is removed while a robot holds it",
-    HoldsTwo "holds_two" "a robot takes hold of a block while it still holds another block",
+    HoldsTwo "holds_two" "a robot that still holds a block takes hold of another block",
     MoreProblems "more_problems" "there are more problems than the list contains",
 }
 

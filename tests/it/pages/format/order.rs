@@ -31,12 +31,12 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
     let hole = json!({ "holes": [rectangle(0.25, 0.25, 0.5, 0.5)] });
     assert_claims(vec![
         Claim(
-            "its `weight` in newtons",
+            "the `weight` of the block, in the force unit of the scene",
             without(&[]),
             Result(WEIGHT, json!(5)),
         ),
         Claim(
-            "its `mass` in kilograms times gravity",
+            "the `mass` of the block in kilograms times gravity",
             without(&["weight"]),
             Result(WEIGHT, json!(70)),
         ),
@@ -46,17 +46,17 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(WEIGHT, json!(90)),
         ),
         Claim(
-            "of its material, or of the scene",
+            "otherwise it is that of its material, or that of the scene",
             without(&["weight", "mass", "density"]),
             Result(WEIGHT, json!(7000)),
         ),
         Claim(
-            "or of the scene",
+            "or that of the scene if the material has none",
             without(&["weight", "mass", "density", "material"]),
             Result(WEIGHT, json!(30)),
         ),
         Claim(
-            "its area times the thickness times the density times gravity",
+            "the area of the block times the thickness times the density times gravity",
             block(hole, json!({})),
             Result(WEIGHT, json!(0.75 * 9.81)),
         ),
@@ -90,7 +90,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(1.5)),
         ),
         Claim(
-            "the smaller coefficient of the two bodies",
+            "the smaller of the friction coefficients of the two bodies",
             block(
                 json!({ "friction": 0.9 }),
                 json!({ "ground": floor(json!({ "friction": 0.3 })) }),
@@ -98,7 +98,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(MU, json!(0.3)),
         ),
         Claim(
-            "The coefficient of a body is its own",
+            "The friction coefficient of a body is its own",
             block(
                 json!({ "material": "oak", "friction": 0.6 }),
                 json!({ "materials": materials }),
@@ -135,7 +135,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             stands(),
         ),
         Claim(
-            "turned by `angle` about its own origin and then moved by `at`. `at` is in metres",
+            "turned by `angle` about the point (0, 0) of its own coordinates, and then moved by `at`",
             block(
                 json!({ "polygon": rectangle(0.0, 0.0, 2.0, 1.0), "angle": 90, "at": [5, 0] }),
                 json!({}),
@@ -143,7 +143,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result(ENDS, json!([[5, 0], [4, 0]])),
         ),
         Claim(
-            "or in lattice steps if the scene has a `grid`",
+            "or in lattice coordinates if the scene has a `grid`",
             block(
                 json!({ "at": [3, 0] }),
                 json!({ "grid": { "kind": "triangular", "side": 2 } }),
@@ -164,7 +164,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Result("/frames/0/interfaces/0/ends", json!([[0.5, 0], [0, 0]])),
         ),
         Claim(
-            "their `at` consists of whole steps",
+            "its `at` consists of whole numbers",
             cells(json!({ "at": [0.5, 0] })),
             Refused("off_lattice", "is not a lattice point"),
         ),
@@ -174,7 +174,7 @@ fn outlines_weights_and_friction_are_found_in_the_order_of_the_page() {
             Refused("off_lattice", "a multiple of 90°"),
         ),
         Claim(
-            "their `angle` is a multiple of 60° on the triangular lattice",
+            "its `angle` is a multiple of 60° on the triangular lattice",
             json!({ "drystone": 1, "grid": { "kind": "triangular" },
             "blocks": [{ "shape": "hexagon", "angle": 90 }] }),
             Refused("off_lattice", "a multiple of 60°"),

@@ -46,7 +46,7 @@ fn steps_work_as_the_page_says() {
             Result("/frames/0/robots/0/holds", json!("a")),
         ),
         Claim(
-            "can hold another block only after its `release`",
+            "can hold another block only after a `release`",
             steps(json!([holding, { "hold": { "r": "c" } }])),
             Refused("holds_two", "release"),
         ),
@@ -61,7 +61,7 @@ fn steps_work_as_the_page_says() {
             Result("/frames/0/robots/1/holds", json!("a")),
         ),
         Claim(
-            "The `at` of the robot is its grip point on the block that it `holds`, in steps too",
+            "The `at` of a robot also applies in a step",
             steps(json!([two])),
             Result("/frames/0/robots/1/at", json!([0.25, 0.25])),
         ),
@@ -71,7 +71,7 @@ fn steps_work_as_the_page_says() {
             Result("/frames/0/robots", json!([])),
         ),
         Claim(
-            "where all blocks stand in one frame",
+            "has one frame, in which all blocks are placed",
             steps(json!([])),
             Result(WEIGHT, json!(3.0 * 9.81)),
         ),
@@ -86,7 +86,7 @@ fn steps_work_as_the_page_says() {
             Result("/frames/1/weight", json!(9.81)),
         ),
         Claim(
-            "`plan` draws a block in this frame only; the block carries no force",
+            "draws a block in the frame of this step only; the planned block carries no force",
             steps(json!([{ "place": ["a"], "plan": { "r": "b" } }])),
             Result(WEIGHT, json!(9.81)),
         ),
