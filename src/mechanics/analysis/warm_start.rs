@@ -3,7 +3,7 @@
 //! The balance is a nonnegative least-squares problem ([`BoundedNnls`]). If its residual is 0, its solution balances
 //! the frame. Otherwise the negative residual is a motion by which the frame falls. The active set of one frame is
 //! the start for the next, so a small change costs little time. Forces and motion are proved as in a complete
-//! analysis. Without a proof the frame is analysed as in [`Analysis`](super::Analysis). A warm start therefore saves
+//! analysis. Without a proof the frame is analysed as in [`Analysis`]. A warm start therefore saves
 //! time, but cannot change a verdict.
 
 use super::analyse::{ResultCache, analyse_frame};

@@ -1,6 +1,6 @@
 //! Computes the least adhesion accurately if the loads differ by more powers of ten than a solver has correct digits.
 //!
-//! The stages are those of [`super::least_adhesion`], but the optimum of each stage is refined level by level
+//! The stages are those of [`super::least_adhesion()`], but the optimum of each stage is refined level by level
 //! ([`super::level`]). Even the adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A
 //! column leaves the face of optima if its amount is exactly 0; no threshold relative to the largest force is used.
 

@@ -52,6 +52,20 @@ fn the_exercise_has_its_known_answers() {
     assert!((friction - 0.3226).abs() < 5e-5, "{friction}");
 }
 
+/// A block with a centre touches other bodies only at listed contacts. Without any, it falls, also where its symbol, a
+/// disc of 0.03 m, touches the ground.
+#[test]
+fn the_symbol_of_a_centre_touches_nothing() {
+    for height in [0.03, 0.03 * libm::cos(std::f64::consts::FRAC_PI_8)] {
+        let mut file = json!({ "drystone": 1, "corner_contacts": true,
+            "ground": [{ "polygon": [[-3, -1], [3, -1], [3, 0], [-3, 0]] }],
+            "blocks": [{ "id": "a", "centre": [0, height], "weight": 10 }] });
+        assert!(!stands(&file), "{height}");
+        file["contacts"] = json!([{ "bodies": ["a", "ground"], "at": [0, 0], "normal": 90 }]);
+        assert!(stands(&file), "{height}");
+    }
+}
+
 #[test]
 fn every_command_accepts_a_contact_list() {
     let bench = Bench::empty();

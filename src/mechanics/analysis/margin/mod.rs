@@ -6,7 +6,7 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
+//! [`mod@line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
 //! [`edge`] and [`newton`] find the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] the ends for the
 //! rotation of gravity, and [`grip_limit`] the ends for the limits of robots. An end is accepted only if it is proved
 //! that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse

@@ -227,10 +227,12 @@ impl Interfaces {
     }
 }
 
-/// Returns all bodies of a scene, the parts of the ground first.
+/// Returns the bodies of a scene whose outlines can touch, the parts of the ground first. Bodies with a schematic outline
+/// are left out, because they touch only at listed contacts.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
-    ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))))
+    let bodies = ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))));
+    bodies.filter(|body| !scene.body(*body).is_schematic)
 }
 
 /// Returns two bodies in the order in which an interface lists them: the later block first, the ground last.
