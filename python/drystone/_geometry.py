@@ -37,7 +37,7 @@ def ring(corners: Any) -> list[list[float]]:
             x, y = corner
             points.append([float(x), float(y)])
     except (TypeError, ValueError):
-        raise DrystoneError(f"corner {len(points)} is {corner!r}; a corner is [x, y], two numbers in metres") from None
+        raise DrystoneError(f"corner {len(points)} is {corner!r}; a corner is [x, y], two numbers") from None
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
     return points

@@ -216,7 +216,7 @@ class Scene:
         *,
         friction: float | None = None,
     ) -> Scene:
-        """Adds a contact between two bodies at the point ``at`` in metres.
+        """Adds a contact between two bodies at the point ``at``.
 
         ``normal`` is the direction of the normal, which points into the first body, in degrees anticlockwise from the x
         axis. If a scene lists contacts, drystone does not search for other contacts.

@@ -1,4 +1,4 @@
-//! [`unit`]: computes the unit length, a typical size of the blocks. Arrows and labels are scaled with this length.
+//! [`unit()`]: computes the unit length, a typical size of the blocks. Arrows and labels are scaled with this length.
 
 use super::view;
 use crate::geometry::Bounds;

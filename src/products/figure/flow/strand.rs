@@ -2,7 +2,7 @@
 //! exact force at its beginning and at its end.
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
-//! action meet in the block, [`line`] computes the strands. Otherwise every force that enters is
+//! action meet in the block, [`mod@line`] computes the strands. Otherwise every force that enters is
 //! divided among the forces that leave, in proportion to their magnitudes. The widths of all strands of a force add
 //! up to its magnitude. The axis of a strand stays in its block if possible.
 
