@@ -109,7 +109,7 @@ fn the_forces_of_interfaces_with_a_single_application_point_sum_to_zero() {
     let blocks: Vec<Value> = polygons.map(|p| json!({ "polygon": p })).collect();
     let file = json!({ "drystone": 1, "kernel": 1, "friction": 0.6,
         "ground": [{ "polygon": rectangle(-1.0, -1.0, 11.0, 1.0) }], "blocks": blocks });
-    let analysis = Analysis::new(&crate::structure::scene(&file));
+    let analysis = Analysis::new(crate::structure::scene(&file));
     assert_eq!(analysis.frames[0].verdict, Verdict::Stable);
     assert!(assert_balances("five posts", &analysis, 0, BlockId(5)) >= 12);
 }

@@ -24,7 +24,7 @@ fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
         .collect();
     assert!(
         key.iter()
-            .any(|t| t.words.contains("2 loads of 800 N to 4 kN")),
+            .any(|t| t.words.contains("2 loads of 800 N and 4 kN")),
         "{key:?}"
     );
     assert!(key.iter().any(|t| t.words.contains("weight")), "{key:?}");

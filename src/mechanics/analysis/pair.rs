@@ -248,8 +248,9 @@ impl NewIndices {
         for motion in &mut found.mechanism {
             motion.block = self.block(motion.block);
         }
-        // Leave out the margins, which a comparison does not show.
-        found.margins = None;
+        // Leave out results that a comparison does not show.
+        (found.margins, found.sensitivity, found.capacity) = (None, None, None);
+        found.wedged = None;
         found
     }
 }

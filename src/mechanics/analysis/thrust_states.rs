@@ -19,6 +19,10 @@ use crate::resultant::{friction_used, from_point_forces};
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
 
+/// The supports have different horizontal forces if loads and robots push with more than this fraction of the weight. The
+/// value is below the three digits with which a thrust is written.
+const UNEQUAL_THRUST: f64 = 1e-4;
+
 /// For frames with more blocks no thrust states are computed, because their programs would take longer than the
 /// verdict.
 const MAX_BLOCKS: usize = 200;
@@ -62,8 +66,8 @@ pub struct ThrustStates {
 impl Analysis {
     /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust, the
     /// forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does not
-    /// exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` unless exactly two
-    /// blocks touch the ground.
+    /// exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` if not exactly two blocks
+    /// touch the ground, or if loads and robots push horizontally, because there is then no single horizontal thrust.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
@@ -75,6 +79,19 @@ impl Analysis {
             ..ThrustStates::default()
         };
         if found.verdict != Verdict::Stable || !few || feet.len() != 2 {
+            return none;
+        }
+        // Without a horizontal load, the horizontal forces of the two supports are opposite and equal.
+        let across = quarter_turn(self.scene.down());
+        let placed = &self.scene.frames[frame].placed;
+        let loads = self
+            .scene
+            .loads
+            .iter()
+            .filter(|l| placed.contains(&l.block));
+        let robots = found.robots.iter().map(|robot| robot.force);
+        let pushed: Vector = loads.map(|load| load.force).chain(robots).sum();
+        if pushed.dot(&across).abs() > UNEQUAL_THRUST * found.weight {
             return none;
         }
         let least = self.extreme(frame, 1.0);

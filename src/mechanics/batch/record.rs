@@ -182,7 +182,7 @@ impl Iterator for Records {
 /// the line is too long.
 fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
     let mut line = Vec::new();
-    let mut size = 0;
+    let (mut size, mut has_end) = (0, false);
     loop {
         let found = match reader.fill_buf() {
             Ok(found) => found,
@@ -202,10 +202,11 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         size += used;
         reader.consume(used);
         if end.is_some() {
+            has_end = true;
             break;
         }
     }
-    if size > MAX_RECORD_BYTES + 1 {
+    if size - usize::from(has_end) > MAX_RECORD_BYTES {
         return (size, Err(too_long()));
     }
     if line.last() == Some(&b'\r') {

@@ -36,7 +36,7 @@ pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
     }
     let missing = by_amount(found);
     let missing = missing.first();
-    let missing = missing.map(|f| format!("missing most: {}", missing_phrase(scene, f)));
+    let missing = missing.map(|f| format!("largest missing force: {}", missing_phrase(scene, f)));
     let contact = Some(largest::sentence(scene, found)).filter(|words| !words.is_empty());
     match (missing, contact) {
         (Some(missing), Some(contact)) => {
@@ -108,13 +108,9 @@ impl Sentences<'_> {
         };
         let fastest = body.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
         let slip = self.joints_of(body).find(|j| j.0.slip != 0.0);
-        let on = |joint: Option<(&Joint, BodyId)>| match joint {
-            Some((_, body)) => format!(" on {}", self.named(body)),
-            None => String::new(),
-        };
         if !self.turning(body, fastest) {
             return match slip {
-                Some(_) => format!("{subject} {slides}{}", on(slip)),
+                Some(_) => format!("{subject} {slides} on {}", self.slipped_on(body)),
                 None => format!("{subject} {falls}"),
             };
         }
@@ -143,7 +139,10 @@ impl Sentences<'_> {
                     self.named(other)
                 )
             }
-            (None, Some(_)) => format!("{subject} {turns} and {slides}{}", on(slip)),
+            (None, Some(_)) => format!(
+                "{subject} {turns} and {slides} on {}",
+                self.slipped_on(body)
+            ),
             (None, None) => format!("{subject} {turns}"),
         }
     }
@@ -178,6 +177,34 @@ impl Sentences<'_> {
         }
         joints.sort_by_key(|(_, other)| self.moves(*other));
         joints.into_iter()
+    }
+
+    /// Names what a rigid body slips on: the ground and blocks at rest or, if there are none, moving blocks.
+    fn slipped_on(&self, body: &[Motion]) -> String {
+        let slips = self.joints_of(body).filter(|(joint, _)| joint.slip != 0.0);
+        let mut others: Vec<BodyId> = slips.map(|(_, other)| other).collect();
+        if others.iter().any(|other| !self.moves(*other)) {
+            others.retain(|other| !self.moves(*other));
+        }
+        let ground = others
+            .iter()
+            .any(|other| matches!(other, BodyId::Ground(_)));
+        let mut names: Vec<String> = Vec::new();
+        for other in others {
+            let name = self.analysis.scene.name(other);
+            if matches!(other, BodyId::Block(_)) && !names.iter().any(|known| *known == name) {
+                names.push(name.to_string());
+            }
+        }
+        let blocks = match names.len() {
+            0 => None,
+            1 => Some(format!("block{NO_BREAK}{}", names[0])),
+            n if n <= MAX_NAMED_BLOCKS => Some(format!("blocks {}", listed(&names))),
+            n => Some(format!("{n} blocks")),
+        };
+        let ground = ground.then(|| "the ground".to_owned());
+        let parts: Vec<String> = ground.into_iter().chain(blocks).collect();
+        parts.join(" and ")
     }
 
     fn moves(&self, body: BodyId) -> bool {

@@ -117,7 +117,11 @@ pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     } else {
         "clockwise"
     };
-    format!(
-        "Block {name} begins to move at {degrees:.0}°, turning {turning:.3}° {sense} per metre of the fastest point's way"
-    )
+    let begins = format!("Block {name} begins to move at {degrees:.0}°");
+    match turning < 5e-4 {
+        true => format!("{begins}, without turning"),
+        false => format!(
+            "{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves"
+        ),
+    }
 }

@@ -174,14 +174,16 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
         format!("between {pair}")
     };
     match at_limit {
-        0 => format!("nearest to its limit (open diamond): the joint between {pair}, {how}"),
-        1 => format!("at its limit in the forces shown: the joint between {pair}, {how}"),
+        0 => format!("nearest to its limit (open diamond): the joint between {pair}; {how}"),
+        1 => format!(
+            "at its limit, within 1 %, in the forces shown: the joint between {pair}; {how}"
+        ),
         n if n <= MAX_NAMED => {
             let joints: Vec<String> = all.iter().filter(|n| n.reached()).map(named).collect();
             let joints = listed(&joints);
-            format!("at their limit in the forces shown: the joints {joints}")
+            format!("at their limit, within 1 %, in the forces shown: the joints {joints}")
         }
-        n => format!("{n} joints are at their limit in the forces shown"),
+        n => format!("{n} joints are at their limit, within 1 %, in the forces shown"),
     }
 }
 

@@ -22,6 +22,7 @@ use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
+use crate::interface::ContactKind;
 use crate::scene::Scene;
 use symbol::{SYMBOL_WIDTH, full_symbol, idle_symbol, smooth_symbol};
 
@@ -110,10 +111,10 @@ impl PanelContent for Utilisation {
 
         let used = most_used(scene, frame_analysis);
         match frame_analysis.verdict {
-            Verdict::Stable => format!("in the forces shown: {used}"),
+            Verdict::Stable => format!("in the forces shown, {used}"),
             Verdict::Unstable => format!("with the missing forces added, {used}"),
             Verdict::Undecided => format!(
-                "in the forces found: {used}; {}",
+                "in the forces found, {used}; {}",
                 verdict::reason(scene, frame_analysis)
             ),
         }
@@ -153,7 +154,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
             let pair = joint_name(scene, frame_analysis, contact);
             let share = percent(share);
             stated.push(format!(
-                "most between {pair}: {share} of the available friction"
+                "the joint between {pair} uses the largest share of its friction, {share}"
             ));
         }
     }
@@ -181,7 +182,10 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         )),
     }
     if stated.is_empty() {
-        "no friction is available, and no robot has limits".to_owned()
+        match frame_analysis.robots.is_empty() {
+            true => "no friction is available".to_owned(),
+            false => "no friction is available, and no robot has limits".to_owned(),
+        }
     } else {
         stated.join("; ")
     }
@@ -224,7 +228,10 @@ fn interfaces(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> (Group, Group) {
         joined_interfaces(pen, bearings, &mut idle, &mut used);
         return (idle, used);
     }
-    for (contact, bearing) in bearings {
+    // Draw the dots of corner contacts last, because the line of an interface could cover them.
+    let (corners, edges): (Vec<_>, Vec<_>) =
+        bearings.partition(|(contact, _)| contact.interface.kind == ContactKind::Corner);
+    for (contact, bearing) in edges.into_iter().chain(corners) {
         match bearing {
             Some(bearing) => used
                 .items

@@ -32,19 +32,24 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
         (CapacityShape::Empty, _) => format!("no force {place} keeps it standing{for_all}"),
         (CapacityShape::Everything, _) => format!("every force {place} is carried{for_all}"),
         (_, Some(sides)) => format!("{place} it carries {sides}{for_all}"),
-        (_, None) if capacity.cases == 1 => format!(
-            "without a force {place} it falls; it stands with {} in some combinations",
-            ranges(scene, capacity)
-        ),
-        (_, None) => format!(
-            "without a force {place} it does not stand{for_all}; it does with {} in some combinations",
-            ranges(scene, capacity)
-        ),
+        (shape, None) => {
+            let some = match shape {
+                CapacityShape::Point => "",
+                _ => " in some combinations",
+            };
+            let ranges = ranges(scene, capacity);
+            match capacity.cases {
+                1 => format!("without a force {place} it falls; it stands with {ranges}{some}"),
+                _ => format!(
+                    "without a force {place} it does not stand{for_all}; it does with {ranges}{some}"
+                ),
+            }
+        }
     }
 }
 
 /// Describes where the force acts: at a point of a block, between two points, or as the force of a robot. Example:
-/// `at (1, 2) on block a`.
+/// `at (1, 2) m on block a`.
 pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     // A coordinate that is only a rounding error relative to the block's size is written as 0.
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
@@ -54,7 +59,8 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     };
     let point = |k: usize| {
         let at = capacity.at[k];
-        format!("({}, {})", plain(at.x), plain(at.y))
+        let unit = scene.units.length().symbol();
+        format!("({}, {}) {unit}", plain(at.x), plain(at.y))
     };
     let block = text::line(&scene.blocks[capacity.block.0].id);
     match (capacity.robot, capacity.at.len()) {

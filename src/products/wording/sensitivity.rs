@@ -280,6 +280,8 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
 /// −5 becomes `5.00° left`. The word depends only on the sign, also for an end of an interval: a right (upper) end
 /// below 0 is written as `left`.
 pub fn value(kind: MarginKind, value: f64) -> String {
+    // Values below this are rounding errors.
+    let value = if value.abs() < 1e-12 { 0.0 } else { value };
     let side = match value {
         v if v < 0.0 => " left",
         v if v > 0.0 => " right",

@@ -183,7 +183,10 @@ fn capacities_and_sensitivities_have_the_units_of_the_file() {
             assert!(!words.contains(wrong), "{arguments}: {wrong:?} in {words}");
         }
         if arguments.contains("check") && picture.is_none() && unit == " kN" {
-            assert!(words.contains("at (3000, 4000) on block lintel"), "{words}");
+            assert!(
+                words.contains("at (3000, 4000) mm on block lintel"),
+                "{words}"
+            );
         }
     }
 }

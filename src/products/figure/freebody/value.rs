@@ -91,7 +91,11 @@ pub(super) fn places(
             Piece::Words(format!("{NO_BREAK}={NO_BREAK}{words}")),
         ]
     };
-    let at = |x: f64, y: f64| format!("({}; {}){NO_BREAK}m", coordinate(x), coordinate(y));
+    let unit = analysis.scene.units.length();
+    let at = |x: f64, y: f64| {
+        let [x, y] = [x, y].map(|v| coordinate(unit.value_from_si(v)));
+        format!("({x}; {y}){NO_BREAK}{}", unit.symbol())
+    };
     let c = analysis.scene.blocks[block.0].centroid;
     let mut places = vec![is(Symbol::new("c", Accent::None, ""), at(c.x, c.y))];
     for contact in contacts {

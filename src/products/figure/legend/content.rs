@@ -12,6 +12,7 @@ use super::entry::{Entry, MissingWords};
 use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_symbol, missing_dot, weight_symbol};
 use crate::drawing::Colour;
 use crate::drawing::arrow::HEAD_LENGTH;
+use crate::scene::Frame;
 use crate::scene::format::UnitsEntry;
 
 /// The last words of the names of quantities that colours show. They are left out in a column of print.
@@ -226,6 +227,23 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let loads = scene.loads.iter().filter(|l| placed(l.block));
     let turns = loads.clone().any(|l| l.torque != 0.0);
     let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
+    // The frames of a comparison come from two scenes, whose loads are different loads in one list.
+    let in_frame = |frame: &Frame| {
+        let loads = scene
+            .loads
+            .iter()
+            .filter(|l| frame.placed.contains(&l.block));
+        loads.filter(|l| l.force.norm() > 0.0).count()
+    };
+    let counts: Vec<usize> = scene.frames.iter().map(in_frame).collect();
+    let most_in_frame = counts.iter().copied().max().unwrap_or(0);
+    let number = match counts
+        .iter()
+        .all(|count| *count == most_in_frame || *count == 0)
+    {
+        true => format!("{most_in_frame} "),
+        false => String::new(),
+    };
     let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
     let most = amounts.iter().copied().fold(0.0, f64::max);
     let unit = scene.units.force();
@@ -233,9 +251,11 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let words = match amounts.len() {
         0 if turns => return Some(Entry::Note(TURN_SCALE_TEXT.into())),
         0 => return None,
-        1 => format!("load of {most}"),
-        n if least == most => format!("{n} loads of {most} each"),
-        n => format!("{n} loads of {least} to {most}"),
+        _ if most_in_frame == 1 && least == most => format!("load of {most}"),
+        _ if most_in_frame == 1 => format!("load of {least} to {most}"),
+        _ if least == most => format!("{number}loads of {most} each"),
+        2 => format!("{number}loads of {least} and {most}"),
+        _ => format!("{number}loads of {least} to {most}"),
     };
     let words = match own_scale(context) {
         true => format!("{words}, drawn larger than other forces"),

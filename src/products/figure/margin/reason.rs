@@ -72,6 +72,21 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {
+        let ends = [interval.low(), interval.high()].map(|end| end.and_then(End::value));
+        let is_single = ends
+            .iter()
+            .all(|end| end.is_some_and(|v| v.abs() < SAME_AS_ZERO));
+        match toward {
+            Toward::Tilt if is_single => {
+                return "stands only without a tilt; falls once gravity is turned to either side"
+                    .into();
+            }
+            Toward::HorizontalLoad if is_single => {
+                return "stands only without a horizontal load; falls once pushed to either side"
+                    .into();
+            }
+            _ => {}
+        }
         return match toward {
             Toward::Tilt => {
                 let turn = |edge: f64| degrees(edge.abs());
@@ -114,6 +129,9 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
         _ => "its margin was not found".to_owned(),
     }
 }
+
+/// Tilts in degrees, and horizontal loads as fractions of the weights, that are 0 except for rounding.
+const SAME_AS_ZERO: f64 = 1e-9;
 
 /// Describes both ends of an interval around 0, such as `9° to the left, or by 14° to the right`. `edge` is the end
 /// nearer to 0, which comes first. The other end is left out if its value is not known. `amount` formats a value.

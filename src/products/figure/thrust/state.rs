@@ -62,11 +62,11 @@ pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     .collect()
 }
 
-/// Returns a note for the reader that other figures show a different equilibrium of the frame. Returns `None` if the
-/// state of least thrust is not known.
+/// Returns a note for the reader that other figures show a different equilibrium of the frame. Returns `None` if this
+/// figure shows the same equilibrium as others, because the most central forces are not known.
 pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> Option<String> {
     let family = context.thrust_states(frame);
-    family.least.as_ref()?;
+    family.central.as_ref()?;
     let present = quantity(family.present, context.analysis.scene.units.force());
     Some(format!(
         "other figures show the forces of least sum, with a horizontal thrust of {present}"
