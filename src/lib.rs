@@ -1,4 +1,5 @@
-//! Computes whether a structure of dry-laid rigid blocks stands and which forces act in it, and draws both.
+//! Computes whether a structure of dry-laid rigid blocks stands and which forces act in it, and draws the structure
+//! with these forces.
 //!
 //! The model is plane statics. A scene has blocks with outlines of any shape, ground, friction, loads, and robots
 //! that hold blocks. For every step of a construction, the analysis computes a verdict with its proof and the force
@@ -57,7 +58,7 @@
 //!
 //! # From a scene to a picture
 //!
-// Rows of modules with a feature appear only if the feature is on; otherwise their links would be broken.
+// The row of an optional module appears only if the module's feature is on; otherwise its link would be broken.
 //! | function or module | output | input |
 //! |---|---|---|
 //! | [`Scene::from_json`] | [`Scene`], checked | text |
@@ -99,8 +100,8 @@
 //! [`doc::design`] gives the reasons for this structure, [`doc::conventions`] axes, units and signs, and
 //! [`doc::numerics`] tolerances and numerical difficulties.
 
-// Some code is used only by the program or by an optional feature. The compiler would report it as unused if that
-// feature is off. With all features, no code is unused.
+// Some code is used only by the command line or by another optional feature. The compiler would report it as unused if
+// that feature is off. With all features, no code is unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 
 // Structs with public fields are `#[non_exhaustive]` if later versions may add fields. Users start from the default

@@ -115,7 +115,8 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
     let a_to = orientation(b.from, b.to, a.to);
     let b_from = orientation(a.from, a.to, b.from);
     let b_to = orientation(a.from, a.to, b.to);
-    // The end of a segment lies on the other segment if it is collinear with that segment and between its two ends.
+    // An end of one segment lies on the other segment if it is collinear with the other segment and between the two
+    // ends of the other segment.
     let is_between = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
     for (turn, edge, point) in [
         (a_from, b, a.from),
@@ -127,9 +128,9 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
             return Some(point);
         }
     }
-    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. The
-    // test is false if an end of one segment lies on the line through the other segment, but outside that segment: both
-    // ends of that segment then lie on the same side of the line through the first segment.
+    // A proper crossing: the ends of each segment lie on different sides of the line through the other segment. If an
+    // end of `a` lies on the line through `b` but outside `b`, the test is false: both ends of `b` then lie on the same
+    // side of the line through `a`.
     if (a_from > 0.0) != (a_to > 0.0) && (b_from > 0.0) != (b_to > 0.0) {
         let share = a_from / (a_from - a_to);
         return Some(a.from + a.vector() * share);

@@ -277,7 +277,8 @@ fn doubled_area(ring: &[Node]) -> i64 {
         .sum()
 }
 
-/// True if there is a path between any two cells that passes only through common edges. False if there are no cells.
+/// True if every two cells are connected by a path that leads from cell to cell through common edges. False if there
+/// are no cells.
 fn is_connected(cells: &[Cell]) -> bool {
     let mut owner: BTreeMap<LatticeEdge, Cell> = BTreeMap::new();
     for cell in cells {

@@ -157,7 +157,7 @@ impl<'p> Piece<'p> {
             return whole.into_iter().collect();
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
-        // Pass coordinates relative to a corner to the ear clipping. Far from the origin, differences between products
+        // Use coordinates relative to a corner for the ear clipping. Far from the origin, differences between products
         // of absolute coordinates would lose digits.
         let base = points[0];
         let relative = points.iter().map(|p| [p.x - base.x, p.y - base.y]);

@@ -41,7 +41,7 @@ impl Tolerance {
 
     /// Returns the tolerance of a scene with an extent of `extent` metres and a typical block size of `typical` metres.
     ///
-    /// A scene without blocks has extent 0 and gets the tolerance 0.
+    /// The extent counts as at most 1000 times `typical`. A scene without blocks has extent 0, so its gap is 0.
     pub fn new(extent: f64, typical: f64) -> Tolerance {
         let extent = extent.min(Self::MAX_EXTENT_IN_BLOCKS * typical);
         Tolerance::from_gap(Self::GAP_PER_EXTENT * extent)

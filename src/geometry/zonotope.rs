@@ -44,8 +44,8 @@ const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 /// Returns the gauge of a zonotope: the smallest factor τ for which `point` lies in the zonotope scaled by τ. Infinity
 /// if there is no such factor. The zonotope is the set { Σ aᵢ gᵢ : |aᵢ| ≤ 1 } of the generators gᵢ.
 ///
-/// The result is never too small. It is exact up to rounding if the generators have at most 40 different directions.
-/// Otherwise generators of similar direction are added up, and the result may be too large.
+/// The result is never too small. It is exact up to rounding for at most 120 generators with at most 40 different
+/// directions. Otherwise generators of similar direction are added up, and the result may be too large.
 ///
 /// ```
 /// use drystone::internals::geometry::zonotope_gauge;

@@ -111,7 +111,7 @@ fn form(path: &Path) -> Result<Form, CliError> {
         Some("svg") => Ok(Form::Svg),
         Some("md") => Ok(Form::Markdown),
         _ => Err(CliError::CommandLine(format!(
-            "{}: an accuracy study is written to a file that ends in .html, .csv, .json, .svg or .md",
+            "{}: the name of the output file must end in .html, .csv, .json, .svg or .md",
             path.display()
         ))),
     }

@@ -36,7 +36,7 @@ impl AnalysisArgs {
     }
 
     /// Returns the name and the value of each option on which the result of a scene depends. A resume file records
-    /// them.
+    /// these names and values.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",
@@ -55,7 +55,8 @@ impl AnalysisArgs {
         ]
     }
 
-    /// Returns the options of the analysis. The time limit starts at this call.
+    /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies. The
+    /// time limit starts at this call.
     pub(crate) fn options(self) -> Options {
         Options {
             accuracy: self.accuracy,
@@ -68,8 +69,8 @@ impl AnalysisArgs {
     }
 }
 
-/// Returns the parser for a level of accuracy. It refuses `draft`, a level that was removed, with a message that names
-/// the replacement.
+/// Returns the parser for the value of `--accuracy`. The parser refuses the removed level `draft`, with a message that
+/// names the level to use instead.
 fn accuracy_parser() -> impl TypedValueParser<Value = Accuracy> {
     let names = ["standard", "proved", "draft"];
     let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));
@@ -90,6 +91,6 @@ fn length(typed: &str) -> Result<f64, String> {
 fn seconds(typed: &str) -> Result<Duration, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
-        _ => Err("it must be a time in seconds, from 0 to 1000000".into()),
+        _ => Err("give a time in seconds, from 0 to 1000000".into()),
     }
 }

@@ -1,4 +1,5 @@
-//! `drystone batch`: analyses any number of scenes, and writes one line of JSON for each scene or a CSV table.
+//! `drystone batch`: analyses any number of scenes. The output is one line of JSON for each scene, or a CSV table with
+//! a row for each frame.
 
 mod csv;
 mod input;
@@ -132,7 +133,7 @@ impl Batch {
                 }
             },
         );
-        // Write the answers that are still in memory. Answers that precede an error are valid results.
+        // Write the answers that are still in memory, even after an error: answers from before the error are valid.
         let flushed = output.flush();
         pace.end();
         match (failed, flushed) {
@@ -141,13 +142,14 @@ impl Batch {
         }
     }
 
-    /// Returns the number of threads that analyse scenes.
+    /// Returns the number of threads that analyse scenes: the value of `--jobs`, or by default one for each core, and
+    /// half as many more if pictures are written.
     fn threads(&self) -> usize {
         self.jobs.map_or_else(
             || {
                 let cores = thread::available_parallelism().map_or(1, usize::from);
-                // Threads wait for the disk while they write pictures, so only more threads than cores keep all cores
-                // busy.
+                // Threads wait for the disk while they write pictures, so more threads than cores are needed to keep
+                // all cores busy.
                 cores + self.render.as_ref().map_or(0, |_| cores.div_ceil(2))
             },
             usize::from,
@@ -155,8 +157,8 @@ impl Batch {
     }
 
     /// Returns the output format that the extension of the output file selects: CSV for `.csv`, otherwise lines of
-    /// JSON. Returns an error for the extension of another table format, such as `.xlsx`, and for options that a CSV
-    /// file does not support.
+    /// JSON. Returns an error for the extension of another table format, such as `.xlsx`, and for a CSV file together
+    /// with an option that CSV does not support.
     fn form(&self) -> Result<Form, CliError> {
         let ending = self
             .output
@@ -223,8 +225,8 @@ impl Batch {
         })
     }
 
-    /// Returns the settings on which the output lines depend. They leave out the number of threads and the progress
-    /// report, which do not change the lines.
+    /// Returns the settings on which the output lines depend. The number of threads and the progress report are not
+    /// among these settings, because they do not change the lines.
     fn settings(&self, work: &SceneWork) -> Settings {
         let mut settings = vec![
             ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
@@ -276,9 +278,9 @@ struct OutputLine {
 }
 
 impl SceneWork {
-    /// Analyses one scene of the input, and returns its output line. If the scene is not valid, or if the program
-    /// itself fails on it, the line contains the problems. Returns an error if the picture cannot be written, because
-    /// later pictures would then fail too.
+    /// Analyses one scene of the input, and returns its output: a line of JSON, or CSV rows. For a scene that is not
+    /// valid, and after an internal error of drystone, the output states the problem instead of results. Returns an
+    /// error if the picture cannot be written, because later pictures would then fail too.
     fn answer(&self, record: Record) -> Result<OutputLine, CliError> {
         let origin = input::origin(&record);
         let name = input::picture_name(&record);
@@ -336,8 +338,8 @@ impl SceneWork {
         (line, ExitStatus::WrongInput)
     }
 
-    /// Returns analysis options with which only the values in the output line are computed. The time limit starts at
-    /// this call.
+    /// Returns the options of the analysis. Margins and the test of wedging are computed only if `--fields`,
+    /// `--margins` or `--wedging` requests them. The time limit starts at this call.
     fn options(&self) -> Options {
         let mut options = self.margins.add_to(self.level.options());
         if self.fields.ask(&["frames", "margins"]) {

@@ -73,7 +73,7 @@ impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
             .map_err(|c| vec![c])?;
-        // The JSON of a single file may have several lines. Of several files, each has one line of JSON.
+        // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 {
             Layout::Lines
         } else {
@@ -83,7 +83,7 @@ impl Check {
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
-                // A block that a scene does not have is refused before any scene is analysed.
+                // A scene without the block of `--capacity` is refused before any scene is analysed.
                 Ok(source) => match self.capacity.add_to(Options::default(), &source.scene) {
                     Ok(_) => sources.push((number, source)),
                     Err(complaint) => refused.push((number, path, complaint)),
@@ -91,7 +91,7 @@ impl Check {
                 Err(complaint) => refused.push((number, path, complaint)),
             }
         }
-        // Without `--json`, no scene is analysed if any file is not valid. If the program itself fails on a scene, the
+        // Without `--json`, no scene is analysed if any file is not valid. After an internal error in one scene, the
         // other scenes are still answered. With `--json`, every file gets an object.
         let is_wrong = |(.., complaint): &RefusedFile| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {

@@ -70,10 +70,11 @@ fn one_of(names: &[String]) -> String {
     }
 }
 
-/// Returns an error if an output would overwrite an input or another output. Different paths and links of the same
-/// file are recognised.
+/// Returns an error if an output would overwrite an input or another output. Different paths to the same file, also
+/// through links, count as the same file.
 pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
-    // If a shell redirects a file to standard input, `/dev/stdin` is this file. Not all systems have this path.
+    // If a shell redirects a file to standard input, `/dev/stdin` is this file. On systems without `/dev/stdin`, this
+    // input is not compared.
     let stdin = Path::new("/dev/stdin");
     let is_stdin = |input: &Path| input == Path::new("-");
     for (number, output) in outputs.iter().enumerate() {
@@ -102,8 +103,8 @@ pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result
     Ok(())
 }
 
-/// Writes all files or none. `existing` says whether existing files are replaced. If not, an existing file is an error
-/// that mentions `--force`.
+/// Writes all files or none. `existing` says whether existing files are replaced. If they are not, an existing file is
+/// an error, and its message mentions `--force`.
 pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), CliError> {
     write_whole(files, existing).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),

@@ -83,7 +83,8 @@ impl CliError {
         }
     }
 
-    /// True for an internal fault of the program on one scene. The command then still answers the other scenes.
+    /// True if the error is an internal fault of drystone in one scene. The command then still answers the other
+    /// scenes.
     pub(crate) fn is_internal_fault(&self) -> bool {
         match self {
             CliError::Scene { problems, .. } => {
@@ -117,7 +118,7 @@ impl CliError {
                 format!("cannot read {what}: {why}"),
                 "check the path and the permissions of the file",
             ),
-            // The other errors do not belong to one scene file.
+            // The other errors have only a message.
             other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
         }
     }
@@ -220,7 +221,8 @@ impl<'a> ProblemLine<'a> {
         })
     }
 
-    /// True if the whole line, with the mark and its label, fits into `width` columns.
+    /// True if the whole line can be shown: it has at most [`MAX_LINE_CHARACTERS`] characters, and fits into `width`
+    /// columns with the mark and its label.
     fn is_shown_whole(&self, problem: &Problem, width: Option<usize>) -> bool {
         if self.line.chars().count() > MAX_LINE_CHARACTERS {
             return false;
@@ -237,7 +239,7 @@ impl<'a> ProblemLine<'a> {
 /// The number of columns from the middle of the marked text to its label (`╰──── `), plus one.
 const ARROW_COLUMNS: usize = 8;
 
-/// Returns the number of columns before the text of a line, which show the line number.
+/// Returns the number of columns before the text of a quoted line. The line number is shown in these columns.
 fn margin(problem: &Problem) -> usize {
     problem.line.to_string().len() + 4
 }
@@ -250,7 +252,7 @@ fn label(problem: &Problem) -> String {
     }
 }
 
-/// Returns the message of a problem, after the path of the problem in the scene if it has one.
+/// Returns the message of a problem, preceded by the path of the problem in the scene if it has one.
 fn headline(problem: &Problem) -> String {
     let message = line(&problem.message);
     if problem.path.is_empty() {
@@ -275,10 +277,11 @@ fn plain(name: &str, problem: &Problem) -> String {
 }
 
 /// Returns the message of a problem with the line of the file and a mark below the problem. Empty lines replace the
-/// lines above, so that `ariadne` shows the right line number.
+/// lines of the file before this line, so that `ariadne` shows the right line number.
 fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     let above = problem.line.saturating_sub(1);
-    // Add a space after the line, so that a problem after its last character, such as a missing `}`, can be marked.
+    // Add a space at the end of the line, so that a problem after the last character, such as a missing `}`, can be
+    // marked.
     let source = Source::from(format!("{}{} ", "\n".repeat(above), line(place.line)));
     let range = place.range.start + above..place.range.end + above;
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))

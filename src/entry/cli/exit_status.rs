@@ -22,8 +22,8 @@ pub(crate) enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// Returns the exit status for an analysis. If the scene expects a frame to fall, the frame counts as `Done` if it
-    /// falls, and as `Unstable` if it stands.
+    /// Returns the worst exit status of the frames of an analysis. If the scene expects a frame to fall, the frame
+    /// counts as `Done` if it falls, and as `Unstable` if it stands.
     pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict);
         ExitStatus::from_verdicts(&analysis.scene, verdicts)

@@ -218,8 +218,8 @@ impl Import {
             what: name.into(),
             why: error.to_string(),
         })?;
-        // Old DXF files have one byte per character. Only names contain characters that are not ASCII, so it is
-        // sufficient to read these files as Latin-1.
+        // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these
+        // files are read as Latin-1, even if some letters of names are then wrong.
         if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
             return Ok(bytes.into_iter().map(char::from).collect());
         }
@@ -258,8 +258,8 @@ impl Import {
         }
     }
 
-    /// Prints warnings, the numbers of imported bodies, notes, and the bodies whose corners were moved, to standard
-    /// error.
+    /// Prints a summary of the import to standard error: warnings, how many blocks, ground parts and robots were
+    /// imported, notes, and the bodies whose corners were moved.
     fn print_summary(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
             terminal.notes(&remark_page("warning", name, remark));
@@ -290,7 +290,7 @@ impl Import {
         }
         for snapped in imported.snapped.iter().take(MAX_LISTED_BODIES) {
             page.line(&format!(
-                "  snapped {}: {} by up to {:.2e} m, to {}",
+                "  snapped {1} of {0} by up to {2:.2e} m, to {3}",
                 snapped.body,
                 count(snapped.corners, "corner", "corners"),
                 snapped.distance,

@@ -103,7 +103,7 @@ fn kinds(names: &[MarginKind]) -> MarginKinds {
     }
 }
 
-/// Joins the option `--margins` and a list in the next argument to one argument, `--margins=LIST`.
+/// Joins the option `--margins` and a list in the next argument into one argument, `--margins=LIST`.
 ///
 /// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two. The
 /// argument after `--margins` is taken as a list if it looks like names, unless a file with this name exists.

@@ -64,7 +64,7 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
 }
 
 /// Returns a letter or digit with its code point, such as `א (U+05D0)`. For any other character, returns only the code
-/// point, because the character may change its neighbours.
+/// point, because a combining character would change the characters next to it.
 fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
     if c.is_alphanumeric() {

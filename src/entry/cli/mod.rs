@@ -136,7 +136,8 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
     ending.number()
 }
 
-/// Returns the exit status after `clap` has printed help, the version or an error.
+/// Returns the exit status after `clap` has printed help, the version or an error. `printed` says whether the printing
+/// succeeded.
 fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     if error.use_stderr() {
         return ExitStatus::WrongInput;
@@ -144,7 +145,8 @@ fn refused(error: &clap::Error, printed: io::Result<()>) -> ExitStatus {
     match terminal::written(printed) {
         Ok(()) => ExitStatus::Done,
         Err(complaint) => {
-            // If standard error cannot be written either, only the exit code reports the error.
+            // Standard output could not be written. If standard error cannot be written either, only the exit code
+            // reports this.
             let page = complaint.page(terminal::error_width());
             let _ = write!(io::stderr(), "{}", page.text());
             complaint.ending()

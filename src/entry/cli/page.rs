@@ -16,7 +16,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Makes a page with one line of escaped text.
+    /// Escapes a text, and makes a page with this text as its only line.
     pub(crate) fn new(words: &str) -> Page {
         let mut page = Page::default();
         page.line(words);
@@ -28,12 +28,12 @@ impl Page {
         self.text.push_str(text);
     }
 
-    /// Appends escaped text to the current line.
+    /// Escapes a text, and appends it to the current line.
     pub(crate) fn words(&mut self, words: &str) {
         self.text.push_str(&text::line(words));
     }
 
-    /// Appends escaped text to the current line, in a style such as a colour or bold.
+    /// Escapes a text, and appends it to the current line in a style such as a colour or bold.
     pub(crate) fn styled(&mut self, style: Style, words: &str) {
         self.text.push_str(&style.render().to_string());
         self.words(words);
@@ -45,14 +45,14 @@ impl Page {
         self.text.push('\n');
     }
 
-    /// Appends escaped text and ends the line.
+    /// Escapes a text, appends it to the current line, and ends the line.
     pub(crate) fn line(&mut self, words: &str) {
         self.words(words);
         self.end();
     }
 
-    /// Appends several lines whose parts are already escaped with [`text::line`]. Line feeds and colours are kept;
-    /// all other control characters are escaped again.
+    /// Appends several lines whose parts are already escaped with [`text::line`]. Line feeds and colours are kept; any
+    /// other control character is escaped.
     pub(crate) fn block(&mut self, lines: &str) {
         let mut rest = lines;
         while let Some(c) = rest.chars().next() {
@@ -125,7 +125,8 @@ impl Page {
     }
 }
 
-/// Breaks text into lines of at most `most` columns, at spaces only.
+/// Breaks a text at spaces into lines of at most `most` columns. A longer word gets a line of its own. If `most` is
+/// `None`, the text stays one line.
 pub(crate) fn broken(words: &str, most: Option<usize>) -> String {
     let mut lines = String::new();
     let mut column = 0;

@@ -186,7 +186,8 @@ impl Picture {
         self.width_mm.map_or(page, |mm| (247.0 / mm).max(page))
     }
 
-    /// Returns an error if a PNG of a drawing with at least this width and height would be too large.
+    /// Returns an error if the PNG of a drawing would be too large. The arguments are the width and height of the
+    /// drawing, or lower bounds of them.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
         png::check(width, height, self.size()).map_err(png_error)
     }
@@ -237,8 +238,8 @@ impl Picture {
     }
 }
 
-/// Adds the advice to split the figure to an error about the size of a figure with several steps. Returns any other
-/// error unchanged.
+/// If an error says that a figure with several steps is too large, adds to its message the advice to split the figure.
+/// Returns any other error unchanged.
 pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
     match complaint {
         CliError::CommandLine(why) if steps > 1 => CliError::CommandLine(format!(

@@ -43,7 +43,7 @@ impl Progress {
             let counted = move |_: &ProgressState, to: &mut dyn std::fmt::Write| {
                 let since = trials().saturating_sub(before);
                 if since > 0 {
-                    // If the bar cannot be drawn, the work continues without it.
+                    // If this text cannot be written, the bar is drawn without it.
                     let _ = write!(to, ", {since} verdicts for margins,");
                 }
             };

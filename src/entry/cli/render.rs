@@ -131,8 +131,8 @@ impl Render {
         Err(CliError::CommandLine(why.into()))
     }
 
-    /// Refuses `--margin` and `--capacity` for figures that do not show them. Refuses `--panels` and `--pages` for
-    /// free-body diagrams and for standard output.
+    /// Refuses `--margin` and `--capacity` for figures that cannot show the requested margin or the capacity. Refuses
+    /// `--panels` and `--pages` for free-body diagrams and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let varies = self.kind.needs_sensitivity();
@@ -191,8 +191,8 @@ impl Render {
         }
     }
 
-    /// Returns an error if several figures would go to one file or to standard output, or if a terminal would show
-    /// binary data. Reads no scene.
+    /// Returns an error if several figures would go to one file or to standard output, or if binary data would be
+    /// printed to a terminal. Does not read the scenes.
     fn check_count(
         &self,
         scenes: &[PathBuf],
@@ -322,7 +322,7 @@ impl Render {
     }
 
     /// Returns the analysis options with the block of `--capacity` and the ranges of `--for-all`. If the figure shows
-    /// the sensitivity of a margin, they also have the margin of `--margin`.
+    /// the sensitivity of a margin, the options also name the margin of `--margin`.
     fn with_requests(
         &self,
         analysis_options: &analysis::Options,
@@ -341,7 +341,7 @@ impl Render {
         self.margin.and_then(|margin| Toward::from_margin(margin.0))
     }
 
-    /// Analyses a scene, and computes the margins that this kind of figure shows.
+    /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that this kind of figure shows.
     fn analysed(&self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
         match self.kind.panels() {
             Some(kind) => kind.analysed(scene, analysis_options),

@@ -171,7 +171,7 @@ impl Report {
         }
     }
 
-    /// Returns an error if the main file of the report is also one of its inputs.
+    /// Returns an error if the main file of the report would overwrite an input file of the command.
     fn check_targets(&self, tasks: &[Task], form: Form) -> Result<(), CliError> {
         let main = match form {
             Form::Split => self.output.join("index.html"),
@@ -195,7 +195,7 @@ impl Report {
         terminal: &Terminal,
     ) -> Result<TaskResults, CliError> {
         let options = analysis::Options {
-            // JSON contains margins only if they were requested, as in `check`.
+            // As in `check`, JSON contains margins only if they were requested.
             margins: self.margins || form != Form::Json,
             margin_kinds: match self.margins {
                 true => MarginKinds::ALL,
@@ -217,7 +217,8 @@ impl Report {
                 self.describe(task, number + 1, form, report_options, &options)
             });
             progress.step();
-            // The overview lists a scene on which the program failed like a file that is not a valid scene.
+            // If drystone itself fails on a scene, the overview lists this scene among the files that are not valid
+            // scenes.
             made.unwrap_or_else(|fault| Ok(Err(vec![(refused(first, &fault), fault)])))
         };
         let described: Vec<Result<TaskResult, CliError>> = if self.accuracy_study {

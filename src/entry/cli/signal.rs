@@ -37,8 +37,8 @@ pub(crate) fn listen() {
 }
 
 /// Returns the signals that this process has ignored since its start, for example because `nohup` started it. Each
-/// signal is one bit; signal 1 is the lowest bit. Only Linux tells which signals are ignored; elsewhere, the result is
-/// 0.
+/// signal is one bit; signal 1 is the lowest bit. Only Linux reports which signals are ignored; on other systems, the
+/// result is 0.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

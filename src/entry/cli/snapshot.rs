@@ -78,7 +78,7 @@ impl Snapshot {
 
         let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
         let described = report.lines();
-        // Make the page before accepting, so that it shows the accepted changes too.
+        // Make the review page before the results are accepted, so that it still shows the accepted changes.
         let page = match &self.review {
             Some(Some(_)) => review::page(&report, &self.folders),
             _ => String::new(),
@@ -92,8 +92,8 @@ impl Snapshot {
         drop(turn);
         self.print_result(terminal, &report, &described, accepts, &failing)?;
         match unwritten {
-            // Without --accept, the unwritten files would only help people to inspect the difference. The exit code
-            // does not depend on them.
+            // Without --accept, the files that could not be written only help people to inspect the differences. The
+            // exit code does not depend on them.
             Err(failed) if !accepts => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));
@@ -120,8 +120,9 @@ impl Snapshot {
         destination::write(&written, Existing::Replace)
     }
 
-    /// Returns an error for options that contradict each other, for a review page that is not an .html file, and, if
-    /// the variable `CI` is set, for accepting results or reviewing them in the terminal without `--accept-in-ci`.
+    /// Returns an error if options contradict each other, or if the review page is not an .html file. If the variable
+    /// `CI` is set, also returns an error for accepting results or reviewing them in the terminal without
+    /// `--accept-in-ci`.
     fn check_options(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {

@@ -54,8 +54,8 @@ pub(super) fn sketch(
         .map_err(|why| fault(py, &why))
 }
 
-/// Returns the name and the rings of each body, in metres: first of the parts of the ground, which have no name, then
-/// of the blocks. The first ring of a body is its outline, and the others are its holes.
+/// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
+/// (`None`); then come the blocks. The first ring of a body is its outline, and the others are its holes.
 pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     let rings = |polygon: &Polygon| {
         let rings = polygon.rings().iter();

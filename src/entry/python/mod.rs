@@ -230,8 +230,8 @@ impl Analysis {
             .ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
-    /// Returns the name and the rings of each body, in metres: first of the parts of the ground, which have no name,
-    /// then of the blocks. The first ring of a body is its outline, and the others are its holes.
+    /// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
+    /// (`None`); then come the blocks. The first ring of a body is its outline, and the others are its holes.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
         figure::outlines(&self.analysis.scene)
     }

@@ -94,8 +94,8 @@ impl Session {
             .collect()
     }
 
-    /// Analyses the placed blocks. Of the options, only those of the analysis itself are used, without time limit and
-    /// capacity.
+    /// Analyses the placed blocks. The time limit, the capacity, the contact tolerance, `notes` and `located` in
+    /// `options` have no effect.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.inner.scene();
         Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.analysis_options)))

@@ -28,8 +28,8 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
     page(&analysis, options)
 }
 
-/// Adds two requests to the options of the analysis: for the forces that the block of the option `capacity` can carry,
-/// and for the sensitivity of the margin of the option `margin` if the figure shows a sensitivity.
+/// Adds the requests of a figure to the options of the analysis. The option `capacity` names the block whose capacity
+/// is computed. For a sensitivity figure, the option `margin` names the margin whose sensitivity is computed.
 fn with_requests(
     analysis_options: analysis::Options,
     scene: &Scene,

@@ -132,13 +132,13 @@ impl FigureOptions {
         })
     }
 
-    /// Returns the margin that the figure shows; `None` for the default margin.
+    /// Returns the margin that the option `margin` names; `None` without this option, which means the default margin.
     pub(super) fn margin(&self) -> Option<MarginKind> {
         self.margin.map(|margin| margin.0)
     }
 
-    /// Returns the parameter that a margin figure varies. The margins friction and kernel are an error, except in a
-    /// sensitivity figure, which does not use the parameter.
+    /// Returns the parameter that a margin figure varies. Returns an error for the margins friction and kernel, except
+    /// in a sensitivity figure, which does not use the parameter.
     fn toward(&self) -> Result<Toward, Refusal> {
         let is_sensitivity = self.kind()?.is_some_and(Kind::needs_sensitivity);
         match self.margin().map(Toward::from_margin) {

@@ -30,17 +30,18 @@ impl Session {
         Ok(Session { options, analysis })
     }
 
-    /// Replaces the scene and analyses it. Returns the worst verdict of its frames: stable, unstable or undecided.
+    /// Replaces the scene and analyses it. Returns the worst verdict of its frames; from best to worst: stable,
+    /// undecided, unstable.
     ///
     /// # Errors
-    /// Returns the problems of the scene, or a message about an option that does not fit the scene, such as a frame that
-    /// does not exist. The session then keeps the former scene.
+    /// Returns the problems of the scene, or a message about an option that does not fit the scene, such as a frame
+    /// that does not exist. The session then keeps the previous scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
         self.analysis = self.options.analysis(scene)?;
         Ok(self.verdict())
     }
 
-    /// Returns the worst verdict of all frames: stable, unstable or undecided.
+    /// Returns the worst verdict of all frames; from best to worst: stable, undecided, unstable.
     pub fn verdict(&self) -> String {
         word(self.analysis.verdict()).to_owned()
     }

@@ -83,8 +83,8 @@ pub(crate) struct Gaps<'g> {
 }
 
 impl<'g> Gaps<'g> {
-    /// Creates gaps from the gap of each body, in metres. Every corner has the gap of its body, however short its sides
-    /// are.
+    /// Creates the gaps of all corners from the gap of each body, in metres. Every corner has the gap of its body,
+    /// however short the sides at this corner are.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
         Gaps {
             of_body,
@@ -119,8 +119,8 @@ pub(crate) struct Moved {
 /// Moves corners onto corners and sides of other bodies that lie within the gaps. Corners that merge take the position
 /// of the corner of a fixed body, or else of the earliest body in the list.
 ///
-/// A body marked in `fixed` does not change. Corners of other bodies move onto it, but its corners do not move onto
-/// their sides. Overlaps with a depth of up to `noise` times the smaller gap of two bodies are ignored.
+/// A body marked in `fixed` does not change: corners of other bodies may move onto it, but its own corners never move.
+/// Overlaps with a depth of up to `noise` times the smaller gap of two bodies are ignored.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
     gaps: Gaps<'_>,
@@ -158,7 +158,7 @@ pub(crate) fn snapped<'b>(
     }
 }
 
-/// Returns the numbers of the bodies that snapping left as drawn, except those that the caller fixed.
+/// Returns the indices of the bodies that snapping left as drawn, except those that the caller fixed.
 fn kept_but_not_fixed(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
     let pairs = kept.iter().zip(fixed).enumerate();
     pairs
@@ -194,8 +194,8 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     // Step 2: find the nodes near sides of other bodies.
     let sides = sides(bodies, &nodes);
     let found = nodes_near_sides(&nodes, &sides, gaps, kept);
-    // Return the bodies unchanged if every corner is exactly at its node, and every node lies on its sides, none of which
-    // is curved.
+    // Return the bodies unchanged if every corner is exactly at its node, every node near a side lies on this side, and
+    // no such side is curved.
     let fits = |b: &NodeNearSide<'_>| {
         !b.side.curved && b.off <= EXACT_DISTANCE_TOL * nodes.all[b.node].gap
     };
@@ -365,7 +365,7 @@ fn rebuild_bodies(
     }
 }
 
-/// Returns the numbers of the bodies that snapping damaged: bodies whose outline is no longer valid or lost too much
+/// Returns the indices of the bodies that snapping damaged: bodies whose outline is no longer valid or lost too much
 /// area, and both bodies of a pair that overlaps more than before.
 fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();

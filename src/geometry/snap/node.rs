@@ -224,8 +224,8 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
 /// Returns the pairs of corners of different bodies whose distance is at most the smaller of their gaps, as (distance
 /// in metres, corner, corner).
 ///
-/// The pairs are sorted by distance, then by number, so that the result does not depend on the order of the index. A
-/// corner gets at most [`MAX_COINCIDENT`] pairs with corners at its own position.
+/// The pairs are sorted by distance, then by the numbers of the corners, so that the result does not depend on the
+/// order of the index. A corner gets at most [`MAX_COINCIDENT`] pairs with earlier corners at its own position.
 fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();

@@ -82,7 +82,8 @@ pub(super) fn analyse_frame(
 ) -> FrameAnalysis {
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    // Assemble bodies, contacts and loads. Split them into components: sets of bodies between which no force can act.
+    // Assemble bodies, contacts and loads. Split them into components: no force can act between bodies of different
+    // components.
     let (assembly, reports) = effect::assemble(context);
     let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();

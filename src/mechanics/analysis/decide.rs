@@ -1,5 +1,5 @@
-//! Decides whether a component stands or falls. Two tables list the routes to a verdict, for one component and for a
-//! whole frame. The routes are tried in the order of their numbers.
+//! Decides whether a component stands or falls. The two tables below list the routes to a verdict, for one component
+//! and for a whole frame. The routes are tried in the order of their numbers.
 //!
 //! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component return a
@@ -116,8 +116,8 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
     if let Some(found) = component.in_closed_form(&program) {
         return Findings { count, ..found };
     }
-    // First leave out the limits of robots that are far above the loads. If the result exceeds such a limit or is
-    // undecided, decide again with all limits.
+    // First leave out those limits of robots that are far above the loads. If the resulting forces exceed such a limit,
+    // or if the result is undecided, decide again with all limits.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {

@@ -78,8 +78,8 @@ impl Analysis {
         limits
     }
 
-    /// Returns the value at a limit, and the elementary mechanism slightly beyond it. The loads have no power along
-    /// the mechanism exactly at the limit, but they have power slightly beyond it.
+    /// Returns the value at a limit, and the elementary mechanism slightly beyond it. Exactly at the limit, the power
+    /// along the mechanism is 0; slightly beyond the limit it is positive.
     fn beyond(&self, frame: usize, toward: Toward, limit: Limit) -> (f64, Vec<Motion>) {
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
         let Limit {

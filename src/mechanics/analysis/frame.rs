@@ -48,7 +48,7 @@ pub(super) fn weaker_proof(a: Proof, b: Proof) -> Proof {
 }
 
 /// Completes the analysis of a frame: adds the number of unknowns of each effect, the reports on adhesion and
-/// mechanism, and the notices. Removes all doubts if the frame is stable or unstable.
+/// mechanism, and the notices. Removes the reasons for an undecided verdict if the frame is stable or unstable.
 pub(super) fn complete_frame(
     analysis: &mut FrameAnalysis,
     context: &FrameContext,

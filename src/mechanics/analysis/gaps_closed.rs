@@ -60,8 +60,8 @@ impl From<&Penetration> for AmbiguousPlace {
     }
 }
 
-/// Analyses the scene again, with all small gaps and overlaps closed and with very short contacts. A frame becomes
-/// undecided if its verdict depends on them. Does nothing if the scene gives a tolerance.
+/// Analyses the scene again: once with very short contacts added, and once with all small gaps and overlaps closed. A
+/// frame becomes undecided if this changes its verdict. Does nothing if the scene gives a contact tolerance.
 pub(super) fn recheck(
     scene: &Scene,
     interfaces: &Interfaces,
@@ -126,7 +126,8 @@ fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<Ambiguous
 
 /// Analyses the scene with gaps and overlaps closed by slightly more than the widest of them. If the verdict of some
 /// frame with gaps or overlaps does not change, also closes them by a larger length, because corners with rounded
-/// coordinates may be farther from their true position. Returns each length, in metres, with the analysed frames.
+/// coordinates may be farther from their true position. Returns each closing length, in metres, with the frames that
+/// were analysed with it.
 fn closed_verdicts(
     scene: &Scene,
     frames: &[FrameAnalysis],
@@ -152,8 +153,8 @@ fn closed_verdicts(
     all
 }
 
-/// Makes a frame undecided if its verdict changes when gaps and overlaps are closed. Otherwise adds a notice about
-/// overlaps. `closed` contains each closing length in metres with its verdict; `places` are sorted, the largest first.
+/// Makes a frame undecided if its verdict changes when gaps and overlaps are closed. Otherwise, if bodies overlap, adds
+/// a notice. `closed` contains each closing length in metres with its verdict; `places` are sorted, the largest first.
 fn compare_verdicts(
     scene: &Scene,
     frame: &mut FrameAnalysis,
@@ -161,8 +162,8 @@ fn compare_verdicts(
     closed: &[(f64, Verdict)],
 ) {
     let overlaps: Vec<AmbiguousPlace> = places.iter().copied().filter(|p| p.overlaps).collect();
-    // Use the first closing length with a different verdict, stable or unstable. If there is none, use the first
-    // length.
+    // Use the first closing length whose verdict is decided and differs from the verdict of the frame. If there is
+    // none, use the first length.
     let differs = |(_, other): &&(f64, Verdict)| !is_undecided(*other) && *other != frame.verdict;
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;

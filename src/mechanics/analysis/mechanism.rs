@@ -169,8 +169,8 @@ impl<'a> FallingPart<'a> {
         }
     }
 
-    /// Returns an elementary mechanism of this part, in which blocks slide along their joints if possible. `None` if it
-    /// was not found.
+    /// Returns an elementary mechanism of this part, in which blocks slide along their joints if possible. `None` if
+    /// the part has too many blocks, or if no such mechanism was found.
     fn elementary(&self) -> Option<Vec<Motion>> {
         if self.motions.len() > MAX_BLOCKS {
             return None;

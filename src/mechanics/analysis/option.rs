@@ -87,7 +87,7 @@ impl Options {
         deadline: None,
     };
 
-    /// Returns the same accuracy and deadline for an analysis that computes the verdict and nothing else.
+    /// Returns options with the same accuracy, tolerance and deadline, for an analysis that computes only the verdict.
     pub(crate) fn only_verdict(self) -> Options {
         Options {
             accuracy: self.accuracy,

@@ -66,8 +66,9 @@ pub struct ThrustStates {
 impl Analysis {
     /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust, the
     /// forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does not
-    /// exist, does not stand, needs no thrust, or has more than 200 blocks. They are also `None` if not exactly two blocks
-    /// touch the ground, or if loads and robots push horizontally, because there is then no single horizontal thrust.
+    /// exist, does not stand, has more than 200 blocks, or needs almost no thrust. They are also `None` if the least
+    /// thrust is not found, if not exactly two blocks touch the ground, or if loads and robots push horizontally, because
+    /// there is then no single horizontal thrust.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
@@ -110,8 +111,8 @@ impl Analysis {
         }
     }
 
-    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (`sign` −1). `None` if its forces have no
-    /// proof.
+    /// Computes the state of least thrust (`sign` 1) or of greatest thrust (`sign` −1). `None` if no such forces are
+    /// found and proved.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &*self.scene;
         let frame = &scene.frames[number];
@@ -194,7 +195,7 @@ fn middle(places: impl Iterator<Item = f64> + Clone) -> f64 {
 }
 
 /// Returns the forces of a component with the least (`sign` 1) or the greatest (`sign` −1) inward thrust at its
-/// supports. `None` if they have no proof.
+/// supports. `None` if the linear program fails, or if the forces do not balance every body.
 fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forces> {
     let across = quarter_turn(scene.down());
     let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);
@@ -242,7 +243,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     }
 }
 
-/// Converts forces from program units to newtons, and limits each friction force to μN.
+/// Converts forces from program units to newtons. Replaces negative normal forces by 0, and limits friction to μN.
 fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> Forces {
     let unit = program.scale.force;
     let contacts = component.contacts.iter().enumerate().map(|(k, contact)| {

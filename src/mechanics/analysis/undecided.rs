@@ -53,13 +53,13 @@ impl fmt::Display for UndecidedReason {
                 {
                     write!(
                         f,
-                        "forces are off by {worst_imbalance:.1e} of the forces on a block"
+                        "the forces found miss the balance of a block by {worst_imbalance:.1e} of the forces on it"
                     )?;
                 }
                 match motion {
                     Some(motion) if motion.holds() => write!(
                         f,
-                        "; a motion violates no contact, but within the tolerance of forces its power may be zero"
+                        "; a motion violates no contact, but its power may be zero within the tolerance of the forces"
                     ),
                     Some(Proof::Mechanism {
                         power,
@@ -121,7 +121,7 @@ mod tests {
         let late = "the time limit was reached before it was decided";
         assert_eq!(frame.doubt(), late);
         frame.doubts.extend([unproved(None), unproved(Some(0.5))]);
-        let off = "forces are off by 1.0e-3 of the forces on a block";
+        let off = "the forces found miss the balance of a block by 1.0e-3 of the forces on it";
         assert_eq!(
             frame.doubt(),
             format!(

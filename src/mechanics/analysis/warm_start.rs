@@ -114,7 +114,8 @@ impl WarmStart {
         (verdict, Source::Examined)
     }
 
-    /// Decides an assembly by the warm start alone. `None` if neither forces nor a motion are proved.
+    /// Decides an assembly by the warm start alone. `None` if the assembly has too many bodies, or if neither forces
+    /// nor a motion are proved.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         // Without an active set from an earlier frame, the warm start is fast only for few bodies.
         let most = match self.columns.is_empty() {

@@ -136,7 +136,7 @@ impl Iterator for Records {
                         line: Some(number),
                         bytes,
                     };
-                    // Stop reading this stream after an error: it could return the same error forever.
+                    // Stop reading this stream if it cannot be read: it could return the same error forever.
                     if size == 0 {
                         self.open = None;
                     }
@@ -194,7 +194,7 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         }
         let end = found.iter().position(|b| *b == b'\n');
         let piece = &found[..end.unwrap_or(found.len())];
-        // Read a line that is too long to its end, but do not store it.
+        // If a line is too long, read up to its end, but do not store the rest.
         if size + piece.len() <= MAX_RECORD_BYTES {
             line.extend_from_slice(piece);
         }

@@ -1,5 +1,6 @@
 //! Simplified versions of a program. [`Program::with_parallel_joints`] makes nearly parallel or perpendicular joints
-//! exactly so. [`Program::without_slight_loads`] omits loads that are far smaller than the others.
+//! exactly parallel or perpendicular. [`Program::without_slight_loads`] omits loads that are far smaller than the
+//! others.
 
 use core::f64::consts::FRAC_PI_2;
 

@@ -47,7 +47,7 @@ impl QuadraticProgram {
 ///
 /// Returns the problem and the row of each column: the multiplier of that row is the amount of the force. The
 /// multiplier of an equality is the amount of the first direction minus that of the second. The second direction has no
-/// row, which is returned as `usize::MAX`.
+/// row: `usize::MAX` is returned for it.
 pub fn kinematic_dual(
     loads: &[f64],
     columns: &[Column],
@@ -235,8 +235,8 @@ pub struct Correction<'a> {
 /// The result therefore does not depend on how the friction cone is divided into columns.
 ///
 /// With a `correction`, the unknowns are changes of given amounts, and the sum is over the squared change of each
-/// column. The changes balance `loads`. Squares of forces would not bound opposite columns, such as the two directions
-/// of a robot's force, and the solver would end without a result.
+/// column. Here `loads` are the part of the loads that the given amounts do not balance. Squares of forces would not
+/// bound opposite columns, such as the two directions of a robot's force, and the solver would end without a result.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],

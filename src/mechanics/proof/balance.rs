@@ -106,8 +106,8 @@ impl BodyForces {
         [x, y, moment / self.radius]
     }
 
-    /// Adds the generators for changes that concern all forces together: a displacement of all forces, and the allowed
-    /// rounding error.
+    /// Adds the generators of the zonotope that concern all forces together: a displacement of all forces, and the
+    /// allowed rounding error.
     fn add_common_generators(&mut self) {
         // Moving every force by τ R changes M/R by at most τ Σ |F|.
         self.generators.push([0.0, 0.0, self.total]);
@@ -143,8 +143,8 @@ impl BodyForces {
     }
 }
 
-/// Returns the imbalance τ of each body, in the order of the bodies. τ is infinite if the body does not balance however
-/// much its forces change.
+/// Returns the imbalance τ of each body, in the order of the bodies. τ is infinite if even changes by many times the
+/// forces do not balance the body.
 ///
 /// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
@@ -153,8 +153,8 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
     all.iter().map(BodyForces::imbalance).collect()
 }
 
-/// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load. A value of τ up
-/// to [`NEGLIGIBLE_IMBALANCE`] is only an upper bound.
+/// Returns the largest imbalance τ of all bodies, and the largest ratio of a body's residual to its load. A value of τ
+/// up to [`NEGLIGIBLE_IMBALANCE`] is only an upper bound.
 ///
 /// Bodies are processed in the order of decreasing upper bounds of τ. τ is computed only for bodies whose bound
 /// exceeds the largest τ found so far.

@@ -30,8 +30,8 @@ impl Forces {
 pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // A robot with a limit above this value counts as unlimited.
     let binding = NON_BINDING_RATIO * moving_load(assembly, motions);
-    // `worst` is δ. Robot components without a limit can increase δ. For a component with a limit, the power beyond δ
-    // is subtracted from the power of the loads.
+    // `worst` is δ, the largest speed against which a unit force may act. Robot components without a limit can increase
+    // δ. For a component with a limit, the power beyond δ is subtracted from the power of the loads.
     let mut worst = worst_violation(assembly, motions).max(1.0);
     let mut limited = Vec::new();
     for grip in &assembly.grips {

@@ -94,8 +94,8 @@ impl Proof {
         }
     }
 
-    /// Returns the largest error of forces: the imbalance of a body, or the pull or the slip at a joint, each relative
-    /// to the forces there. `None` for a proof by a motion.
+    /// Returns the largest error of forces: the imbalance of a body, the pull or the slip at a joint, or the excess of
+    /// a robot over its limits. Each is relative to the forces there. `None` for a proof by a motion.
     pub fn force_error(&self) -> Option<f64> {
         match *self {
             Proof::Forces {
@@ -318,7 +318,7 @@ pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
 const ROUNDING_TOL: f64 = 8.0 * f64::EPSILON;
 
 /// Returns the largest violation of a contact by a motion: the speed against which a contact force with N + |T| = 1
-/// would act, including rounding. It is 0 if every contact opens or is at rest.
+/// would act, including rounding. It is 0 if no force at any contact would act against the motion.
 fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
     // The velocity of a point, and the sum of the magnitudes of its terms, which bounds the rounding error.
     let velocity = |body: Option<usize>, at: Point| match body {
@@ -393,8 +393,9 @@ pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
     power
 }
 
-/// Checks a motion, which has one entry for each body. Returns the power of the loads minus the power that robots with
-/// limits can absorb, and the largest velocity against which contacts or unlimited grips could act.
+/// Checks a motion, which has one entry for each body. Returns two relative numbers: the power of the loads minus the
+/// power that robots with limits can absorb, and the largest velocity against which contacts or unlimited grips could
+/// act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
     let speeds = assembly
@@ -426,7 +427,7 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
             (spin, limits.torque / assembly.length, 0.0),
         ] {
             // If the limit is far above the loads, even the rounding error of a speed would cause a noticeable power.
-            // Such a grip counts as unlimited.
+            // Such a limit counts as infinite.
             if limit > NON_BINDING_RATIO * load {
                 violation = violation.max(speed.abs() + rounding);
             } else {

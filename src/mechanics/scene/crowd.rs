@@ -20,8 +20,9 @@ use crate::geometry::Point;
 /// which the computation takes half a second.
 pub(super) const MAX_BODIES_AT_POINT: usize = 100;
 
-/// Reports the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Corners
-/// within about `gap`, in the units of the file, count as corners at the same point.
+/// Reports a point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Of several such
+/// points, reports the one with the smallest x. Corners within about `gap`, in the units of the file, count as corners
+/// at the same point.
 pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) {
     if let Some((at, count)) = crowded(bodies, frames, gap) {
         let top = Trail::Top;
@@ -33,10 +34,10 @@ pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[
     }
 }
 
-/// Returns the first point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame, and the
-/// number of these bodies in the frame that contains most of them. `None` if there is no such point.
+/// Returns the point of smallest x at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Also
+/// returns the number of these bodies in the frame that contains most of them. `None` if there is no such point.
 fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point, usize)> {
-    // Adding 0 turns −0 into 0, because `total_cmp` below distinguishes them.
+    // Adding 0 turns −0 into 0, because `total_cmp` below distinguishes −0 from 0.
     let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
     let mut corners: Vec<([f64; 2], Point, BodyId)> = Vec::new();
     for (id, body) in bodies {

@@ -1,4 +1,4 @@
-//! [`isolate`]: runs a function for one scene, so that an internal error of the program does not affect other scenes.
+//! [`isolate`]: runs a function for one scene, so that an internal error of drystone does not affect other scenes.
 //!
 //! Commands that process several scenes call it for each scene. If the program panics on a scene, only this scene gets
 //! a problem, and the other scenes are still processed.
@@ -14,8 +14,8 @@ const FAULT_VARIABLE: &str = "DRYSTONE_TEST_FAULT";
 
 /// Calls `work` for one scene. If `work` panics, the panic becomes a problem with the code [`Code::InternalFault`].
 ///
-/// `name` is the scene's path; tests select the scene by it. A panic can leave the data of `work` half changed, so the
-/// caller must not use these data afterwards.
+/// `name` is the path of the scene, or another name for it. Only tests use it, to select a scene. A panic can leave the
+/// data that `work` changes in an invalid state, so the caller must not use these data afterwards.
 ///
 /// # Errors
 /// If `work` panics: the internal error, as the only problem of the scene.

@@ -1,4 +1,5 @@
-//! [`Frame`]: the state of the structure after one step: the placed blocks, and the blocks that robots hold.
+//! [`Frame`]: the state of the structure after one step: the placed blocks, and the blocks that robots hold or plan to
+//! place.
 
 use super::format::Expectation;
 use super::{BlockId, RobotId};

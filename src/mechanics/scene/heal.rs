@@ -183,7 +183,8 @@ struct Closed<'d> {
 ///
 /// 1. Measure the bodies.
 /// 2. Snap corners and edges within the tolerance that was given, or that follows from the digits of the coordinates.
-/// 3. If many corners still lie slightly off the edges they should touch, the coordinates are noisy: snap these too.
+/// 3. If many corners still lie slightly off the edges that they should touch, the coordinates are noisy: snap these
+///    corners too.
 /// 4. Replace the outlines that changed by more than rounding, and count the corners that moved.
 /// 5. Set the gap and the assumed error of the coordinates of every body, and the centroid of every block.
 pub(super) fn heal(
@@ -320,7 +321,7 @@ impl Drawn {
         let bodies = self.numbers.iter().zip(&self.outlines).zip(&self.sizes);
         for (((number, old), size), new) in bodies.zip(new) {
             let corners = old.iter().flatten().zip(new.iter().flatten());
-            // A move by less than a millionth of the gap is only the rounding of numbers.
+            // A move by less than a millionth of the largest allowed move is only the rounding of numbers.
             let rounding = 1e-6 * reach.healing_of(*size);
             let moves = corners.map(|(a, b)| (b.at - a.at).norm());
             let moves: Vec<f64> = moves.filter(|by| *by > rounding).collect();
@@ -365,7 +366,8 @@ impl Scene {
     }
 
     /// Returns a copy of the scene, healed with the contact tolerance `gap`, in metres, and without its list of small
-    /// overlaps. Bodies that healing leaves as written still touch within this distance.
+    /// overlaps. Bodies that healing leaves as written still count as touching within this distance, but within at most
+    /// a twentieth of their size.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {

@@ -169,8 +169,8 @@ impl Scene {
         self.exact
     }
 
-    /// Returns the contact tolerance: the lengths and the angle up to which two edges count as touching. All are 0 if
-    /// every body is a set of lattice cells.
+    /// Returns the contact tolerance: the lengths and the angle up to which differences between two bodies count as
+    /// rounding. All are 0 if every body is a set of lattice cells.
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }

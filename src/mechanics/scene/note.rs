@@ -1,4 +1,4 @@
-//! [`Note`]: points out something in a scene that is allowed but that its author probably did not intend.
+//! [`Note`]: points out something in a scene that is allowed, but that the author of the scene probably did not intend.
 //!
 //! A note is not an error: the scene is analysed as written. A scene can switch off notes by their codes, in `silence`.
 
@@ -234,8 +234,8 @@ impl Notes<'_> {
     }
 
     /// Returns the distance of the point `at` from the outline of a body, if the point is outside. The point and the
-    /// distance are in the units of the file. `None` if the point is on the body, or if the body has no outline in the
-    /// file.
+    /// distance are in the units of the file. `None` if the point lies in the body or within its contact tolerance, or
+    /// if the body has no outline in the file.
     fn outside(&self, body: &Body, at: Pair) -> Option<f64> {
         let unit = self.scene.units.length();
         if body.is_schematic {

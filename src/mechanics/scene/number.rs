@@ -51,8 +51,8 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     true
 }
 
-/// Returns `number`, the value of the key `key`, if it is present and valid: at least 0, at most 10¹², and not tiny.
-/// Reports an invalid number and returns `None`. `entry` is the path of the object that contains the key.
+/// Returns `number`, the value of the key `key`, if it is present and valid: either 0, or from 10⁻³⁰ to 10¹². Reports
+/// an invalid number and returns `None`. `entry` is the path of the object that contains the key.
 pub(super) fn at_least_zero(
     findings: &mut Findings,
     entry: &Trail<'_>,

@@ -63,7 +63,7 @@ pub(super) fn polygon(
             if centroid.x.is_finite() && centroid.y.is_finite() {
                 return Some(Outline::Polygon(polygon));
             }
-            // The area is so small that it is computed as 0, and the centroid is not finite.
+            // The area is so small that its computed value is 0. The centroid is then not finite.
             vec![PolygonError::ZeroArea { ring: 0 }]
         }
         Err(flaws) => flaws,

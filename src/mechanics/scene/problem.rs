@@ -78,8 +78,8 @@ impl SceneError {
 }
 
 impl Problem {
-    /// Creates a problem. Computes its line and column from the range of bytes `span` in the text `source`; without
-    /// these, both are 0.
+    /// Creates a problem. Computes its line and column from the range of bytes `span` in the text `source`. If `span`
+    /// or `source` is `None`, line and column are 0.
     pub(super) fn new(
         path: String,
         span: Option<Range<usize>>,
@@ -170,8 +170,8 @@ fn new_wording(code: Code, message: impl Into<String>, help: impl Into<String>) 
     }
 }
 
-/// Formats a number for messages with six significant digits. A very large or small number is written with a power of
-/// ten.
+/// Formats a number for messages with at most six significant digits, but with all digits before the point. A number of
+/// at least 10⁹ or below 10⁻⁵ is written with a power of ten.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();

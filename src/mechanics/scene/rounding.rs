@@ -131,7 +131,7 @@ impl Table {
     }
 
     /// Returns the largest number of digits that occurs in the table. `None` if fewer than the fraction `share` of
-    /// `count` numbers have that many digits, or if it exceeds [`MAX_ROUNDED_DIGITS`].
+    /// `count` numbers have that many digits, or if the number of digits exceeds [`MAX_ROUNDED_DIGITS`].
     fn last_digit(&self, share: f64, count: usize) -> Option<usize> {
         let last = self.0.iter().rposition(|n| *n > 0)?;
         let enough = self.0[last] as f64 >= share * count as f64;
@@ -190,7 +190,7 @@ impl Digits {
         if !self.wide && long && self.significant.at_least(8) > 0 {
             return Some(Rounding {
                 source: ToleranceSource::Float32,
-                // Double the error, because the coordinates may be results of calculations with other 32-bit floats.
+                // Double the error, because the coordinates may have been computed from other 32-bit floats.
                 error: 2.0 * float,
             });
         }

@@ -26,7 +26,7 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// Parses a JSON text. The error contains the byte at which the text is not JSON.
+    /// Parses a JSON text. The error contains the index of the byte from which on the text is not valid JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {

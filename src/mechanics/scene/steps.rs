@@ -43,8 +43,8 @@ impl StepContext<'_> {
     }
 }
 
-/// Returns the only frame of a scene without steps. All `blocks` are placed, and the robots hold the blocks given by
-/// `holds`.
+/// Returns the only frame of a scene without steps. `blocks` is the number of blocks, which are all placed. The robots
+/// hold the blocks given by `holds`.
 pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
     Frame {
         title: String::new(),

@@ -250,7 +250,7 @@ impl Session {
     }
 
     /// Returns the placed blocks as a scene with one frame, for figures and further analysis. On a lattice, the scene
-    /// also lists removed blocks, but its frame does not contain them.
+    /// may still list removed blocks, but its frame does not contain them.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -260,9 +260,9 @@ impl Session {
         Analysis::with(&self.scene, &self.options)
     }
 
-    /// Computes the requested margins of the placed blocks: how far friction, tilt, loads and robot limits may change
-    /// before the blocks fall, and the kernel. The values equal those of [`Session::analysis`] with
-    /// [`Options::margins`]. `None` if there is no frame.
+    /// Computes the requested margins of the placed blocks: how far friction, tilt, loads, robot limits and the safety
+    /// kernel may change before the blocks fall. The values equal those of [`Session::analysis`] with
+    /// [`Options::margins`]. The result is never `None`, because a session always has one frame.
     ///
     /// ```
     /// use drystone::scene::format::BlockEntry;

@@ -1,5 +1,5 @@
-//! [`Amounts`]: the forces at all contacts and grips of a program. [`Effort`]: the number of programs and iterations
-//! that a result needed.
+//! [`Amounts`]: the forces at all contacts and grips of a program. [`Effort`]: how many optimisation programs were
+//! solved for a result, and how many iterations they took.
 
 use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -115,7 +115,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Returns the sum of two efforts: their iterations and their programs are added up.
+    /// Returns the sum of two efforts: the numbers of iterations and of programs are each added.
     pub fn plus(self, other: Effort) -> Effort {
         Effort {
             iterations: self.iterations + other.iterations,

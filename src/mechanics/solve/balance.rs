@@ -1,5 +1,5 @@
-//! The program of least force: finds admissible forces of least sum that balance every block, or a motion that no
-//! contact resists and along which the structure falls.
+//! The linear program of least force: finds admissible forces of least sum that balance every block. If there are none,
+//! finds a motion that no contact resists and along which the structure falls.
 //!
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
@@ -135,7 +135,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     match solved.status {
         Status::Solved => {
             let effort = &mut found.effort;
-            // If the loads differ by many powers of ten, use the optimum that is accurate for light blocks, too.
+            // If the loads differ by many powers of ten, use the optimum that is also accurate for light blocks.
             // Otherwise choose the optimum of least Σ force² (steps 2 to 4), or repair the optimum that the solver
             // found.
             if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
@@ -196,7 +196,7 @@ fn balance_by_levels(
         return None;
     }
     // Refine the optimum level by level, from the largest loads to the smallest. Then choose the forces of least
-    // Σ force² on its face.
+    // Σ force² on the face of optima.
     let (loads, columns) = (&whole.loads, &whole.columns);
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.optimal_face(&optimum, 1.0);
@@ -209,8 +209,8 @@ fn balance_by_levels(
     })
 }
 
-/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least-squares problem on
-/// the face of its optima.
+/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least-squares problem on the face
+/// of optima.
 fn solve_dual(
     program: &Program,
     whole: &Face,
@@ -228,7 +228,7 @@ fn solve_dual(
     } else {
         solve_with_retry(&dual, settings, effort)
     };
-    // If many basic columns are doubtful, solve again to a finer tolerance.
+    // If many columns are doubtful (see `doubtful_share`), solve again to a finer tolerance.
     let solved = read(&dual, &answer);
     if has_many_blocks
         && settings.choice == Choice::Unique

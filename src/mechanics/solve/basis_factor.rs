@@ -51,8 +51,9 @@ pub(super) struct BasisFactor {
 }
 
 impl BasisFactor {
-    /// Chooses one column for each of `positions` positions, and factors the matrix of the chosen columns. `rank` takes
-    /// the index of a column; columns with a smaller rank are preferred.
+    /// Chooses one of `columns`, or else a unit column, for each of the `positions` positions, and factors the matrix
+    /// of the chosen columns. `rank` returns the rank of the column with a given index; columns with a smaller rank are
+    /// preferred.
     pub fn new(
         mut columns: Vec<SparseColumn>,
         positions: usize,

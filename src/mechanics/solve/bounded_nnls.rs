@@ -102,7 +102,7 @@ impl BoundedNnls {
         let size = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let mut search = Search::new(self, loads, columns);
         if !self.passive.is_empty() {
-            // The initial passive set may already be optimal.
+            // The passive set of an earlier search may already be optimal.
             self.solve_passive(&mut search, Digits::All)?;
         }
         let (mut entry, mut digits) = (Entry::Several, Digits::All);

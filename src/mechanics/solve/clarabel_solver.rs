@@ -1,4 +1,4 @@
-//! Solves a program with the conic solver clarabel.
+//! Solves a linear or quadratic program with the conic solver clarabel.
 //!
 //! clarabel implements a primal-dual interior-point method on the homogeneous embedding
 //! ([Goulart24](crate::doc::references)). These settings differ from its defaults:
@@ -54,7 +54,7 @@ pub fn by_clarabel(
     };
     solver.solve();
     let solution = solver.solution;
-    // An "almost solved" status counts as unsolved: the caller tries again or uses another program.
+    // An "almost solved" status counts as unsolved: the caller then tries again or solves another linear program.
     let status = match solution.status {
         SolverStatus::Solved => Status::Solved,
         SolverStatus::PrimalInfeasible => Status::Infeasible,

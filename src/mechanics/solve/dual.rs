@@ -156,7 +156,7 @@ pub(super) fn solve_static_form(
     if answer.x.is_empty() {
         return solved;
     }
-    // The velocities are the multipliers of the balance with the opposite sign.
+    // The velocities are the multipliers of the balance rows with the opposite sign.
     for (y, multiplier) in solved.y.iter_mut().zip(&answer.z) {
         *y = -multiplier;
     }

@@ -208,8 +208,8 @@ fn factor_semidefinite(a: &mut [f64], n: usize) -> Vec<bool> {
             d -= a[j * n + k] * a[j * n + k];
         }
         if d <= SEMIDEFINITE_PIVOT_TOL * max_diagonal {
-            // In the columns in use, this row depends linearly on earlier rows. If the loads need more than that, the
-            // later check of the balance fails.
+            // Restricted to the columns in use, this row depends linearly on earlier rows. If the entry of the loads in
+            // this row does not depend on the earlier entries in the same way, the later check of the balance fails.
             for i in j..n {
                 a[i * n + j] = 0.0;
             }

@@ -66,7 +66,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         for (v, d) in y.iter_mut().zip(&direction) {
             *v += step * d;
         }
-        // Step 3: remove the rows that became tight.
+        // Step 3: restrict the null space to directions that keep the rows that became tight.
         let limit = TIGHT_TOL * norm(&y).max(1.0);
         let (tight, still_open): (Vec<&Row>, Vec<&Row>) =
             open.into_iter().partition(|row| dot(row, &y) <= limit);
@@ -111,8 +111,8 @@ fn sum_of_openings(rows: &[Row], count: usize) -> Vec<f64> {
     openings
 }
 
-/// Ratio test: returns the step from `y` along `direction` at which the first open row becomes 0. `None` if no open row
-/// becomes 0.
+/// Ratio test: returns the step from `y` along `direction` at which the first open row becomes tight. `None` if no open
+/// row becomes tight.
 fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     let step = |row: &&Row| {
         let (change, now) = (dot(row, direction), dot(row, y));
@@ -121,7 +121,8 @@ fn max_step(open: &[&Row], y: &[f64], direction: &[f64]) -> Option<f64> {
     open.iter().filter_map(step).reduce(f64::min)
 }
 
-/// Returns the motion nearest to `y` at which all rows are 0: the projection of `y` onto their null space.
+/// Returns the motion m nearest to `y` with row·m = 0 for all rows: the projection of `y` onto the null space of the
+/// rows.
 pub(crate) fn project_onto_null_space(rows: &[Row], y: &[f64]) -> Vec<f64> {
     let mut null_space = NullSpace::whole(y.len());
     for row in rows {

@@ -1,5 +1,5 @@
-//! [`force_polygon`]: all forces of a grip without limits with which the blocks stay balanced, as the corners and edges
-//! of a polygon.
+//! [`force_polygon`]: all forces that a grip without force limits can exert while every block stays balanced, as the
+//! corners and edges of a polygon.
 //!
 //! The polygon is the projection of all balances onto the force F of the grip. One interior-point solution gives the
 //! farthest force in a first direction n. Then the method walks around the polygon, from one basis of the simplex
@@ -89,8 +89,8 @@ impl Turn {
     }
 }
 
-/// Returns the polygon of all forces that `grip` can exert. `None` if no force balances the loads, if the polygon is
-/// unbounded in too many directions, or if the walk fails.
+/// Returns the polygon of all forces that the grip with the index `grip` can exert while every block stays balanced.
+/// `None` if no force balances the loads, if the polygon is unbounded in too many directions, or if the walk fails.
 pub fn force_polygon(program: &Program, grip: usize) -> Option<ForcePolygon> {
     let mut walk = first_basis(program, grip)?;
     walk.reach_vertex()?;
@@ -141,7 +141,7 @@ fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
     let own = [own(0)?, own(1)?];
     let variables = unknowns.iter().map(|u| u.variable.clone()).collect();
     let simplex = Simplex::new(variables, placed_loads, |k| unknowns[k].rank);
-    // An amount without limits must be basic: outside the basis it could not change.
+    // A column without bounds must be basic: the amount of a column outside the basis stays at one of its bounds.
     let is_free = |v: &Variable| v.lower == f64::NEG_INFINITY && v.upper == f64::INFINITY;
     let mut free = (0..unknowns.len()).filter(|k| is_free(&unknowns[*k].variable));
     free.all(|k| simplex.is_basic(k)).then(|| Walk {
@@ -156,8 +156,9 @@ fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
     })
 }
 
-/// Finds the farthest force of a grip in the first of [`FIRST_ANGLES`] in which there is one. Returns the direction and
-/// the optimum. `None` if there is no such angle, if no force balances the loads, or if the solver has no result.
+/// Tries the directions [`FIRST_ANGLES`] in turn until there is a farthest force of the grip in this direction. Returns
+/// the direction and the optimum. `None` if there is no such direction, if no force balances the loads, or if the
+/// solver ends without a result.
 fn first_optimum(loads: &[f64], columns: &[Column], grip: usize) -> Option<(Vector, Dual)> {
     for angle in FIRST_ANGLES {
         let (sin, cos) = libm::sincos(angle);
@@ -307,7 +308,8 @@ impl Walk<'_> {
         let turns = self.changes().into_iter().map(|change| {
             let across = way.sign() * cross(tangent, change.force);
             let turn = libm::atan2(across, tangent.dot(&change.force));
-            // Rounding may rotate the edge that has just been walked beyond 180°, and any other edge below 0.
+            // The edge that has just been walked, in the opposite direction, has an angle of 180°. Rounding can turn
+            // this angle into −180°, and make the angle of another edge slightly negative.
             match turn < -FRAC_PI_2 {
                 true => (turn + TAU, change),
                 false => (turn.max(0.0), change),
@@ -323,7 +325,7 @@ impl Walk<'_> {
         next.filter(|(turn, _)| *turn < PI + SAME_ANGLE)
     }
 
-    /// Returns the changes of the force for all columns outside the basis that influence it.
+    /// Returns the change of the grip's force for each column outside the basis that influences this force.
     fn changes(&self) -> Vec<Change> {
         let [x, y] = self.own.map(|own| self.simplex.multipliers(own));
         let change = |k: usize| {

@@ -1,5 +1,5 @@
-//! [`IncrementalCholesky`]: a Cholesky factor that is updated when a row and column is added to the matrix or removed
-//! from it.
+//! [`IncrementalCholesky`]: a Cholesky factor that is updated when a row and a column are added to the matrix or
+//! removed from it.
 //!
 //! A row is appended by one forward substitution and removed by Givens rotations (update and downdate of a factor,
 //! Golub and Van Loan, Matrix Computations, section 6.5). Rows are stored from their first nonzero entry (skyline

@@ -185,8 +185,8 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: computes the least Σ adhesion. Returns the optimum, and true if admissible forces had a small cost in its
-/// program.
+/// Stage 1: computes the least Σ adhesion. Returns the optimum, and true if admissible forces had a small cost in the
+/// last linear program.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -360,8 +360,8 @@ fn least_force_face(
 
 /// Solves the kinematic dual of stage 2 or 3.
 ///
-/// With many blocks, a stage that ends without a result with plain conditioning would do the same with full
-/// conditioning, after two to four times as long. It is therefore not solved again; the caller keeps the result of the
+/// With many blocks, a stage that ends without a result with plain conditioning also does so with full conditioning,
+/// which takes two to four times as long. The stage is therefore not solved again; the caller keeps the result of the
 /// previous stage.
 fn solve_stage(
     face: &Face,
@@ -405,8 +405,8 @@ fn concentrate(
         {
             break;
         }
-        // Reweighting: the cost of a column is nearly proportional to 1/amount. It is at most a thousand times the cost
-        // of the column with the largest amount.
+        // Reweighting: the cost of a column is nearly proportional to 1/amount. It is at most about a thousand times
+        // the cost of the column with the largest amount.
         let most = face.adhesion_amounts(&face.amounts).fold(0.0, f64::max);
         for (column, amount) in face.columns.iter_mut().zip(&face.amounts) {
             if column.force.is_adhesion() {

@@ -54,9 +54,9 @@ fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool)
 /// Returns the refined optimum of stage 1, and the size of the smallest forces that are accurate in it.
 ///
 /// `None` if loads and adhesion do not differ by many powers of ten, or if the refinement fails. `first` is the optimum
-/// of stage 1; `has_many_blocks` says whether the program has many blocks. The unrefined sum of adhesion may consist of
-/// the solver's error. If the refined sum is far smaller than the smallest accurate force, the optimum is refined
-/// again.
+/// of stage 1; `has_many_blocks` says whether the program has many blocks. The unrefined sum of adhesion may consist
+/// only of the solver's error. If the refined sum is far smaller than the smallest accurate force, the optimum is
+/// therefore refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
     first: &Dual,
@@ -129,7 +129,7 @@ fn concentrate(
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Face {
-    // The smallest load above 0 of the blocks on which a column acts; 1 if there is none.
+    // The smallest nonzero load of the blocks on which a column acts; 1 if there is none.
     let block_loads = block_loads(&face.loads);
     let lighter_load = |column: &Column| {
         let loads = column.entries().map(|(row, _)| block_loads[row / 3]);
@@ -144,8 +144,8 @@ fn concentrate(
         if before < 2 {
             break;
         }
-        // Reweighting: the cost of a column is proportional to about 1/share, where share = amount / smaller load. It
-        // is at most a thousand times the cost of the largest share.
+        // Reweighting: the cost of a column is nearly proportional to 1/share, where share = amount / smaller load. It
+        // is at most about a thousand times the cost of the column with the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
             .map(|(column, amount)| match column.force.is_adhesion() {
@@ -163,7 +163,7 @@ fn concentrate(
         let Some(solved) = optimum(&face, force_size, settings, effort, cost) else {
             break;
         };
-        // Drop the columns whose amount is exactly 0; stop if there are no such columns.
+        // Drop the adhesion columns whose amount is exactly 0; stop if there are no such columns.
         face.amounts = solved.amounts;
         face = face.restrict(|column, amount| !column.force.is_adhesion() || amount > 0.0);
         if face.columns.iter().filter(adheres).count() == before {

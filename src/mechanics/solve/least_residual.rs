@@ -1,5 +1,5 @@
-//! Two linear programs for components near the limit of stability, where the program of least force fails. One finds
-//! any forces that balance the loads, the other finds forces with the least residual.
+//! Two linear programs for a structure near its limit of stability, where the linear program of least force fails. One
+//! finds any forces that balance the loads, the other finds forces with the least residual.
 //!
 //! Near that limit the program of least force ends without a result: just before the limit its optimum grows without
 //! bound, and past the limit it is infeasible. These two programs have no cost of forces:

@@ -73,8 +73,8 @@ pub(super) fn lightest(loads: &[f64]) -> f64 {
     positive.fold(f64::INFINITY, f64::min)
 }
 
-/// True if the amounts balance every body, relative to its own load and to `force_size`. `force_size` is the size of
-/// the smallest forces that must be accurate.
+/// True if the residual of every body is negligible compared with the body's load and with `force_size`, or is only
+/// rounding. `force_size` is the size of the smallest forces that must be accurate.
 fn balances_every_body(
     loads: &[f64],
     columns: &[Column],
@@ -82,7 +82,7 @@ fn balances_every_body(
     force_size: f64,
 ) -> bool {
     let remaining = residual(loads, columns, amounts);
-    // Compute Σ |force| on each body, which bounds the rounding error of its residual.
+    // Compute Σ |force| on each body, to which the rounding error of its residual is proportional.
     let mut acting = block_loads(loads);
     for (column, amount) in columns.iter().zip(amounts) {
         for (row, value) in column.entries() {
@@ -112,7 +112,7 @@ fn residual(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
 }
 
 /// Refines an optimum until forces of size `force_size` are accurate. `None` if the solver finds no optimum at a level,
-/// or if eight levels are not enough.
+/// if the residual at a level is exactly 0, or if eight levels are not enough.
 ///
 /// The resulting amounts balance every body. Every column has an amount of exactly 0 or a slack of exactly 0.
 pub(super) fn refined_optimum(
@@ -137,7 +137,7 @@ pub(super) fn refined_optimum(
     None
 }
 
-/// Returns a face with the amounts of least Σ force² on it. If no amounts are found, or if they do not balance every
+/// Returns the face with the amounts of least Σ force² on it. If no amounts are found, or if they do not balance every
 /// body, the face is returned unchanged.
 pub(super) fn with_least_squares(
     face: Face,

@@ -36,8 +36,8 @@ pub struct ExtremeValue {
     /// Forces that balance the loads at the extreme value; `None` if `limit` is not [`Limit::At`].
     pub forces: Option<Amounts>,
     /// Three velocities for each block. With [`Limit::At`], they are the collapse mechanism just beyond the extreme
-    /// value. With [`Limit::Infeasible`], they are a motion along which the loads do work for every load factor. `None`
-    /// in all other cases, and if no such motion was computed.
+    /// value. With [`Limit::Infeasible`], they are a motion along which the loads do work for every allowed load
+    /// factor. `None` in all other cases, and if no such motion was computed.
     pub motion: Option<Vec<f64>>,
 }
 
@@ -75,7 +75,7 @@ pub fn largest_factor(program: &Program, direction: &[f64]) -> ExtremeValue {
 
 /// Finds the λ nearest to 0, positive or negative, for which admissible forces balance `program.loads + λ·direction`.
 ///
-/// [`Limit::Infeasible`] means that no λ allows a balance. If some λ allows one, the program has an optimum.
+/// [`Limit::Infeasible`] means that no λ allows a balance. If some λ allows a balance, there is a λ nearest to 0.
 pub fn nearest_factor(program: &Program, direction: &[f64]) -> ExtremeValue {
     factor_along(program, direction, Extremum::Nearest)
 }
@@ -88,7 +88,7 @@ enum Extremum {
 }
 
 impl Extremum {
-    /// Returns the number of rows at the end of the program whose multipliers determine λ.
+    /// Returns the number of rows, at the end of the linear program, whose multipliers determine λ.
     fn rows(self) -> usize {
         match self {
             Extremum::Largest => 1,
@@ -96,7 +96,7 @@ impl Extremum {
         }
     }
 
-    /// Computes λ from the multipliers of the last rows of the program; `None` if the solver returned too few
+    /// Computes λ from the multipliers of the last rows of the linear program; `None` if the solver returned too few
     /// multipliers.
     fn factor(self, multipliers: &[f64]) -> Option<f64> {
         match (self, multipliers) {
@@ -136,7 +136,8 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            // No λ allows a balance: along this motion, the loads do work for every λ.
+            // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do work for each of
+            // these λ.
             (Status::Unbounded, _) => {
                 return ExtremeValue {
                     motion: Some(scaled.motion(&answer)),
@@ -246,7 +247,7 @@ pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
 }
 
 /// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other limits
-/// stay as in `program`.
+/// stay as in `program`. The components are 0 for the force x, 1 for the force y and 2 for torque/L.
 pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> ExtremeValue {
     // Remove the limit of the component, and give each unit of it a cost of 1. The optimum then has the least amount of
     // this component.

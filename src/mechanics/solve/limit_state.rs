@@ -1,4 +1,4 @@
-//! [`LimitState`]: the largest load factor, and the mechanism and the amount of every column at this factor.
+//! [`LimitState`]: the largest load factor, with the amounts of all columns and the mechanism at this factor.
 //!
 //! [`largest_factor`](super::largest_factor) adds up the columns to the forces of contacts and grips. To find out
 //! whether forces and mechanism are unique, the amount of every single column is needed.
@@ -25,7 +25,7 @@ pub struct LimitState {
 /// Finds the largest λ ≥ 0 for which admissible forces balance `program.loads + λ·direction`, and the forces and the
 /// mechanism at this λ.
 ///
-/// `None` if λ has no largest value, if no λ allows a balance, or if the solver ends without a result.
+/// `None` if λ has no largest value, if no λ ≥ 0 allows a balance, or if the solver ends without a result.
 pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
     let scaled = ScaledLoads::new(program, direction)?;
     let columns = scaled.columns(program);
@@ -52,7 +52,8 @@ pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
     None
 }
 
-/// Returns the columns of a program without redundant columns, with limits in program units.
+/// Returns the columns of a program without redundant columns. Their limits are in program units, not scaled to the
+/// loads.
 fn columns_of(program: &Program) -> Vec<Column> {
     ReducedColumns::new(&columns_in(program, 1.0)).columns
 }

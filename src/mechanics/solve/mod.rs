@@ -1,5 +1,5 @@
-//! Solves the linear and quadratic programs of a structure: for the least force if the structure stands, and for the
-//! least adhesion if it falls.
+//! Solves the linear and quadratic programs of a structure: for the least forces with which it stands, for the least
+//! adhesion with which it would stand, and for its load limits.
 //!
 //! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts: a verdict needs
 //! forces or a motion that [`crate::proof`] has checked. Of several optima, the optimum of least Σ force² is chosen by

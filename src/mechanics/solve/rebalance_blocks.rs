@@ -1,4 +1,5 @@
-//! Changes the forces of a solver slightly until every block is balanced relative to the forces on that block.
+//! Slightly changes the forces that a solver returned, until every block is balanced relative to the forces on that
+//! block.
 //!
 //! A solver balances every block to a billionth of the heaviest load. For a wall as a whole, this is accurate. For a
 //! pebble in the wall, however, the error can exceed the weight of the pebble. Two programs correct the forces by
@@ -88,8 +89,8 @@ fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>)
 /// Divides given forces into amounts of the columns `list`. Every ray of the friction cone of a contact with pressure
 /// gets an amount above 0, unless the friction is at its limit.
 ///
-/// A contact force (N, T) with s = |T|/(μN) is divided into three parts: (1 − s)/2 of N along the normal, (1 + 3s)/4
-/// along the ray on the side of T, and (1 − s)/4 along the other ray.
+/// Let s be |T|/(μN), the fraction of the friction limit that is used. The normal force N is divided into three parts:
+/// (1 − s)/2 along the normal, (1 + 3s)/4 along the ray on the side of T, and (1 − s)/4 along the other ray.
 fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     let amount = |column: &Column| match column.force {
         Force::Ray {
@@ -178,9 +179,9 @@ fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
 /// Changes given forces slightly to reduce the residual of each block relative to the forces on it. `None` if no change
 /// improves the balance.
 ///
-/// Let r be the residual, W the diagonal matrix of the amounts of the rays, and D the diagonal matrix of the scales of
-/// the rows. Each round solves the program min ½ |ε|² + ½ weight |v|²  s.t.  D A W ε + v = D r. A block that no forces
-/// can balance keeps its residual v.
+/// Let r be the residual and ε the relative changes of the amounts. Let W be the diagonal matrix of the amounts of the
+/// rays, and D the diagonal matrix of the scales of the rows. Each round solves the program min ½ |ε|² + ½ weight |v|²
+/// s.t.  D A W ε + v = D r. A block that no forces can balance keeps its residual v.
 pub fn rebalance_relative(
     program: &Program,
     amounts: &Amounts,
@@ -199,7 +200,7 @@ pub fn rebalance_relative(
         let weights = ray_amounts(program, &list, &best);
         let used: Vec<usize> = (0..list.len()).filter(|k| weights[*k] > 0.0).collect();
         let conic = relative_changes(&list, &used, &weights, &scales, &residual, size);
-        // Stop if the scales are infinite, because the loads are near the smallest number of f64.
+        // If the loads are near the smallest number of f64, the scales are infinite. Stop then.
         if !all_finite(&conic) {
             break;
         }
@@ -214,7 +215,8 @@ pub fn rebalance_relative(
         }
         let next = apply(&best, &list, &changes);
         let (after, total) = block_residuals(program, &next);
-        // Convergence test: the sum of the digits of all blocks must increase. Some blocks may have no balance.
+        // Convergence test: the number of correct digits, summed over all blocks, must increase. It need not increase
+        // for every block, because some blocks may have no balance.
         if balanced_digits(&after, &row_scales(program, &total))
             < balanced_digits(&residual, &scales) + MIN_DIGITS_GAINED
         {
@@ -292,10 +294,11 @@ pub fn rebalance_absolute(
     is_improved.then_some(best)
 }
 
-/// Performs one round of [`rebalance_absolute`]: returns forces with at most half the residual, or `None` if it
-/// finds no such forces.
+/// Performs one round of [`rebalance_absolute`]: returns forces whose residual is at most half as large, or `None` if
+/// it finds no such forces.
 ///
-/// No amount decreases by more than its own value or `ratio` times the residual (see [`UNBOUNDED_RATIOS`]).
+/// An amount decreases by at most its own value or `ratio` times the residual, whichever is smaller (see
+/// [`UNBOUNDED_RATIOS`]).
 fn correct_once(
     program: &Program,
     list: &[Column],
@@ -303,7 +306,7 @@ fn correct_once(
     ratio: f64,
     effort: &mut Effort,
 ) -> Option<Amounts> {
-    // Scale the residual to size 1.
+    // Scale the residual so that its largest entry is 1.
     let (residual, _) = block_residuals(program, best);
     let size = residual.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let weights = ray_amounts(program, list, best);

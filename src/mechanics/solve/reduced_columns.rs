@@ -27,8 +27,8 @@ impl ReducedColumns {
         }
     }
 
-    /// Returns a list with an entry for each of `all` columns: the given amounts for the remaining columns, 0 for the
-    /// omitted columns.
+    /// Returns a list with one number for each column of `all`: the given amount for a remaining column, 0 for an
+    /// omitted column.
     pub fn expand_amounts(&self, all: &[Column], amounts: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; all.len()];
         for (amount, original) in amounts.iter().zip(&self.original_indices) {
@@ -38,7 +38,7 @@ impl ReducedColumns {
     }
 
     /// Converts an optimum for the remaining columns to an optimum for all columns. Where both rays of a cone have an
-    /// amount, half of the smaller amount of each ray becomes a pure normal force.
+    /// amount above 0, half of the smaller amount is taken from each ray and becomes a pure normal force.
     pub fn expand_optimum(&self, all: &[Column], solved: Dual) -> Dual {
         let mut full = Dual {
             amounts: self.expand_amounts(all, &solved.amounts),

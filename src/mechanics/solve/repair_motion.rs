@@ -43,7 +43,7 @@ const MAX_ROUNDS: usize = 5;
 /// must not move it.
 const NON_BINDING_RATIO: f64 = 1e4;
 
-/// Returns a motion near a given motion that no contact resists. `None` if no such motion is found.
+/// Returns a motion that no contact resists and that is near a given motion. `None` if no such motion is found.
 ///
 /// The largest velocity of the given motion must be about 1. Some motions are impossible without violations, such as
 /// the motion of a flat wedge into its notch. The loads then have almost no power along the corrected motion.
@@ -52,7 +52,7 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
     let (mut held, mut contacts) = (Vec::new(), Vec::new());
     for column in columns(program) {
         match column.force {
-            // A component has two columns, one for each sign. One of them is enough for an equality.
+            // A component of a grip has two columns, one for each sign. One of them is enough for an equality.
             Force::Grip { sign, .. } if column.limit > firm && sign > 0.0 => held.push(column),
             Force::Grip { .. } => {}
             _ => contacts.push(column),
@@ -63,8 +63,8 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
         .find_map(|extra| open_contacts(motion, &held, &contacts, extra, effort))
 }
 
-/// Changes a motion until every contact opens at a speed of at least `extra` and the grip components in `held` do not
-/// move. With `extra` = 0, small violations may remain. `None` if no such motion is found.
+/// Changes a motion until every contact opens at a speed of about `extra` or more (at least half of it), and the grip
+/// components in `held` do not move. With `extra` = 0, small violations may remain. `None` if no such motion is found.
 fn open_contacts(
     motion: &[f64],
     held: &[Column],
@@ -118,7 +118,7 @@ fn open_contacts(
             *v += worst * d;
         }
     }
-    // A violation above the rounding may remain, because columns whose length is far from 1 have larger rounding
+    // A violation above the tolerance may remain, because columns whose length is far from 1 have larger rounding
     // errors. The proof checks it.
     (extra == 0.0).then_some(motion)
 }

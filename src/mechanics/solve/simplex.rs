@@ -151,9 +151,9 @@ impl Simplex {
     }
 
     /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and the position
-    /// of the amount that reaches its bound. Amounts change by `sign` · `change` per unit. Of several such amounts, the
-    /// amount with the largest change is taken, because the new basis is then farthest from singular. `None` if no
-    /// amount reaches a bound.
+    /// of the amount that reaches its bound. The amounts change by `sign` · `change` per unit of the step. If several
+    /// amounts reach a bound, the one with the largest change is taken, because the new basis is then farthest from
+    /// singular. `None` if no amount reaches a bound.
     fn ratio_test(&self, change: &[f64], sign: f64) -> Option<(f64, usize)> {
         // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
         let approaching = change.iter().enumerate().filter_map(|(position, change)| {

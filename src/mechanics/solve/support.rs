@@ -40,8 +40,8 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
     (100.0 * TOLERANCE, Conditioning::Full),
 ];
 
-/// Finds the force of `grip` that is largest in `direction`, a unit vector. All other forces have no cost. `is_retry`
-/// is true if the result with plain conditioning could not be proved; only full conditioning is then tried.
+/// Finds the force of `grip` with the largest component along `direction`, a unit vector. `is_retry` is true if the
+/// result with plain conditioning could not be proved; only full conditioning is then tried.
 pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,
@@ -63,7 +63,7 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
                     motion: answer.x[..loads.len()].iter().map(|v| -v).collect(),
                 };
             }
-            // No mechanism moves the grip point with this velocity, so nothing limits the force.
+            // No mechanism moves the grip point with the velocity `direction`, so nothing limits the force.
             Status::Infeasible => return Support::Unbounded,
             Status::Unbounded => return Support::Infeasible,
             Status::Unsolved => {}
@@ -72,8 +72,9 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
     Support::Unsolved
 }
 
-/// Returns the cost of a column for the program whose optimum is the farthest force of a grip in a direction. For the
-/// force components of this grip, the cost is minus the component along the direction; for all other columns it is 0.
+/// Returns the cost function of the program that finds the force of a grip with the largest component along a
+/// direction. For the force components of this grip, the cost is minus the component along the direction; for all other
+/// columns it is 0.
 pub(super) fn farthest_cost(grip: usize, direction: Vector) -> impl Fn(&Column) -> f64 {
     move |column| match column.force {
         Force::Grip {

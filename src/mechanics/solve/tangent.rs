@@ -64,7 +64,8 @@ impl Tangent {
         self.residual_sum + self.work - self.work_in(sibling)
     }
 
-    /// Returns the motion of largest power: three velocities per block.
+    /// Returns the motion along which the loads have the largest power: three velocities per block, each between −1 and
+    /// 1.
     pub fn motion(&self) -> Vec<f64> {
         self.y.iter().map(|v| -v).collect()
     }

@@ -167,8 +167,8 @@ pub struct Bars {
 
 impl Bars {
     /// Creates a histogram of the values, with five to ten bars of equal width. The edges of the bars are round numbers
-    /// from 0 to at least `most`, or to at least the largest value if `most` is `None`. There are no bars if this
-    /// limit is not positive and finite. A value on the edge between two bars is counted in the upper bar. The last
+    /// from 0 to at least `most`, or to at least the largest value if `most` is `None`. There are no bars if this limit
+    /// is not positive and finite. A value on the edge between two bars is counted in the bar to its right. The last
     /// bar also counts all larger values.
     ///
     /// ```
@@ -204,8 +204,8 @@ impl Bars {
 /// Draws a histogram and returns it as an SVG document.
 ///
 /// # Errors
-/// Returns [`ChartError`] if there are no bars, if there is not one more edge than counts, or if the plotters library
-/// reports an error.
+/// Returns [`ChartError`] if there are no bars, if the number of edges is not one more than the number of bars, or if
+/// the plotters library reports an error.
 pub fn bars(chart: &Bars) -> Result<String, ChartError> {
     if chart.counts.is_empty() || chart.edges.len() != chart.counts.len() + 1 {
         return Err(ChartError::new("there is nothing to count"));
@@ -240,7 +240,7 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
     plot::document(SMALL_SIZE, &chart.title, |svg| plot::course(chart, svg))
 }
 
-/// Returns the smallest number of the form 1·10ⁿ, 2·10ⁿ or 5·10ⁿ, with a whole n, that is at least `value`. `value`
+/// Returns the smallest number of the form 1·10ⁿ, 2·10ⁿ or 5·10ⁿ, with an integer n, that is at least `value`. `value`
 /// must be positive.
 pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));

@@ -14,7 +14,7 @@ pub const HEAD_WIDTH: f64 = 3.0;
 pub const HEAD_LENGTH: f64 = 4.5;
 
 /// Returns the length and the width of the head of an arrow. `length` is the length of the whole arrow, and `width` is
-/// the width of its shaft. All four have the same unit.
+/// the width of its shaft. All four lengths have the same unit.
 pub fn head_size(length: f64, width: f64) -> (f64, f64) {
     let full = HEAD_LENGTH * width;
     let long = length.min(full);
@@ -50,14 +50,15 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
 /// a stroke along it does not cross the arrow between head and shaft.
 pub fn head(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
     let arrow = straight(from, along, width);
-    // Corners 1 to 5 of the arrow go from one side of the shaft around the tip to the other side.
+    // Corners 1 to 5 of the arrow, counted from 0, go from one side of the shaft around the tip to the other side.
     let corners = arrow.points().skip(1).take(5);
     Outline::line(corners)
 }
 
 /// Returns the outline of an arrow along a circle around `centre`. The arrow begins at the angle `start` and turns
 /// through the angle `sweep`. Angles are in radians. They are 0 to the right of the centre and increase anticlockwise
-/// on the page. The shaft is `width` pixels wide. The outline is empty if `sweep` is zero or `radius` is not positive.
+/// on the page; a negative `sweep` turns clockwise. The shaft is `width` pixels wide. The outline is empty if `sweep`
+/// is zero or `radius` is not positive.
 pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f64) -> Outline {
     if !(sweep.abs() > 0.0 && radius > 0.0) {
         return Outline::default();
@@ -99,7 +100,7 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;
-    // The distance of the control points from the ends of a curve, so that the curve approximates the arc.
+    // The distance of the control points from the ends of a curve with which the curve approximates the arc.
     let handle = 4.0 / 3.0 * libm::tan(step / 4.0) * radius;
     let at = |angle: f64, along: f64| {
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));

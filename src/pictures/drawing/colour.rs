@@ -59,8 +59,8 @@ impl Colour {
         Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
     }
 
-    /// Returns the approximate brightness, from 0 (black) to 1 (white). It is the sum of the sRGB channels with the
-    /// weights of Rec. 709.
+    /// Returns the approximate brightness, from 0 (black) to 1 (white). It is the weighted mean of the sRGB channels,
+    /// with the weights of Rec. 709.
     pub fn brightness(self) -> f64 {
         let [r, g, b] = self.0;
         (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)) / 255.0

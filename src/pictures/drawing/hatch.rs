@@ -3,8 +3,8 @@
 use super::{Outline, PagePoint, PageRect};
 
 /// Returns the parts of parallel 45° lines that lie inside the rings and inside `page`. `spacing` is the vertical
-/// distance of two lines in pixels. The rings are filled by the even-odd rule, so holes stay empty. Parts that are
-/// shorter than a pixel may be left out.
+/// distance of neighbouring lines in pixels. The rings are filled by the even-odd rule, so holes stay empty. Parts that
+/// are shorter than a pixel may be left out.
 pub fn hatch(rings: &[Vec<PagePoint>], page: PageRect, spacing: f64) -> Vec<[PagePoint; 2]> {
     let mut lines = Vec::new();
     if !(spacing > 0.0) {

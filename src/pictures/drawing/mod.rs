@@ -198,7 +198,7 @@ impl Stroke {
         }
     }
 
-    /// Returns the same stroke with dashes. `dash` has the lengths of dashes and gaps in turn, in pixels.
+    /// Returns the same stroke with dashes. `dash` contains the lengths of dashes and gaps in turn, in pixels.
     pub fn dashed(self, dash: impl Into<Vec<f64>>) -> Stroke {
         Stroke {
             dash: dash.into(),
@@ -206,7 +206,7 @@ impl Stroke {
         }
     }
 
-    /// Returns the same stroke with sharp corners instead of round ones.
+    /// Returns the same stroke with sharp corners and flat ends instead of round ones.
     pub fn mitred(self) -> Stroke {
         Stroke {
             join: Join::Miter,

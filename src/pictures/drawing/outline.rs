@@ -32,7 +32,7 @@ impl Outline {
         outline
     }
 
-    /// Creates an open line with these corners.
+    /// Creates an open line through these points.
     pub fn line(points: impl IntoIterator<Item = PagePoint>) -> Outline {
         let segments = points.into_iter().enumerate().map(|(i, p)| {
             if i == 0 {

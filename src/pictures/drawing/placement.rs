@@ -92,14 +92,14 @@ impl Placed {
 }
 
 /// Finds a position for each label. Returns the positions in the order of the requests, with `None` for a label without
-/// a free position. Adds the placed labels to the ink.
+/// a free position. Adds the placed labels and their leader lines to the ink.
 pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
     place_avoiding(ink, page, requests, &|_, _| false)
 }
 
-/// Like [`place`], with a function `avoid` of the index of a request and a rectangle. A rectangle for which `avoid` is
-/// true is used only if no other free position is nearby, and then with a leader line. `avoid` does not apply to the
-/// positions that a request lists.
+/// Like [`place`], with a function `avoid` that gets the index of a request and a rectangle for its label. A rectangle
+/// for which `avoid` is true has a high cost: it is used only if all other free positions on the rings cost more, and
+/// then with a leader line. `avoid` does not apply to the positions that a request lists.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,
@@ -131,7 +131,7 @@ pub fn place_avoiding(
 }
 
 /// Returns the rectangle of a label with this centre. Returns `None` if the rectangle, enlarged by the clearance
-/// (pixels), does not lie inside the page or touches ink.
+/// (pixels), does not lie inside the page or overlaps ink.
 fn fitting(
     ink: &Ink,
     page: PageRect,
@@ -171,7 +171,7 @@ fn position_with_leader(ink: &Ink, page: PageRect, request: &LabelRequest) -> Op
 }
 
 /// Returns the free position of least cost on rings around the anchor. Returns `None` if no position on the rings is
-/// free.
+/// free, or if the request has no [`LabelRequest::max_distance`].
 fn ring_position(
     ink: &Ink,
     page: PageRect,
@@ -212,7 +212,7 @@ fn ring_position(
 }
 
 /// Returns the sum of the penalties for a label in `rect`, in pixels of distance, and the placed label. The label has a
-/// leader line if `rect` is avoided or far from the anchor.
+/// leader line if `avoided` is true or if `rect` is far from the anchor.
 fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -> (f64, Placed) {
     let anchor = request.anchor;
     let end = nearest(rect, anchor);

@@ -14,8 +14,8 @@ pub const NAMES: [&str; 4] = ["plasma", "viridis", "cividis", "grey"];
 /// Number of colours in a ramp.
 pub const LENGTH: usize = 256;
 
-/// Returns the ramp of 256 colours with this name, from small to large values. Returns `None` for a name that is not in
-/// [`NAMES`].
+/// Returns the ramp of 256 colours with this name. Its first colour shows the smallest value, and its last colour the
+/// largest. Returns `None` for a name that is not in [`NAMES`].
 ///
 /// `plasma`, `viridis` and `cividis` come from matplotlib. `grey` goes from nearly white to a light grey on which black
 /// text is readable.

@@ -151,8 +151,9 @@ impl Sizes {
         ..Sizes::DEFAULT
     };
 
-    /// Returns the sizes of a narrow figure whose texts would otherwise need more space than its picture. Only sizes
-    /// with their default value become smaller; another size, which a style file sets, does not change.
+    /// Returns the sizes of a narrow figure whose texts would otherwise need more space than its picture. Titles,
+    /// captions, verdicts, reasons and legends become smaller if they have their default size. A size that a style file
+    /// sets does not change.
     pub(crate) fn compact(self) -> Sizes {
         let smaller = |of: fn(&Sizes) -> f64| {
             let is_usual = (of(&self) - of(&Sizes::DEFAULT)).abs() < f64::EPSILON;

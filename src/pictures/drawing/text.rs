@@ -139,7 +139,8 @@ impl Text {
         }
     }
 
-    /// Returns the same text, with its start, middle or end at its position.
+    /// Returns the same text with another anchor: the start, the middle or the end of the line then lies at
+    /// [`Text::at`].
     pub fn anchored(self, anchor: Anchor) -> Text {
         Text { anchor, ..self }
     }

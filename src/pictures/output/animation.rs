@@ -28,8 +28,8 @@ pub struct Step {
 ///
 /// # Errors
 /// Returns [`PngError::Svg`] and [`PngError::Size`] as [`png::render`](super::png::render) does. Returns
-/// [`PngError::Encode`] if there are no pictures, if they differ in size, or if a picture is shown for less than 0.01
-/// or more than 600 seconds.
+/// [`PngError::Encode`] if there are no pictures, if they differ in size, or if the duration of a picture is less than
+/// 0.01 or more than 600 seconds.
 pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngError> {
     let (patches, [width, height]) = film(steps, size, fonts)?;
     let failed = |e: ::png::EncodingError| PngError::Encode(e.to_string());

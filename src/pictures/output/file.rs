@@ -204,8 +204,8 @@ fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::{MetadataExt, fchown};
-        // Only the superuser may change the owner. Set the permissions last, because a change of owner resets some of
-        // them.
+        // Usually only the superuser may change the owner, so an error is ignored. Set the permissions last, because a
+        // change of owner resets some of them.
         let _ = fchown(file, Some(old.uid()), Some(old.gid()));
     }
     file.set_permissions(old.permissions())

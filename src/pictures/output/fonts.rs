@@ -66,7 +66,8 @@ impl Fonts {
         lacking
     }
 
-    /// Replaces each character that none of the fonts has by its code point. Different names therefore stay different.
+    /// Replaces each character that none of the fonts has by its code point. Names of blocks that differ in such a
+    /// character therefore still look different.
     ///
     /// ```
     /// use drystone::output::fonts::Fonts;

@@ -155,7 +155,7 @@ impl Format {
     }
 
     /// True if the writer of this format lays out text with [`Settings::fonts`]. False if the program that opens the
-    /// file lays out the text.
+    /// file lays out the text. `words` is how an SVG contains its text.
     pub(crate) fn lays_out_words(self, words: Words) -> bool {
         self.declaration().lays_out_words || (self == Format::Svg && words == Words::Outlines)
     }

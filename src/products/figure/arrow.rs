@@ -38,8 +38,8 @@ pub enum ArrowKind {
 }
 
 impl ArrowKind {
-    /// Returns the body that exerts the force; the arrow of the reaction is drawn on this body. Returns `None` for
-    /// weights, loads, and forces and torques of robots.
+    /// Returns the body that exerts the force: a block or the ground. Returns `None` for weights, loads, and forces and
+    /// torques of robots.
     pub fn partner(self) -> Option<BodyId> {
         match self {
             ArrowKind::Contact(from)

@@ -50,7 +50,7 @@ impl PanelContent for CarriedForces {
         }
     }
 
-    /// Returns no arrows: the legend says how many loads also act ([`loads_note`]).
+    /// Returns no arrows, not even those of loads: the legend says how many loads also act ([`loads_note`]).
     fn marks(&self, _: FrameSource<'_>, _: f64) -> Marks {
         Marks::default()
     }
@@ -141,7 +141,7 @@ impl PanelContent for CarriedForces {
                 wording::capacity::sentences(scene, frame_analysis.verdict, capacity)
             }
             None if context.analysis.frames.iter().any(|f| f.capacity.is_some()) => {
-                "the block is not placed yet".into()
+                "the block is not placed in this step".into()
             }
             None => "the forces that a block can carry were not computed".into(),
         }
@@ -160,7 +160,8 @@ fn loads_note(scene: &Scene) -> Option<Entry> {
     Some(Entry::Note(words))
 }
 
-/// Draws the polygon of carried forces: its area, its edges with their numbers, and a dot for the force 0.
+/// Draws the polygon of carried forces: its area and its edges with their numbers. If the polygon is at the loaded
+/// point, a dot marks the force 0.
 fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let theme = &pen.context.options.theme;
     let words = wording::capacity::ranges(&pen.context.analysis.scene, plan.capacity);
@@ -219,18 +220,19 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     group
 }
 
-/// True if the polygon is drawn at the loaded point, and the structure falls without a force there.
+/// True if the polygon is drawn at the loaded point, and the structure falls if no force acts on this point.
 fn needs_force(plan: &Plan<'_>) -> bool {
     !plan.is_apart && !plan.capacity.contains([0.0, 0.0])
 }
 
-/// Adds a dot for the force 0.
+/// Adds a dot for the force 0 to `group`. If the structure falls without a force, also adds an arrow: an example of a
+/// force that the block can carry.
 fn with_zero(mut group: Group, pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     let theme = &pen.context.options.theme;
     let at = pen.camera.place(plan.zero);
     if needs_force(plan) {
-        // The block cannot carry the force 0. An arrow from the dot to the middle of the polygon shows that all forces
-        // begin at the dot.
+        // The block cannot carry the force 0. The arrow from the dot to the middle of the polygon shows that the tails
+        // of all forces are at the dot.
         let to = pen.camera.place(plan.middle());
         let along = (to.x - at.x, to.y - at.y);
         ink.arrow(at, along, 2.0);

@@ -95,7 +95,7 @@ fn is_same_place(a: &Contact, b: &Contact) -> bool {
     (a.middle() - b.middle()).norm() <= SAME_PLACE_TOL * a.length()
 }
 
-/// States how many of the forces that two frames share have changed.
+/// Says in words how many of the forces that are common to two frames have changed.
 pub(crate) fn count_in_words(changed: usize, shared: usize) -> String {
     let all = counted(shared, "shared force");
     match (changed, shared) {

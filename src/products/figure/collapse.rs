@@ -28,7 +28,8 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     }
 }
 
-/// Describes the largest missing force and the largest contact force of a frame that falls; empty for other frames.
+/// Describes the largest missing force and the largest contact force of a frame that falls. The text is empty for other
+/// frames.
 pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
     let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
     if found.verdict != Verdict::Unstable {
@@ -160,8 +161,8 @@ impl Sentences<'_> {
         body.iter().any(|m| turned(m) > ROTATION_TOL * fastest)
     }
 
-    /// Returns the joints between a rigid body of the mechanism and the blocks or ground outside it, each with that block
-    /// or ground. Joints to ground and to blocks at rest come first.
+    /// Returns the joints between a rigid body of the mechanism and the blocks or ground outside it, each with that
+    /// block or ground. Joints to ground and to blocks at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
         let within =

@@ -173,7 +173,7 @@ impl PanelContent for Comparison {
         }
         if went {
             let words = if altered {
-                "gone, or the outline before"
+                "gone, or the previous outline"
             } else {
                 "gone"
             };

@@ -85,7 +85,8 @@ impl<'a> FigureContext<'a> {
     }
 
     /// Returns this context with more space around the content of each frame: `across` metres on the left and on the
-    /// right, `up` metres above, and `down` metres below. No space is added below if ground is visible at the lower edge.
+    /// right, `up` metres above, and `down` metres below. No space is added below if ground is visible at the lower
+    /// edge.
     pub fn with_room(mut self, across: f64, up: f64, down: f64) -> FigureContext<'a> {
         let down = match view::ground_shown(&self.analysis.scene, self.unit) {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
@@ -102,8 +103,8 @@ impl<'a> FigureContext<'a> {
     }
 
     /// True if arrows are too small to read at this scale (pixels per metre), so that only the colours of the blocks
-    /// show the forces. False if no frame has at least 40 blocks, if colours show no quantity, or in the style of the
-    /// thesis.
+    /// show the forces. False if every frame has fewer than 40 blocks, or in the style of the thesis. Also false if the
+    /// colours of blocks show no quantity, or if the scene file gives the colour of every block.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
         let has_plain_block = self
             .analysis

@@ -93,9 +93,9 @@ impl Course {
         displaced
     }
 
-    /// Returns a box, in metres, around the moving blocks, the force arrows and the points of torques at the start of
-    /// the path and at its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves. `marks` are the
-    /// arrows before the motion.
+    /// Returns a box, in metres, around the moving blocks, the force arrows and the points where torques act. The box
+    /// covers the start of the path and its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves.
+    /// `marks` are the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
         let places = (0..=TESTED_POSITIONS)
             .map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
@@ -186,8 +186,8 @@ pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> 
     marks
 }
 
-/// Returns the displacement, in metres, of a point of speed 1 at the end of the path of a group. Overlaps with other
-/// blocks are not considered. `unit` is the unit length in metres.
+/// Returns the amplitude of a group: the displacement, in metres, that a point of speed 1 has at the end of the path.
+/// Overlaps with other blocks are not considered. `unit` is the unit length in metres.
 fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     let scene = &analysis.scene;
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);

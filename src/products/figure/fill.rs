@@ -41,7 +41,8 @@ pub(crate) struct Fills {
 }
 
 impl Fills {
-    /// Computes the share that the colour of each block shows, for all frames. `rule` selects the quantity.
+    /// Computes the share of each block in all frames: the position of its colour on the colour scale. `rule` selects
+    /// the quantity that colours show.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
@@ -81,12 +82,12 @@ impl Fills {
         self.scale != FillScale::Plain && (most - least > 0.02 || most > 0.08)
     }
 
-    /// Returns the colour that shows this share (0 to 1).
+    /// Returns the colour at the position `share` (0 to 1) of the colour scale.
     pub fn colour(&self, theme: &Theme, share: f64) -> Colour {
         ramp(self.rule)(theme, share)
     }
 
-    /// Returns the function that converts a share (0 to 1) to a colour.
+    /// Returns the function that converts a position on the colour scale (0 to 1) to a colour.
     pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
         ramp(self.rule)
     }
@@ -156,8 +157,8 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
     }
 }
 
-/// Returns all amounts divided by the largest amount, and the scale that `scale` makes from the largest amount. All
-/// amounts have the same unit.
+/// Returns the colour scale, and all amounts divided by the largest amount. `scale` makes the colour scale from the
+/// largest amount. All amounts have the same unit.
 fn to_largest(
     amounts: Vec<Vec<f64>>,
     scale: impl Fn(f64) -> FillScale,

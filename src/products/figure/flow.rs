@@ -103,8 +103,8 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the arrows of loads and missing forces, and the marks of their torques. The tip of a load's arrow is at the
-/// point where the load acts.
+/// Returns the straight arrows of loads and missing forces, and the circular arrows of loads and missing torques. The
+/// tip of a load's arrow is at the point where the load acts.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let longest = longest_load(&analysis.scene, options.zoom);
@@ -137,7 +137,8 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     }
 }
 
-/// Returns the arrow of a missing force with a length of at least `least` metres. The tip of a pull stays at its joint.
+/// Returns the arrow of a missing force with a length of at least `least` metres. For a pull, the tip of the arrow
+/// stays in its place; for any other force, the tail stays.
 fn lengthened(arrow: ForceArrow, least: f64) -> ForceArrow {
     let length = arrow.vector.norm();
     if length >= least || length <= 0.0 {
@@ -180,7 +181,7 @@ fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     }
 }
 
-/// Returns the colour of the bands of this kind. The colour depends on the verdict of the frame.
+/// Returns the colour of the bands of this kind in a frame with this verdict.
 fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
     let carried = carried(theme, verdict);
     match kind {
@@ -296,7 +297,8 @@ impl<'a> Picture<'a> {
     }
 
     /// Draws a dot at the point of action of the resultant of each joint with a force. A joint at its limit has a
-    /// special mark instead, and so has a robot at its limit. In a frame with many blocks, nothing is drawn.
+    /// special mark instead of the dot. A robot at its limit also has such a mark. In a frame with many blocks, nothing
+    /// is drawn.
     fn dots(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("resultants");
         if self.many() {

@@ -384,8 +384,8 @@ fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
 }
 
 /// Returns the intersection of the line of action of `force` through `at` and the line of action of a load. If the two
-/// lines coincide within `near` metres, returns the point on the line that is nearest to the load. Returns `None` for
-/// other parallel lines.
+/// lines coincide within `near` metres, returns the point on the line that is nearest to the point `load.at`. Returns
+/// `None` for other parallel lines.
 fn intersection(at: Point, force: Vector, load: &LineOfAction, near: f64) -> Option<Point> {
     let (a, b) = (force.normalize(), load.force.normalize());
     let sine = cross(a, b);

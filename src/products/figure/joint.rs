@@ -75,8 +75,9 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
 }
 
 /// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the
-/// relative velocities at the two application points. `turning` is the relative spin times a length. Speeds up to
-/// `noise` count as zero. The caller sets the contact index of the result.
+/// relative velocities at the two application points. `turning` is the magnitude of the relative spin times the length
+/// scale of the frame, so that it is a speed. Speeds up to `noise` count as zero. The caller sets the contact index of
+/// the result.
 fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));

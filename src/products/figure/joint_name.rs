@@ -49,7 +49,7 @@ fn side(middles: &[Point], at: Point) -> Option<&'static str> {
     if across <= 0.0 {
         return None;
     }
-    // The sides are the first and the last joint; the tolerance only covers rounding.
+    // Only the first and the last joint have the name of a side; the tolerance covers rounding.
     let tolerance = 1e-9 * across;
     Some(match position {
         p if p <= tolerance => first,

@@ -1,5 +1,5 @@
-//! Draws the safe part (kernel) of each interface, in which its resultant must act, and a mark at the position of the
-//! resultant.
+//! Draws the safe part of each interface, in which the resultant of the interface must act, and a mark at the position
+//! of the resultant.
 
 use super::bearing::{Bearing, bearings};
 use super::by_colour::ByColour;

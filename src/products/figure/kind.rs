@@ -101,13 +101,13 @@ impl Kind {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Returns a line that describes this kind of figure, for a list of all kinds.
+    /// Returns one line of text that describes this kind of figure, for a list of all kinds.
     pub fn help(self) -> &'static str {
         self.content().about().help
     }
 
-    /// Returns the optional margins: a figure of this analysis shows them if they have been computed. Returns `None` if
-    /// there are no optional margins.
+    /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and
+    /// is complete without them. Returns `None` if there are no optional margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
         let kinds = self.content().stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))

@@ -30,7 +30,7 @@ fn wedging_is_reported_with_its_reason() {
     // Friction of 0.7 must carry 7 N, so both faces together press with at least 10 N.
     assert!(why(&wedged).contains("1.000e1 N"), "{}", why(&wedged));
     assert!(
-        why(&wedged).contains("bar moves and presses nothing"),
+        why(&wedged).contains("these blocks move: bar (they press no contact)"),
         "{}",
         why(&wedged)
     );

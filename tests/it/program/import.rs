@@ -43,7 +43,7 @@ fn a_drawing_becomes_a_scene_that_check_accepts() {
     );
     assert!(
         ran.err
-            .contains("snapped post: 2 corners by up to 2.00e-5 m, to ground[0]"),
+            .contains("snapped 2 corners of post by up to 2.00e-5 m, to ground[0]"),
         "{}",
         ran.err
     );

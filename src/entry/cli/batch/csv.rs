@@ -1,5 +1,5 @@
-//! Writes the answers of a batch as CSV: one row for each frame, and one row for each scene that is not valid. All files
-//! have the same columns.
+//! Writes the answers of a batch as CSV: one row for each frame, and one row for each scene that is not valid. The
+//! columns are the same in every run.
 
 use crate::analysis::{Analysis, FrameAnalysis};
 use crate::result::Origin;
@@ -37,7 +37,7 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     frames.map(row).collect()
 }
 
-/// Returns the row of a scene that is not valid. Only its first problem is shown.
+/// Returns the CSV row of a scene that is not valid. The row contains only the first problem of the scene.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
     let words = problems.first().map_or(String::new(), |problem| {
         match (problem.line, problem.message.is_empty()) {

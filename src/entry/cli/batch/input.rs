@@ -19,8 +19,8 @@ pub(super) struct Inputs {
     pub bytes: Option<u64>,
 }
 
-/// Lists the input files for the paths of the command line. A folder is replaced by the scene files in it. If `drawn`
-/// is true, returns an error for files whose pictures would have the same name.
+/// Lists the input files for the paths of the command line. A folder is replaced by the scene files in it. `drawn` is
+/// true with `--render`: files whose pictures would have the same name are then an error.
 pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>> {
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
@@ -43,8 +43,8 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         return Err(complaints);
     }
     let sizes = files.iter().map(|path| match path == stdin {
-        // If a shell redirects a file to standard input, `/dev/stdin` has the size of this file. Not all systems have
-        // this path.
+        // If a shell redirects a file to standard input, `/dev/stdin` has the size of this file. On systems without
+        // `/dev/stdin`, the size is unknown.
         true => size(Path::new("/dev/stdin")),
         false => size(path),
     });
@@ -110,7 +110,7 @@ fn size(path: &Path) -> Option<u64> {
         .map(|found| found.len())
 }
 
-/// True if a file contains a single scene, and not one scene per line.
+/// True if the name of a file ends in `.json`: the file then contains a single scene, and not one scene per line.
 fn is_whole(path: &Path) -> bool {
     path.extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
@@ -122,8 +122,8 @@ fn is_scenes(path: &Path) -> bool {
     known.iter().any(|k| ending.eq_ignore_ascii_case(k))
 }
 
-/// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`. A
-/// folder without scene files is an error.
+/// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
+/// Returns an error if nothing is at `path`, or if the folder has no scene files.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     let not_read = |why: String| CliError::NotRead {
         what: path.display().to_string(),
@@ -153,7 +153,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     }
 }
 
-/// Returns an error for each pair of files with pictures of the same name.
+/// Returns errors for input files whose pictures would have the same name. Each error names two of these files.
 fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut clashes = Vec::new();
@@ -164,8 +164,8 @@ fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
                 .zip(Some(file.as_path())),
         );
     }
-    // The scene `a-0000001.json` and line 1 of `a.ndjson` have the same name, and so have `0000001.json` and line 1 of
-    // standard input.
+    // The pictures of `a-0000001.json` and of line 1 of `a.ndjson` would have the same name, and so would the pictures
+    // of `0000001.json` and of line 1 of standard input.
     for file in files.iter().filter(|file| is_whole(file)) {
         let stem = stem(file);
         let lines = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -1,4 +1,5 @@
-//! The output of a batch: standard output or a file. A later run can continue a regular file, except a CSV file.
+//! The output of a batch: standard output or a file. With `--resume`, a later run can continue an output file, unless
+//! it is a CSV file or a device.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -96,13 +97,13 @@ impl Output {
         }
     }
 
-    /// Returns the number of complete lines that an earlier run has written.
+    /// Returns the number of complete lines that an earlier run has written; 0 without `--resume`.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Adds the output line of one scene, whose hash is `scene`, and writes all waiting lines if they fill the buffer.
-    /// Returns `Break` if the reader has closed the pipe.
+    /// Adds the output line of one scene; `scene` is the hash of the scene. Writes all waiting lines if they fill the
+    /// buffer. Returns `Break` if the reader of standard output has closed the pipe.
     pub fn write(&mut self, line: &[u8], scene: u64) -> Result<ControlFlow<()>, CliError> {
         self.waiting.extend_from_slice(line);
         if let Some(resume) = &mut self.resume {
@@ -114,7 +115,7 @@ impl Output {
         }
     }
 
-    /// Writes all lines that are still in memory. Returns `Break` if the reader has closed the pipe.
+    /// Writes all lines that are still in memory. Returns `Break` if the reader of standard output has closed the pipe.
     pub fn flush(&mut self) -> Result<ControlFlow<()>, CliError> {
         if let Some(resume) = &mut self.resume {
             resume.flush()?;

@@ -36,8 +36,8 @@ pub(super) struct BatchProgress<'t> {
 const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
 
 impl<'t> BatchProgress<'t> {
-    /// Starts the clock. `every` is the interval between two reports in seconds, `all` the size of the inputs in bytes,
-    /// and `read` counts the bytes read so far.
+    /// Starts the clock. `every` is the interval between two reports in seconds; if it is `None`, a terminal gets a
+    /// report every 2 s. `all` is the size of the inputs in bytes, and `read` counts the bytes read so far.
     pub fn begin(
         terminal: &'t Terminal,
         every: Option<f64>,
@@ -59,7 +59,8 @@ impl<'t> BatchProgress<'t> {
         }
     }
 
-    /// Sets the number of scenes that an earlier run has answered, reports this number, and restarts the clock.
+    /// Sets the number of scenes that an earlier run has answered, prints this number if it is not 0, and restarts the
+    /// clock.
     pub fn skipped(&mut self, scenes: usize) {
         self.before = scenes;
         self.read_before = self.read.load(Ordering::Relaxed);
@@ -144,7 +145,7 @@ fn span(seconds: f64) -> String {
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),
-        _ => Err("it must be a time in seconds, from 0.01 to 86400".into()),
+        _ => Err("give a time in seconds, from 0.01 to 86400".into()),
     }
 }
 

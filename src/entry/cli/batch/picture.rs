@@ -23,8 +23,8 @@ pub(super) struct PictureOutput {
 }
 
 impl PictureOutput {
-    /// Draws a scene and writes the picture file, before the output line of the scene is written. Returns the name of
-    /// the file, or the reason why the picture cannot be drawn. Returns an error if the file cannot be written.
+    /// Draws a scene and writes the picture file, whose name without the extension is `name`. Returns the name of the
+    /// file, or the reason why the picture cannot be drawn. Returns an error if the file cannot be written.
     pub(super) fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
         let legible = match self.picture.draws_words(self.format) {

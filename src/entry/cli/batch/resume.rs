@@ -30,7 +30,7 @@ const BUFFER_BYTES: usize = 1 << 16;
 pub(super) struct Settings(pub Vec<(&'static str, String)>);
 
 impl Settings {
-    /// Returns the header of a resume file as text.
+    /// Returns the header of a resume file: the settings, one `name: value` per line, and an empty line.
     fn header(&self) -> String {
         let mut header = String::new();
         for (name, value) in &self.0 {
@@ -58,7 +58,7 @@ impl Settings {
     }
 }
 
-/// Reads the header of a resume file. Returns `None` if the file does not begin with a header.
+/// Reads the header of a resume file. Returns `None` if the header is missing, incomplete or unreadable.
 fn read_header(entries: &mut impl BufRead) -> Option<String> {
     let mut header = String::new();
     loop {
@@ -121,8 +121,8 @@ impl ResumeFile {
         let _ = writeln!(self.waiting, "{}", entry(scene, line));
     }
 
-    /// Writes the waiting entries to the file. Call this before the output lines are written, so that a run that is
-    /// killed leaves at least as many entries as output lines.
+    /// Writes the waiting entries to the file. Call this function before the output lines are written, so that a run
+    /// that is killed leaves at least as many entries as output lines.
     pub fn flush(&mut self) -> Result<(), CliError> {
         let written = self.file.write_all(self.waiting.as_bytes());
         self.waiting.clear();
@@ -203,7 +203,7 @@ pub(super) fn check(
         }
         let Some(record) = records.next() else {
             return Err(refused(&format!(
-                "{name} has more lines than the input has scenes, {}: it was made from another input",
+                "{name} has more lines than the input has scenes ({}), so it was made from another input",
                 checked.answers
             )));
         };
@@ -258,8 +258,8 @@ fn refused(why: &str) -> CliError {
     ))
 }
 
-/// Checks that an output line is unchanged since it was written, and that it answers the scene in `record`. The error
-/// states the difference.
+/// Checks that an output line is unchanged since it was written, and that it answers the scene in `record`.
+/// `entry_line` is the entry of the output line in the resume file. The error states the difference.
 fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result<(), String> {
     let scene = record_hash(record);
     let expected = entry(scene, line);
@@ -280,8 +280,8 @@ fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result
     Ok(())
 }
 
-/// Opens an output and its resume file, and deletes everything after the checked part of each file. New lines will
-/// follow this part.
+/// Opens an output and its resume file, and deletes everything after the checked part of each file. New lines are then
+/// written after the checked part.
 pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFile), CliError> {
     let path = ResumeFile::path_for(output);
     let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;

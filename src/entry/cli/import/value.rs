@@ -80,7 +80,7 @@ pub(super) fn gravity(typed: &str) -> Result<[f64; 2], String> {
     match numbers.as_deref() {
         Ok([g]) => Ok([0.0, -g]),
         Ok([x, y]) => Ok([*x, *y]),
-        _ => Err("give one number, or two numbers with a comma between them".into()),
+        _ => Err("give gravity in m/s²: the downward value, such as 9.81, or both components, such as 0,-9.81".into()),
     }
 }
 

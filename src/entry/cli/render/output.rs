@@ -101,7 +101,7 @@ impl Render {
     }
 }
 
-/// Returns all results, or all errors if there are any.
+/// Returns the values of all results, or all errors if there is at least one error.
 pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
     let mut good = Vec::with_capacity(results.len());
     let mut complaints = Vec::new();

@@ -14,7 +14,7 @@ use crate::output::fonts::Fonts;
 use std::sync::Arc;
 
 impl Render {
-    /// True if two scenes become one figure that compares them.
+    /// True if the command draws one figure that compares two scenes, instead of one figure for each scene.
     pub(super) fn joins(&self, scenes: usize, destination: &Destination) -> bool {
         self.kind == KindChoice::Panels(figure::Kind::Compare)
             && scenes == 2

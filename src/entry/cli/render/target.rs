@@ -16,7 +16,7 @@ pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
     path.with_file_name(format!("{stem}-{part}{ending}"))
 }
 
-/// Returns the path of each scene's figure, in the order of the scenes. Empty for standard output.
+/// Returns the path of each scene's figure, in the order of the scenes. The list is empty for standard output.
 pub(super) fn paths(
     destination: &Destination,
     scenes: &[&Path],

@@ -81,7 +81,7 @@ fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<
     }
     terminal.print(&page)?;
     for finding in &snapshot.findings {
-        // Show the difference if there is one, otherwise the new picture.
+        // Show the picture of the difference if there is one, otherwise the new picture.
         let png = finding.difference.as_ref().or_else(|| {
             let is_picture = finding.fresh.starts_with(b"\x89PNG");
             is_picture.then_some(&finding.fresh)

@@ -97,7 +97,7 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
 }
 
 /// Returns gravity vectors whose convex hull contains gravity at every tilt between `from` and `to`, in degrees. Each
-/// vector is given by its tilt in degrees and a factor on the strength of gravity.
+/// vector is given by its tilt in degrees and by the factor that multiplies the strength of gravity.
 fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     if from == to {
         return vec![(from, 1.0)];
@@ -184,9 +184,9 @@ fn without_corners(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector>, 
     })
 }
 
-/// Returns the intersection of half-planes, two of which have boundaries that meet, as forces and rays. All corners are
-/// among the forces, and there are no forces if the intersection is empty. `None` if the corners are so far from
-/// `centre`, relative to `far`, that they cannot be told from the directions of rays.
+/// Returns the intersection of half-planes as forces and rays. The boundaries of at least two half-planes must meet.
+/// The forces include all corners; the list of forces is empty if the intersection is empty. `None` if the corners are
+/// so far from `centre`, compared with `far`, that they cannot be distinguished from rays.
 fn with_corners(
     planes: &[(Vector, f64)],
     centre: Vector,

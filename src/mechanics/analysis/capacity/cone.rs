@@ -32,7 +32,7 @@ const NEAR_OUTER: [f64; 3] = [1e-4, 1e-3, 1e-2];
 /// The components of a force on an unbounded edge are limited to this multiple of the largest other force or load.
 const MAX_FORCE_PER_SIZE: f64 = 10.0;
 
-/// Both components of the corner of a half-plane or a strip are limited to this multiple of the distance of its edge from
+/// Each component of the corner of a half-plane or a strip is limited to this multiple of the distance of its edge from
 /// the force 0. The value is above 1 so that rounding cannot hide the nearest force.
 const NEAREST_REACH: f64 = 1.05;
 
@@ -138,7 +138,7 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
             inside.push(sample(probe, unit(to), reach)?);
             samples.extend(refine(probe, inside, false, reach));
         } else {
-            // Every force on this edge is a corner. Choose one that is about as small as possible.
+            // Any force on this edge can serve as its corner. Choose one that is about as small as possible.
             let nearest = first.half_plane.as_ref().and_then(|line| {
                 let reach = (NEAREST_REACH * line.limit.abs()).max(1e-3 * around);
                 sample(probe, unit(from), Some(reach))
@@ -227,7 +227,7 @@ impl Cone {
 
 fn unit(angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
-    // Remove rounding: on a coordinate axis, the other component is exactly 0.
+    // Remove rounding: the unit vector along one axis gets exactly 0 as its other component.
     let plain = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
     Vector::new(plain(cos), plain(sin))
 }

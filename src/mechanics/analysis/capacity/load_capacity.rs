@@ -166,7 +166,8 @@ impl LoadCapacity {
     }
 
     /// Returns the magnitude of the largest force, N, that the block can carry in a unit direction. Infinite if it can
-    /// carry forces of any magnitude in this direction. `None` if the frame falls without an additional force.
+    /// carry forces of any magnitude in this direction. `None` if the set does not contain the force 0: the frame then
+    /// falls without an additional force.
     pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
         if !self.contains(Vector::zeros()) {

@@ -119,7 +119,7 @@ fn is_inexact(capacity: &LoadCapacity) -> bool {
 /// If the gap is larger than this fraction of the largest force, the capacity is reported as undecided.
 const MAX_RELATIVE_GAP: f64 = 1e-4;
 
-/// Returns a notice if one of `points` lies outside the block: about the first such point. Otherwise `None`.
+/// Returns a notice about the first of `points` that lies outside the block; `None` if there is no such point.
 fn outside(block: &Block, points: &[Point]) -> Option<String> {
     let outline = block.body.polygon.outline();
     let next = |k: usize| outline[(k + 1) % outline.len()];

@@ -62,7 +62,8 @@ pub(super) struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Returns the distance, N, from a force outward to the boundary; negative if the force lies outside the half-plane.
+    /// Returns the distance, N, from a force outward to the boundary; negative if the force lies outside the
+    /// half-plane.
     pub fn beyond(&self, force: Vector) -> f64 {
         self.limit - self.normal.dot(&force)
     }
@@ -141,8 +142,8 @@ impl Probe {
         self.given.contacts[contact].interface
     }
 
-    /// Returns the carried force that is farthest in a unit direction (the support point of the set). `reach` limits
-    /// the magnitude of both components of the force, N; `None` if there is no limit.
+    /// Returns the carried force that is farthest in a unit direction (the support point of the set). `reach` is the
+    /// largest magnitude of each component of the force, N; `None` if there is no limit.
     pub fn farthest(&self, direction: Vector, reach: Option<f64>) -> Farthest {
         let mut program = self.program.clone();
         if let Some(most) = reach {
@@ -189,7 +190,7 @@ impl Probe {
     }
 
     /// Combines the results of two programs for the same direction: the farther force, and the half-plane whose
-    /// boundary is nearer to this force. If no force was proved, it takes the half-plane with the smaller limit.
+    /// boundary is nearer to this force. If no force was proved, uses the half-plane with the smaller limit.
     fn best(
         &self,
         direction: Vector,
@@ -261,8 +262,8 @@ impl Probe {
 
     /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
     /// slightly smaller forces in `direction`. If all fail, decides the component with a free force, and accepts the
-    /// resulting force if it is about as far in `direction`. Only this last step is used if the force acts at two
-    /// points.
+    /// resulting force if it is about as far in `direction` as the farthest force. Only this last step is used if the
+    /// force acts at two points.
     fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<CarriedForce> {
         let size = farthest.norm().max(self.heaviest());
         let under = |inside: f64| {

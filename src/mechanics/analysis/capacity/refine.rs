@@ -51,7 +51,7 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
 }
 
 /// Returns the farthest carried force that has a proof, in this direction or at a small angle to it. `None` if no force
-/// was proved. `reach` limits both components of the force, N.
+/// was proved. `reach` is the largest magnitude of each component of the force, N.
 pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
     // If this direction gives no proof, try slightly rotated directions. Their forces belong to the set, too.
     [0.0, 1e-3, -1e-3, 2e-2, -2e-2]
@@ -76,7 +76,8 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
 }
 
 /// Adds samples between neighbouring samples until all edges between them are known. The directions of `start` run
-/// anticlockwise. If `is_closed`, the last sample is also a neighbour of the first. Returns all samples in this order.
+/// anticlockwise. If `is_closed`, the last sample is also a neighbour of the first. Returns all samples, anticlockwise
+/// too.
 pub(super) fn refine(
     probe: &Probe,
     start: Vec<Sample>,
@@ -120,7 +121,8 @@ impl Search<'_> {
         if length <= self.tolerance || depth == 0 || self.count >= MAX_SAMPLES {
             return;
         }
-        // If the half-plane of one sample passes through both forces, the edge between them is already known.
+        // If the boundary of one sample's half-plane passes through both forces, the edge between the forces is already
+        // known.
         let touches = |half_plane: &Option<HalfPlane>, force: Vector| {
             let half_plane = half_plane.as_ref();
             half_plane.is_some_and(|half_plane| half_plane.beyond(force) <= self.tolerance)
@@ -136,8 +138,8 @@ impl Search<'_> {
         };
         let force = next.carried.force;
         let farther = cross(chord, force - a) / -length;
-        // The distance of the force from its own half-plane is the error of this program. Such an error must not become
-        // a new vertex.
+        // The distance of the new force from the boundary of its own half-plane is the error of its linear program.
+        // Such an error must not become a new vertex.
         let error = next
             .half_plane
             .as_ref()

@@ -99,8 +99,8 @@ fn edge_of(line: &HalfPlane) -> CapacityEdge {
 }
 
 /// Returns the sides of a convex set, anticlockwise. Each side is given by the indices of its two vertices, `None`
-/// where the side is unbounded, and by two points on it. `size` is the distance of the second point from the vertex of
-/// an unbounded side.
+/// where the side is unbounded, and by two points on it. On an unbounded side, one of these points is a corner, and the
+/// other lies at the distance `size` from it.
 fn sides(
     corners: &[Vector],
     rays: &[Vector],
@@ -140,8 +140,8 @@ fn sides(
     sides
 }
 
-/// Returns the first ray if the last one is its opposite: the set is then a line or a strip, with two rays, or a
-/// half-plane, with three. It lies to the left of the first ray. `None` for all other sets.
+/// Returns the first ray if the last ray is its opposite; otherwise `None`. With two such rays, the set is a line or a
+/// strip; with three, it is a half-plane to the left of the first ray.
 fn opposite(rays: &[Vector]) -> Option<Vector> {
     match rays {
         [first, .., last] if rays.len() < 4 => {
@@ -269,7 +269,7 @@ pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     ]
 }
 
-/// Returns the error bound of a set: the largest distance from it, N, of a force that satisfies all half-planes
+/// Returns the error bound of a set, N: the largest distance between the set and a force that satisfies all half-planes
 /// `lines`. Only forces within a square of side 8 · `size` around the first corner are compared.
 fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -> f64 {
     let Some(first) = corners.first() else {
@@ -314,8 +314,8 @@ pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> 
 }
 
 /// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
-/// extended along the rays. `slack` is added to each limit. If the set has edges that meet, it is cut off at a distance
-/// of about `far`.
+/// extended along the rays. `slack` is added to each limit. An unbounded set is cut off at a distance of about `far`,
+/// unless it is a half-plane, a strip or a line.
 pub(super) fn half_planes(
     corners: &[Vector],
     rays: &[Vector],

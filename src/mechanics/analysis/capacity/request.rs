@@ -85,8 +85,8 @@ impl CapacityRequest {
     }
 
     /// Returns the default request for a scene. It uses the block of the first robot, in the last frame in which a
-    /// robot holds a block. Without robots it uses the block with the highest centroid in the last frame. `None` if
-    /// there is no such block.
+    /// robot holds a block. If no frame has such a robot, it uses the block with the highest centroid in the last
+    /// frame. `None` if there is no such block.
     pub fn default_for(scene: &Scene) -> Option<CapacityRequest> {
         let held = scene.frames.iter().rev().find_map(|f| f.holds.first());
         let highest = || {

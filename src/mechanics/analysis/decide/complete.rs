@@ -21,8 +21,8 @@ impl Component<'_> {
         match decision.verdict {
             Verdict::Stable if !decision.least_force => self.with_least_force(program, decision),
             Verdict::Unstable if !decision.only_some_fall => self.with_failures(program, decision),
-            // Only some bodies fall. If other bodies may move too, the structure may need less adhesion than these
-            // bodies alone.
+            // The decision covers only some falling bodies. If the other bodies may move too, less adhesion may be
+            // enough for the whole component.
             Verdict::Unstable if program.blocks < LARGE_PROGRAM_BLOCKS => {
                 self.with_failures_of_the_whole(program, decision)
             }
@@ -38,8 +38,8 @@ impl Component<'_> {
         if decision.least_force_failed || self.settings.iter().any(|s| s.choice == Choice::Any) {
             return decision;
         }
-        // The first solver settings were tried before, so they are skipped. They were not tried to the end if a large
-        // component was decided by least residual.
+        // The first solver settings were tried before, so they are skipped. Exception: if a large component was decided
+        // by least residual, they were not tried to the end.
         let skipped = usize::from(
             program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
         );

@@ -30,7 +30,8 @@ impl Component<'_> {
         let bodies = self.assembly.bodies.iter();
         let weights: Vec<f64> = bodies.map(|b| gross_load(self.assembly, b)).collect();
         // The amount, in program units, above which a failure between two bodies is listed. It is a fraction of the
-        // lighter body's load or of `largest`, whichever is less. Bodies without a load are left out.
+        // lighter body's load or of `largest`, whichever is less. A body without a load does not count as the lighter
+        // body.
         let min_amount = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
             let loaded = both
@@ -113,7 +114,8 @@ impl Component<'_> {
     pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();
-        // The load factor must not multiply the adhesion, so include it in the other loads and set it to 1.
+        // The load factor must not multiply the adhesion. So multiply the listed loads by the factor now, and set the
+        // factor to 1.
         for body in &mut held.bodies {
             body.listed = body.listed.times(self.assembly.load_factor);
         }

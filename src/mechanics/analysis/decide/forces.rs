@@ -93,8 +93,9 @@ impl Component<'_> {
     }
 
     /// Converts forces to newtons, limits them to their admissible range, and sets forces to 0 that are only noise. A
-    /// normal or robot force is noise below 1e-13 of the heaviest load, or of all forces on the body. Friction is noise
-    /// below 1e-10 of N and of μN. Setting them to 0 changes the balance by at most a tenth of the accepted imbalance.
+    /// normal or robot force is noise below 1e-13 of the heaviest load or of the sum of all forces on the body; `noise`
+    /// selects which. Friction is noise only below 1e-10 of both N and μN. Setting noise to 0 changes the balance by at
+    /// most a tenth of the accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.threshold.imbalance;
@@ -106,7 +107,8 @@ impl Component<'_> {
             Noise::OfEachBody => self.gross_forces(amounts),
             _ => Vec::new(),
         };
-        // For each body: the size below which a normal or robot force is noise, and the same for friction, in newtons.
+        // For a body: the size below which a normal or robot force is noise, and the size below which friction is
+        // noise, N.
         let limits = |body: usize| match noise {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {

@@ -1,4 +1,4 @@
-//! Proves forces and motions that a linear program found at the limit of stability.
+//! Proves results of linear programs: that their forces balance a component, or that it falls by their motion.
 
 use super::Component;
 use super::verdict_only::{VERDICT_ONLY, decide_without_non_binding_limits};
@@ -8,10 +8,10 @@ use crate::program::Program;
 use crate::proof::{Forces, Motion, Proof};
 use crate::solve::{Amounts, Effort};
 
-/// Converts forces that a program found to newtons, and returns them with their proof. `None` if they do not balance
-/// every body.
+/// Converts `amounts`, the forces of a linear program, to newtons. Returns them with the proof that they balance every
+/// body; `None` if this proof fails.
 ///
-/// `program` is the program of the component, in any scale.
+/// `program` is the linear program of `assembly`, in any scale.
 pub(in crate::mechanics::analysis) fn proved_forces(
     assembly: &Assembly,
     program: &Program,
@@ -41,8 +41,9 @@ pub(in crate::mechanics::analysis) fn decided_forces(
         .then_some((found.forces, found.proof))
 }
 
-/// Corrects the velocities `y` of a program to a motion near them that violates no contact. Returns this motion, one
-/// entry for each body, and the proof that the component falls by it. `None` if the proof is too weak.
+/// Corrects the velocities `y`, the result of a linear program, so that they violate no contact. Returns the corrected
+/// motion, with one entry for each body, and the proof that the component falls by it. `None` if no such motion is
+/// found, or if its proof is too weak.
 pub(in crate::mechanics::analysis) fn proved_motion(
     assembly: &Assembly,
     program: &Program,
@@ -51,8 +52,9 @@ pub(in crate::mechanics::analysis) fn proved_motion(
     in_scale_of(assembly, program).prove_motion(program, y, &mut Effort::default())
 }
 
-/// Returns velocities `y` of a program as a motion of each body, with the proof that the component falls by it. `None`
-/// if the motion violates a contact by more than rounding, or if the proof is too weak.
+/// Converts the velocities `y`, the result of a linear program, to a motion of each body, without correction. Returns
+/// the motion with the proof that the component falls by it. `None` if the motion violates a contact by more than
+/// rounding, or if the proof is too weak.
 pub(in crate::mechanics::analysis) fn proved_exact_motion(
     assembly: &Assembly,
     program: &Program,

@@ -47,9 +47,9 @@ impl Component<'_> {
             .then_some((motion, proof))
     }
 
-    /// True if a proof shows that no admissible forces can stop a motion. The proof must also exclude large forces,
-    /// such as the loads of all bodies may cause. The thrust of heavy bodies could otherwise make up for a small
-    /// violation at a light body.
+    /// True if a proof shows that no admissible forces can stop a motion. The proof must exclude even forces that are
+    /// ten times as large as the loads of all bodies. Otherwise the thrust of heavy bodies, acting against a small
+    /// violation, could stop the motion of a light body.
     pub(super) fn accepts_motion(&self, motion: &[Motion], proof: &Proof) -> bool {
         // Forces whose sum is at most `MIN_EXCLUDED_LOADS` times the sum of all loads must not be able to stop the
         // motion.
@@ -59,8 +59,8 @@ impl Component<'_> {
         self.accepts(proof) && proof.excluded_force_sum() * load >= MIN_EXCLUDED_LOADS * all
     }
 
-    /// True if the power along a motion, of the loads minus what robots absorb, exceeds the largest power that an
-    /// accepted imbalance of forces could have. Then no proof by forces can contradict the motion.
+    /// True if the power of the loads along a motion, minus the power that robots absorb, is larger than the power of
+    /// any imbalance that a proof by forces accepts. Then no proof by forces can contradict the motion.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
         let speed_sum: f64 = motion
             .iter()

@@ -43,8 +43,8 @@ impl Component<'_> {
         best
     }
 
-    /// Returns the forces of least sum of the program `simpler`, changed to balance in `program`. `None` if there are
-    /// no such forces or their proof is too weak.
+    /// Returns the forces of least sum of the program `simpler`, changed to balance the loads of `program`. `None` if
+    /// no such forces are found, or if their proof is too weak.
     fn least_force_near(
         &self,
         program: &Program,

@@ -1,4 +1,4 @@
-//! Route 3: solves several linear programs in order, until the forces or the motion of one of them are proved.
+//! Route 3: solves several linear programs one after another, until the forces or the motion of one of them are proved.
 //!
 //! If both proofs hold, the forces decide. A proof of forces allows a small imbalance. A motion with less power than
 //! this imbalance could absorb is *weak*: forces that balance may exist as well. A weak motion decides only after a
@@ -56,7 +56,7 @@ struct Progress {
 }
 
 impl Progress {
-    /// Creates a decision without forces and proof, for the method of `strategy`, with the solver effort so far.
+    /// Creates a decision made by `strategy`, with the solver effort so far. Its forces and its proof are still empty.
     fn decision(&self, program: &Program, strategy: Strategy) -> Decision {
         Decision {
             least_force_failed: self.least_force_failed,
@@ -78,7 +78,7 @@ impl Component<'_> {
             self.complete_result,
         );
         for strategy in strategies {
-            // After the deadline, report the last attempt: even setting up the next program takes time.
+            // After the deadline, stop and report the last attempt: even setting up the next program takes time.
             if progress.last.is_some() && is_late() {
                 break;
             }
@@ -143,8 +143,8 @@ impl Component<'_> {
             RebalanceOutcome::Falls(part) => Some(Decision {
                 verdict: Verdict::Unstable,
                 amounts: part.amounts,
-                // If the missing adhesion of these bodies is unknown, `complete` computes the failures of the whole
-                // component.
+                // If the missing adhesion of the falling bodies is unknown, `complete` computes the failures of the
+                // whole component.
                 only_some_fall: part.adhesion.is_some(),
                 adhesion: part.adhesion,
                 mechanism: part.mechanism,
@@ -155,8 +155,9 @@ impl Component<'_> {
         }
     }
 
-    /// Decides that a component falls, by the motion of an attempt or by an earlier motion. Returns `None` if balancing
-    /// forces may still exist; the motion is then kept as `progress.weak_motion`.
+    /// Decides that a component falls, by the motion of `attempt` or by a weak motion of an earlier attempt. `None` if
+    /// neither motion exists with a proof. Also `None` if balancing forces may still exist; the motion is then kept as
+    /// `progress.weak_motion`.
     fn decide_by_motion(
         &self,
         program: &Program,
@@ -188,9 +189,10 @@ impl Component<'_> {
         })
     }
 
-    /// Returns the decision if no strategy gave a proof: undecided, with the forces of the last attempt and the proof
-    /// of a weak motion or of the last attempt's motion. A weak motion does not decide, because no program has excluded
-    /// a balance. The programs failed, or the deadline passed before they were solved.
+    /// Returns the decision *undecided*, for the case that no strategy gave a proof: the programs failed, or the
+    /// deadline passed. The decision contains the forces of the last attempt. It also reports the errors of a motion:
+    /// of a weak motion, if there is one, otherwise of the last attempt's motion. A weak motion does not decide,
+    /// because no program has excluded a balance.
     fn without_proof(&self, program: &Program, progress: Progress) -> Decision {
         let decision = match &progress.last {
             Some((strategy, _)) => progress.decision(program, *strategy),

@@ -1,4 +1,5 @@
-//! [`ProofCache`]: forces and motions of similar components. They may prove a verdict without solving a program.
+//! [`ProofCache`]: forces and motions of similar components. They may prove a verdict, so that no linear program must
+//! be solved.
 //!
 //! A margin needs the verdicts of many components that differ in one number. Forces that balance one component often
 //! balance the next one, and a motion by which one component falls often proves that another one falls. Forces and
@@ -49,8 +50,8 @@ impl ProofCache {
         self.motions.push(motion);
     }
 
-    /// Returns the error of the most exact forces in the cache that balance a component, as [`proof::Proof::force_error`]
-    /// defines it. `None` if no forces in the cache balance it.
+    /// Returns the error of the most exact forces in the cache that balance a component, as
+    /// [`proof::Proof::force_error`] defines it. `None` if no forces in the cache balance it.
     pub(super) fn least_error(&self, component: &Component) -> Option<f64> {
         let errors = self.forces.iter().filter_map(|cached| {
             let forces = cached.transfer_to(component.assembly)?;
@@ -62,7 +63,8 @@ impl ProofCache {
 
     /// True if some forces in the cache balance a component.
     pub(super) fn balances(&self, component: &Component) -> bool {
-        // Try the latest forces first: they belong to the previous value of a search, which is usually the most similar.
+        // Try the latest forces first: they belong to the previous value of a search, which is usually the nearest
+        // value.
         let mut latest_first = self.forces.iter().rev();
         latest_first.any(|cached| {
             let forces = cached.transfer_to(component.assembly);
@@ -86,8 +88,8 @@ impl ProofCache {
 }
 
 impl CachedForces {
-    /// Returns the forces that have the same resultants but act at the application points of another component. `None`
-    /// if a resultant does not pass between these points.
+    /// Returns forces that have the same resultant at each contact but act at the application points of `assembly`.
+    /// `None` if the resultant at some contact does not pass between these points.
     fn transfer_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);
@@ -118,7 +120,7 @@ fn transfer_normal_forces(
     let middle = nalgebra::center(&to[0], &to[1]);
     let moment = (from[0] - middle) * first + (from[1] - middle) * second;
     if square == 0.0 {
-        // Both points coincide, so the resultant must pass through them.
+        // The two points `to` coincide, so the resultant must pass through them.
         let offset = moment.norm() / sum;
         let size = (from[1] - from[0]).norm();
         return (offset <= f64::EPSILON * size).then_some([0.5 * sum; 2]);

@@ -179,8 +179,8 @@ impl Component<'_> {
         {
             return PartOutcome::Changed(in_units(&improved, component.scale, self.scale));
         }
-        // Do not decide a large part that contains more than half of all bodies: this would take about as long as the
-        // whole component, which is already being decided.
+        // Do not decide a part that contains all bodies, or a large part that contains more than half of them. This
+        // would take about as long as deciding the whole component, which is already in progress.
         let (part_count, body_count) = (part.bodies.len(), self.assembly.bodies.len());
         if part_count == body_count || (part_count > MAX_SMALL_SET && 2 * part_count > body_count) {
             return PartOutcome::Undecided;

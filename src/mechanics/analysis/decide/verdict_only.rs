@@ -12,8 +12,8 @@ use crate::solve::{Amounts, Effort, is_late};
 /// Returns the verdict of a component, and its mechanism if it falls.
 ///
 /// Forces and motions of similar components are tried as proofs first. If none holds, the component is decided as in
-/// [`decide_component`](super::decide_component), without the forces of least sum and the failures. Forces or a motion
-/// that a program then finds are added to the cache. After the deadline, the verdict is undecided.
+/// [`decide_component`](super::decide_component), but the forces of least sum and the failures are not computed. Forces
+/// or a motion that a program finds are added to the cache. After the deadline, the verdict is undecided.
 pub(in crate::mechanics::analysis) fn decide_verdict(
     assembly: &Assembly,
     limit_distance: LimitDistance,
@@ -43,8 +43,8 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
 }
 
 /// Returns the error of the most exact known forces that balance an assembly, as `Proof::force_error` defines it.
-/// Known are the forces in the cache, and the forces that the balance equations alone determine. `None` if no such
-/// forces are known.
+/// Known forces are those in the cache, and those that the balance equations alone determine. `None` if no such forces
+/// are known.
 pub(in crate::mechanics::analysis) fn least_force_error(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -57,8 +57,8 @@ pub(in crate::mechanics::analysis) fn least_force_error(
     cached.into_iter().chain(determinate).min_by(f64::total_cmp)
 }
 
-/// Returns the verdict that the forces and motions in the cache prove, and the mechanism if it is unstable. Solves no
-/// program. The verdict is undecided if they prove nothing, or if the deadline has passed.
+/// Returns the verdict that the forces and motions in the cache prove, and the mechanism if the verdict is unstable.
+/// Solves no program. The verdict is undecided if they prove nothing, or if the deadline has passed.
 pub(in crate::mechanics::analysis) fn verdict_from_cache(
     assembly: &Assembly,
     cache: &ProofCache,
@@ -82,7 +82,8 @@ pub(super) const VERDICT_ONLY: Options = Options {
     ..Options::PLAIN
 };
 
-/// Decides a component for its verdict only, if possible without those limits of robots that are far above the loads.
+/// Computes only the verdict of a component. First ignores the limits of robots that are far above the loads. Uses all
+/// limits if this gives no decision.
 pub(super) fn decide_without_non_binding_limits(
     component: &Component,
     program: &Program,
@@ -111,7 +112,7 @@ pub(in crate::mechanics::analysis) struct LimitResults<'a> {
     pub motion: Option<(&'a [f64], &'a Assembly)>,
 }
 
-/// Adds the forces and the motion of a program at the limit of stability to the cache. Returns its forces in newtons;
+/// Adds the forces and the motion of a program at the limit of stability to the cache. Returns these forces in newtons;
 /// `None` if the program gave no forces.
 pub(in crate::mechanics::analysis) fn add_limit_to_cache(
     results: &LimitResults,

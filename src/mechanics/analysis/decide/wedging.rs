@@ -64,19 +64,22 @@ fn describe<'n>(
     let moving = self_stress
         .moving_blocks()
         .map(|block| body(block).to_string());
-    let mut words = format!("as they give way, {} moves", first_names(moving));
+    let mut words = format!(
+        "as the springs give way, these blocks move: {}",
+        first_names(moving)
+    );
     if self_stress.presses_nothing {
-        words.push_str(" and presses nothing");
+        words.push_str(" (they press no contact)");
     }
     let faces = first_names(self_stress.contacts.iter().map(|contact| face(*contact)));
     if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
         words.push_str(&format!(
-            "; to balance, {faces} must press with {} or more in all",
+            "; in every balance, the normal forces at {faces} sum to {} or more",
             force(least)
         ));
     }
     words.push_str(&format!(
-        "; cases ruled out: {}",
+        "; cases of pressing and sliding ruled out: {}",
         self_stress.ruled_out.len()
     ));
     words

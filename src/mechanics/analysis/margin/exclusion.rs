@@ -44,8 +44,9 @@ impl Exclusion {
     }
 }
 
-/// Selects as few of these arcs of tilts, in degrees, as still cover a full turn, sorted by their beginning. Two arcs
-/// count as joined if the gap between them is at most `gap`. Returns all arcs if they do not cover a full turn.
+/// Selects as few arcs of tilts as possible that together cover a full turn, sorted by their beginning. Angles are in
+/// degrees. Two arcs count as joined if the gap between them is at most `gap(tilt)`, where `tilt` is the end of the
+/// first arc. Returns all arcs if they do not cover a full turn.
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
     let ends = |arc: &Exclusion| {
         let [from, to] = [arc.from, arc.to];

@@ -119,7 +119,8 @@ impl Interval {
         }
     }
 
-    /// True if the frame is known not to stand at a value, because the value lies beyond a confirmed end.
+    /// True if the frame is known not to stand at a value: the interval is empty, or the value lies beyond a confirmed
+    /// end.
     pub fn excludes(&self, value: f64) -> bool {
         match self {
             Interval::Between { low, high } => {

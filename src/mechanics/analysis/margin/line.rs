@@ -24,9 +24,9 @@ pub(super) struct Line<'a> {
     pub typical_small: f64,
     /// A typical large size of the parameter. For the factor on a load of 10⁻⁵ N it is 10⁵ if the blocks weigh 1 N.
     pub typical_large: f64,
-    /// The largest load that the parameter does not change, divided by the largest load that the parameter adds per unit.
-    /// If forces balance with a relative error of 10⁻⁷, the end may be off by 10⁻⁷ times this ratio. This matters only
-    /// for loads far smaller than the others.
+    /// The largest load that the parameter does not change, divided by the largest load that the parameter adds per
+    /// unit. If forces balance with a relative error of 10⁻⁷, the end may be off by 10⁻⁷ times this ratio. This matters
+    /// only for loads far smaller than the others.
     pub load_ratio: f64,
 }
 
@@ -159,9 +159,10 @@ impl Line<'_> {
     /// Returns the end if the bracket is narrow enough: the hint if it lies in the bracket, otherwise the value beyond
     /// which the mechanism proves the fall.
     ///
-    /// If this mechanism excludes even the value `from`, the component stands there only within the tolerance of the
-    /// proofs, because the loads that the parameter changes are too small. The end is then unconfirmed. Otherwise, if
-    /// these loads are small, the end is moved inward by its possible error, to the safe side.
+    /// If this mechanism excludes even the value `from`, at which the search began, the component stands there only
+    /// within the tolerance of the proofs, because the loads that the parameter changes are too small. The end is then
+    /// unconfirmed. Otherwise, if these loads are small, the end is moved inward by its possible error, to the safe
+    /// side.
     fn enclosed(
         &self,
         trial: &mut Trial,
@@ -187,7 +188,8 @@ impl Line<'_> {
                 mechanism: fall.mechanism,
             };
         }
-        // At the least value of the parameter, the component may stand beyond doubt.
+        // Find a value at which the component stands beyond doubt: test the smallest value of the parameter, or `value`
+        // if there is no smallest value.
         let base = if self.min_value.is_finite() {
             self.min_value
         } else {
@@ -201,7 +203,8 @@ impl Line<'_> {
     }
 
     /// Returns an end moved inward by its possible error, but not beyond `from`. The forces that balance the component
-    /// at the value `inside` determine the error. Returns the end unchanged if even the largest possible error is small.
+    /// at the value `inside` determine the error. Returns the end unchanged if even the largest possible error is
+    /// small.
     fn on_the_safe_side(
         &self,
         trial: &Trial,
@@ -315,8 +318,8 @@ impl Line<'_> {
         let from = match self.excluded_range(trial, value, &motion) {
             ExcludedRange::Above(bound) if outward > 0.0 => bound,
             ExcludedRange::Below(bound) if outward < 0.0 => bound,
-            // The mechanism excludes even all values inside, at which the verdict was stable: that verdict holds only
-            // within its tolerance. Use `value` itself as the outer end.
+            // The mechanism excludes even the values inside the bracket at which the verdict was stable: such a verdict
+            // holds only within its tolerance. Use `value` itself as the outer end.
             _ => value,
         };
         let is_closer = bracket
@@ -332,8 +335,8 @@ impl Line<'_> {
         }
     }
 
-    /// Searches farther outward while no value is known at which the component falls: decides it at a larger distance.
-    /// Returns the end of the interval if the search must stop, otherwise `None`.
+    /// Takes one step outward, as long as no value is known at which the component falls: decides the component at a
+    /// larger distance. Returns the end of the interval if the search must stop, otherwise `None`.
     fn step_outward(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.typical_large;
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.typical_small);

@@ -22,8 +22,9 @@ struct Start {
 /// Returns the interval of values of a parameter at which a component stands. The loads must be linear in the
 /// parameter.
 ///
-/// `stands` is true if the component stands at the value `present`. `alone(±1)` returns the component with only those
-/// loads that grow in this direction. If it stands, the interval may be unbounded in this direction.
+/// `stands` is true if the component stands at the value `present`. `alone(±1)` leaves only the loads that grow in the
+/// direction of larger (1) or smaller (−1) values. The interval is unbounded in this direction only if the component
+/// stands with these loads alone.
 pub(super) fn linear(
     trial: &mut Trial,
     line: &Line,
@@ -77,8 +78,8 @@ pub(super) fn linear(
     }
 }
 
-/// Finds the value nearest to `present` at which the component stands. If there is no such value, the error is the
-/// interval: empty or undecided.
+/// Finds the value nearest to `present` at which the component stands. If no such value is found, the `Err` contains
+/// the interval: empty or undecided.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the nearest value.
     let (mut program, toward) = trial.direction(

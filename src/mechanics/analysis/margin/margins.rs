@@ -103,7 +103,7 @@ impl Margins {
     pub const MAX_FRICTION: f64 = 1e3;
 
     /// Returns the smallest load factor with which the frame stands, and the mechanism by which it falls below this
-    /// factor. `None` if there is no such mechanism.
+    /// factor. `None` if the frame also stands at factor 0, or if no smallest factor is confirmed.
     pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
         let low = self.intervals.load_factor.as_ref()?.low()?;
         match low {
@@ -197,7 +197,8 @@ fn most(interval: &Interval) -> Margin {
     }
 }
 
-/// Converts an end of an interval to a margin. Its value is multiplied by `sign` (−1 or 1).
+/// Converts an end of an interval to a margin. The value is multiplied by `sign`: −1 for a margin to the left,
+/// otherwise 1.
 fn margin(end: &End, sign: f64) -> Margin {
     // Adding 0 turns −0 into 0.
     let signed = |value: f64| sign * value + 0.0;

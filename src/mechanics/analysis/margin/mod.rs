@@ -98,8 +98,8 @@ impl ComponentIntervals {
     }
 }
 
-/// Computes the margins of a frame from its components. Also returns how many changed components were evaluated for
-/// this.
+/// Computes the margins of a frame from its components. Also returns how many components with changed parameters were
+/// evaluated for this.
 ///
 /// 1. Find the intervals of the components whose intervals are not known from an earlier frame.
 /// 2. Intersect them: a frame stands if all its components stand.
@@ -129,8 +129,8 @@ pub(super) fn find_margins(
             .map(|trial| trial.decided_count)
             .sum::<usize>();
     }
-    // The tilts at which a frame stands surely form a single arc only if no loads are listed and no robot has a finite
-    // limit.
+    // If loads are listed or a robot has a finite limit, the frame may stand in several separate ranges of tilt. A note
+    // then says so.
     let is_cone =
         |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
     if let Some(Interval::Between { .. }) = intervals.tilt
@@ -142,7 +142,7 @@ pub(super) fn find_margins(
 }
 
 /// Computes the intervals of the components that are missing in `known`, and adds the intervals to `known`. Returns how
-/// many changed components were evaluated for this.
+/// many components with changed parameters were evaluated for this.
 fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
@@ -235,7 +235,7 @@ const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gr
                        tilts too; this interval contains 0, or is the nearest one to 0 if the frame falls without tilt";
 
 /// Returns the intervals of the limits of all robots. The intervals of a robot are empty if another component falls,
-/// because the robot cannot hold it.
+/// because this robot cannot hold that component.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, intervals)) in components.iter().enumerate() {

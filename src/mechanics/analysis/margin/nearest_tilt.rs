@@ -31,7 +31,7 @@ pub(super) fn nearest_stable_tilts(trials: &mut [Trial]) -> Interval {
 }
 
 /// Finds the tilt nearest to 0 at which all components stand, in degrees. Each mechanism excludes an arc of tilts. The
-/// search continues from the end of the excluded range that is nearer to 0. If no tilt is found, the error is the
+/// search continues from the end of the excluded range that is nearer to 0. If no tilt is found, the `Err` contains the
 /// interval: empty or undecided.
 fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
     let mut excluded = Excluded::default();

@@ -69,7 +69,8 @@ impl NewtonBracket {
         Some(falls)
     }
 
-    /// Tests a value like [`NewtonBracket::test`], but only if it lies inside the bracket.
+    /// Tests a value like [`NewtonBracket::test`], but only if it lies inside the bracket. `None` if the program could
+    /// not be solved.
     fn test_within(
         &mut self,
         trial: &mut Trial,
@@ -92,7 +93,7 @@ impl Threshold {
     /// `outside`, where the component falls; it stands at `inside`. `None` if the method does not converge.
     ///
     /// If the component stands at the root of a tangent, the root of another tangent, closer to the threshold, must
-    /// confirm it. Adds the forces and the motion that confirm the threshold to the cache of `trial`.
+    /// agree with this root. Adds the forces and the motion that confirm the threshold to the cache of `trial`.
     pub(super) fn newton_root(
         &self,
         trial: &mut Trial,

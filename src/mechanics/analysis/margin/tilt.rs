@@ -141,7 +141,7 @@ impl TiltSearch<'_, '_> {
             }
             let size = tilt_scale(self.from + self.outward * bound);
             let near = offsets().map(|step| (bound - step * size).max(0.5 * (stands + bound)));
-            // If the verdicts near the end of this range are undecided, a tilt farther away narrows the search.
+            // If the verdicts near `bound` are undecided, a tilt farther inside may still narrow the search.
             let far = [0.5, 0.75, 0.25].map(|share| stands + share * (bound - stands));
             let mut distances: Vec<(f64, bool)> = near.map(|distance| (distance, true)).collect();
             let first_far = if is_slow { 0 } else { distances.len() };
@@ -174,9 +174,9 @@ impl TiltSearch<'_, '_> {
         StableEnd::Unconfirmed(stands, falls)
     }
 
-    /// Returns the end at the distance `bound`, moved inward if the component falls even at `stands`, just inside it. The
-    /// verdict there is stable only within the tolerance of a proof by forces, which may be more than 0.0001 degrees. A
-    /// mechanism has no such tolerance, and excludes an arc that begins farther inside.
+    /// Returns the end at the distance `bound`, moved inward if the component falls even at `stands`, just inside it.
+    /// The verdict there is stable only within the tolerance of a proof by forces, which may be more than 0.0001
+    /// degrees. A mechanism has no such tolerance, and excludes an arc that begins farther inside.
     fn sharpened(&mut self, bound: f64, stands: f64, motion: Vec<Motion>) -> StableEnd {
         let (mut bound, mut motion) = (bound, motion);
         let mut inside = stands;
@@ -198,8 +198,8 @@ impl TiltSearch<'_, '_> {
         StableEnd::At(bound, motion)
     }
 
-    /// Returns the distance at which an arc of excluded tilts begins, seen from the start of the search. The arc contains
-    /// the distance `inside_arc`.
+    /// Returns the distance at which an arc of excluded tilts begins, seen from the start of the search. The arc
+    /// contains the distance `inside_arc`.
     fn first_excluded(&self, [low, high]: [f64; 2], inside_arc: f64) -> f64 {
         let tilt = if self.outward > 0.0 { low } else { high };
         ((tilt - self.from) * self.outward).clamp(0.0, inside_arc)

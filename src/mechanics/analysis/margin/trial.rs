@@ -160,9 +160,9 @@ impl<'a> Trial<'a> {
         verdict_from_cache(&self.changed(setting), &self.proofs)
     }
 
-    /// Solves the program of least residual for the changed component. The result contains the least Σ |residual|, and can
-    /// estimate how it changes with the friction coefficient and the kernel. `None` if there are no loads or the program
-    /// could not be solved.
+    /// Solves the program of least residual for the changed component. The result contains the least Σ |residual|, and
+    /// can estimate how it changes with the friction coefficient and the kernel. `None` if there are no loads or the
+    /// program could not be solved.
     pub fn tangent(&mut self, setting: &Setting) -> Option<Tangent> {
         self.count();
         Tangent::new(&self.program(setting))
@@ -263,8 +263,8 @@ impl<'a> Trial<'a> {
         Program::new(&changed, Scale::from_assembly(&changed))
     }
 
-    /// Returns the linear program for the setting `from`, and the difference between its load vector and that for the
-    /// setting `to`.
+    /// Returns the linear program for the setting `from`, and the change of its load vector from the setting `from` to
+    /// the setting `to`.
     pub fn direction(&self, from: &Setting, to: &Setting) -> (Program, Vec<f64>) {
         let [here, there] = [from, to].map(|setting| self.changed(setting));
         let heaviest = here.heaviest_load().max(there.heaviest_load());

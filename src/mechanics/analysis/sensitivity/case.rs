@@ -73,7 +73,7 @@ impl Case<'_> {
     }
 
     /// Returns a load on each body that makes the component fall: the change of the loads if the parameter goes beyond
-    /// the end. If the loads do not depend on the parameter, it is a force along the mechanism.
+    /// the end. If the loads do not depend on the parameter, the load is a force and a moment along the mechanism.
     pub fn push(&self, value: f64) -> Vec<LoadVector> {
         if let Some(growth) = self.growth(value) {
             let outward = growth.into_iter().map(|load| load.times(self.outward));
@@ -118,7 +118,7 @@ impl Case<'_> {
     }
 }
 
-/// Converts a load about the centroid to force x, force y and the moment about `origin`.
+/// Converts a load, whose moment is about the centroid, to force x, force y and the moment about `origin`.
 pub(super) fn load_at(
     load: &LoadVector,
     centroid: crate::geometry::Point,

@@ -157,7 +157,8 @@ impl Corners {
             .iter()
             .flat_map(|c| (0..self.moves[*c].len()).map(|k| (*c, k)))
             .collect();
-        // A move alone violates the conditions of the guides. The followers must compensate for this.
+        // Without followers, a move violates the conditions of the guides. The displacements of the followers must
+        // compensate for this.
         let right_hand_side = |(corner, k): &(usize, usize)| -> Vec<f64> {
             let direction = self.moves[*corner][*k].direction;
             let violation = |g: &Guide| -g.factor(*corner) * g.normal.dot(&direction);

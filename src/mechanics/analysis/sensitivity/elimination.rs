@@ -1,5 +1,5 @@
-//! [`Elimination`]: solves small dense systems of linear equations. If a system has many solutions, the result contains a
-//! basis of its null space. If a system has no solution, the remaining error of its rows shows this.
+//! [`Elimination`]: solves small dense systems of linear equations. If a system has many solutions, the result contains
+//! a basis of its null space. If a system has no solution, the remaining error of its rows shows this.
 //!
 //! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
 
@@ -29,7 +29,7 @@ impl Elimination {
         }
         let entries = rows.iter().flatten();
         let largest = entries.fold(0.0, |most: f64, v| most.max(v.abs()));
-        // The column of the pivot in each row that is already eliminated.
+        // For each row that is already eliminated, the column of its pivot.
         let mut pivots: Vec<usize> = Vec::new();
         let mut is_free = vec![true; unknowns];
         while pivots.len() < table.len() {

@@ -203,8 +203,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the derivatives of the margin with respect to the positions of the corners of all placed blocks. `largest`
-    /// is the largest absolute value of these derivatives.
+    /// Returns the derivatives of the margin with respect to the positions of the corners of all placed blocks.
+    /// `largest` is the largest absolute value of these derivatives.
     fn corners(&self, slope: &SlopeOf<'_>, largest: f64) -> Vec<CornerSlope> {
         let corners = self.corners;
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); corners.count];

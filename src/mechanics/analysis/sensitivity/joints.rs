@@ -33,8 +33,8 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    /// Returns the coefficient of the normal displacement of `corner` in this condition: the corner `of` stays on the
-    /// edge between `from` and `to`. The coefficient is 0 for any other corner.
+    /// Returns the coefficient of the normal displacement of `corner` in the condition that the corner `of` stays on
+    /// the edge between `from` and `to`. The coefficient is 0 for a corner other than these three.
     pub fn factor(&self, corner: usize) -> f64 {
         let mut factor = 0.0;
         for (place, value) in [

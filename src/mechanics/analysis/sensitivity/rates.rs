@@ -24,9 +24,9 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// Computes the derivatives with respect to all corners, weights, friction coefficients and load points of a frame.
-    /// `interfaces` is the number of its interfaces. `None` if the power along the mechanism does not depend on the
-    /// margin's parameter.
+    /// Computes the derivatives of the limit with respect to all corners, weights, friction coefficients and load
+    /// points of a frame. `interfaces` is the number of interfaces of the frame. `None` if the power along the
+    /// mechanism does not depend on the margin's parameter.
     pub fn new(
         scene: &Scene,
         corners: &Corners,
@@ -53,7 +53,7 @@ impl Rates {
             let motion = &state.motions[number];
             rates.weights[body.block.0] = changed.pull.dot(&motion.at(body.centroid));
         }
-        // The change of the power of loads without `at` per metre that the centroid of their body moves.
+        // For each body: the change of the power of its loads without `at`, per metre that its centroid moves.
         let mut follows = vec![Vector::zeros(); changed.bodies.len()];
         for (rate, load) in rates.loads.iter_mut().zip(scene.loads()) {
             let Some(body) = body_of_block[load.block.0] else {
@@ -93,8 +93,8 @@ impl Rates {
         Some(rates)
     }
 
-    /// Adds the changes of the power of a contact's forces: if the ends of the contact move, which also rotates its
-    /// normal, and if its friction coefficient changes.
+    /// Adds the changes of the power of a contact's forces in two cases: the ends of the contact move, which also
+    /// rotates its normal, or its friction coefficient changes.
     fn add_contact(
         &mut self,
         corners: &Corners,
@@ -184,8 +184,8 @@ impl CornerShift {
         }
     }
 
-    /// Applies the chain rule: `rate` is the derivative with respect to the centroid of the block, and the result is the
-    /// derivative with respect to this corner. Both have the components x and y.
+    /// Applies the chain rule: `rate` is the derivative with respect to the centroid of the block, and the result is
+    /// the derivative with respect to this corner. Both have the components x and y.
     fn of_centroid(&self, rate: Vector) -> Vector {
         Vector::new(rate.dot(&self.of_axes[0]), rate.dot(&self.of_axes[1]))
     }

@@ -75,9 +75,9 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` takes the derivative
-    /// from the [`Rates`] of a state. Derivatives that differ by at most `EQUAL_SLOPE_TOL · largest` count as equal;
-    /// `largest` is the largest absolute derivative of the same kind.
+    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` takes the
+    /// derivative from the [`Rates`] of a state. Derivatives that differ by at most `EQUAL_SLOPE_TOL · largest` count
+    /// as equal; `largest` is the largest absolute derivative of the same kind.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
             return Slope::AtKink;

@@ -169,7 +169,8 @@ impl EndState {
 }
 
 /// Solves by Newton's method for the forces between groups and for the value of the parameter at which they balance the
-/// loads. Starts from the forces of the linear program; forces that are not basic stay 0. `None` without convergence.
+/// loads. Starts from the forces of the linear program; forces that are not basic stay 0. `None` if the method does not
+/// converge.
 fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>> {
     let basic: Vec<usize> = reduced.basic().collect();
     let mut amounts: Vec<f64> = reduced.unknowns.iter().map(|u| u.amount).collect();
@@ -206,7 +207,7 @@ fn balanced(case: &Case, reduced: &Reduced, value: &mut f64) -> Option<Vec<f64>>
 }
 
 /// Returns a basis of the changes of the forces that keep the balance while the parameter keeps its value. `None` if
-/// one of these changes would change the value.
+/// some change of the forces keeps the balance only at another value.
 fn null_balances(
     case: &Case,
     reduced: &Reduced,

@@ -126,8 +126,8 @@ pub(in crate::mechanics::scene) fn unknown_key<'k>(
     )
 }
 
-/// Returns the key of the scene format with the same meaning as `key`, which other programs use; `None` if no such key
-/// is known.
+/// Returns the key of the scene format that means the same as `key`, a word that other programs use. `None` if no such
+/// key is known.
 fn synonym(key: &str) -> Option<&'static str> {
     Some(match key.to_lowercase().as_str() {
         "mu" | "μ" | "friction_coefficient" => "friction",

@@ -45,7 +45,7 @@ pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry
     new_wording(
         Code::TooSmall,
         format!(
-            "the number {} is not 0, but smaller than the limit of ±{}",
+            "the number {} is too close to 0: its size must be 0 or at least {}",
             digits(x),
             digits(smallest)
         ),

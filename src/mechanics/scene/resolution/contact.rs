@@ -22,8 +22,8 @@ impl Resolution<'_> {
         !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
     }
 
-    /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A contact
-    /// with an invalid friction coefficient is reported and gets the friction coefficient of the scene.
+    /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A
+    /// contact with an invalid friction coefficient is reported and gets the friction coefficient of the scene.
     pub(super) fn contacts(
         &self,
         findings: &mut Findings,
@@ -107,8 +107,8 @@ impl Resolution<'_> {
         }
     }
 
-    /// Returns a schematic support for a contact with the ground at the point `at`. The support lies on the side away
-    /// from `normal`, and its width is twice `size`.
+    /// Returns a schematic support for a contact with the ground at the point `at`. Seen from the contact, the support
+    /// lies in the direction −`normal`. Its width is twice `size`.
     fn support(&self, at: Point, normal: Vector, size: f64) -> Body {
         let along = quarter_turn(normal) * size;
         let back = normal * (-0.8 * size);

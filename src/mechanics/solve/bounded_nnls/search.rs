@@ -41,7 +41,7 @@ impl<'a> Search<'a> {
     }
 
     /// Collects the candidates: the columns at a bound whose gradient points away from the bound and, divided by
-    /// |column|, exceeds `threshold`.
+    /// |column|, exceeds `threshold`. Rejected columns are left out.
     pub(super) fn find_candidates(&mut self, residual: &[f64], threshold: f64) {
         self.candidates.clear();
         for (k, column) in self.columns.iter().enumerate() {

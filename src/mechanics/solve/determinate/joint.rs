@@ -1,5 +1,5 @@
 //! [`Joint`]: one contact of a structure in which the contacts form a tree, so that only one path leads from each body
-//! to the ground. The function [`joints`] lists them from the ground outwards.
+//! to the ground. The function [`joints`] lists all joints from the ground outwards.
 
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::program::{ContactTerm, Program};
@@ -63,8 +63,8 @@ impl Joint<'_> {
         ([first, second], along)
     }
 
-    /// Writes the body's velocities into `motion`: those of the body below, plus the speeds at which the joint opens
-    /// and slides.
+    /// Writes the body's velocities into `motion`. At the joint, the body moves with the body below, and in addition at
+    /// the speeds at which the joint opens and slides.
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);

@@ -1,5 +1,5 @@
-//! Computes forces, least adhesion and motion of statically determinate structures in closed form: stacks, and all
-//! structures whose contacts form a tree.
+//! Computes in closed form the forces, the least adhesion and the motion of statically determinate structures: stacks,
+//! and all other structures whose contacts form a tree.
 //!
 //! In a tree, each contact is the only connection of the blocks beyond it to the ground. The balance of these blocks
 //! determines the forces N1, N2 and T of the contact. If every contact can exert its forces, the structure stands.
@@ -67,7 +67,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
 }
 
 /// Computes the least adhesion, and the motion that proves that it is the least. `None` if the contacts do not form a
-/// tree (see [`joints`]), or if a friction coefficient exceeds 1.
+/// tree (see [`joints`]), if a friction coefficient exceeds 1, or if a result is not finite.
 pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
     let joints = joints(program)?;
     SplitForces::new(program, &joints)?.into_least_adhesion(program, &joints)
@@ -84,7 +84,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let mut moves = vec![false; program.blocks];
     let mut speeds = Vec::with_capacity(joints.len());
     for joint in &joints {
-        // If the body below moves, the joint stays closed, and its own body moves with the body below.
+        // If the body below moves, the joint stays closed, and the body above moves with the body below.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
         let (opens, slides) = match rests {
             true => split.speeds(joint),
@@ -103,7 +103,8 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
 /// Computes the velocities of the bodies from the speeds at which the joints open and slide. `None` if a velocity is
 /// not finite.
 ///
-/// Every joint opens by an additional [`EXTRA_OPENING`], unless this reduces the loads' power by half or more.
+/// Every joint opens by an additional [`EXTRA_OPENING`] times the largest velocity, unless this reduces the power of
+/// the loads by half or more.
 fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option<Vec<f64>> {
     let opened = |extra: f64| {
         let mut motion = vec![0.0; program.loads.len()];
@@ -116,7 +117,6 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option
         let both = program.loads.iter().zip(motion);
         both.map(|(load, v)| -load * v).sum()
     };
-    // The additional opening is applied only if it leaves at least half of the power.
     let plain = opened(0.0);
     if !plain.iter().all(|v| v.is_finite()) {
         return None;
@@ -179,8 +179,8 @@ impl SplitForces {
         })
     }
 
-    /// Returns the speeds at which the two points of a joint open and its face slides if it loses its adhesion. All are
-    /// 0 if the joint needs no adhesion.
+    /// Returns the speeds at which the two points of a joint open, and the speed at which the joint slides, if the
+    /// joint loses its adhesion. All are 0 if the joint needs no adhesion.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
         let (pull, missing) = (
             self.adhesion.normal[joint.number],

@@ -19,8 +19,8 @@ pub(super) struct BlockDiagonal {
 }
 
 impl BlockDiagonal {
-    /// Builds the matrix of a problem's quadratic objective; `None` if it couples more than [`MAX_BLOCK_COLUMNS`]
-    /// consecutive columns.
+    /// Builds the matrix of a problem's quadratic objective; `None` if one of its blocks has more than
+    /// [`MAX_BLOCK_COLUMNS`] columns.
     pub fn quadratic_of(problem: &QuadraticProgram) -> Option<BlockDiagonal> {
         let blocks = blocks(problem);
         if blocks.iter().any(|block| block.len() > MAX_BLOCK_COLUMNS) {
@@ -50,7 +50,7 @@ impl BlockDiagonal {
         })
     }
 
-    /// Returns the range of a block's matrix in [`Self::entries`].
+    /// Returns the range of the matrix of block `k` in [`Self::entries`].
     pub fn range(&self, k: usize) -> Range<usize> {
         self.begin[k]..self.begin[k + 1]
     }
@@ -70,7 +70,8 @@ impl BlockDiagonal {
 /// two blocks.
 fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
     let n = problem.unknowns;
-    // For each column, find the first column with which it is coupled.
+    // For each column, find the first column with which it is coupled, or the column itself if it is not coupled with
+    // an earlier one.
     let mut first: Vec<usize> = (0..n).collect();
     for (i, j, _) in &problem.quadratic {
         first[*j] = first[*j].min(*i);

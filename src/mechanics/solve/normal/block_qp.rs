@@ -1,5 +1,5 @@
-//! An interior-point method that minimises the sum of squares of force amounts with lower bounds: a quadratic
-//! program with a block-diagonal matrix.
+//! An interior-point method for least-squares programs of forces whose amounts have lower bounds. The quadratic
+//! objective of such a program has a block-diagonal matrix.
 //!
 //! ```text
 //! min ½ xᵀPx + linearᵀx   s.t.   A x = loads,   s = x + floor ≥ 0,   multipliers z ≥ 0 of the bounds
@@ -47,11 +47,11 @@ const STALLED_SHARE: f64 = 0.8;
 /// loads.
 const MAX_IDLE_STEPS: usize = 3;
 
-/// Solves a least-squares program in forces with lower bounds. `None` if the program has another form, or if the method
-/// ends without an optimum.
+/// Solves a least-squares program of forces whose amounts have lower bounds. `None` if the program has another form, or
+/// if the method ends without an optimum.
 ///
 /// The method also solves long chains of blocks, such as an arch of 10 000 stones, whose thrust is thousands of times a
-/// stone's weight. clarabel reports that the least-squares problem of this arch is infeasible.
+/// stone's weight. For this arch, clarabel wrongly reports that the problem is infeasible.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     if !has_only_floors(problem) {
         return None;
@@ -59,8 +59,8 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
     let tolerance = criteria.tolerance;
     let mut run = BlockQp::new(BlockDiagonal::quadratic_of(problem)?, problem)?;
     run.set_starting_point();
-    // Iterate until the duality gap meets a finer tolerance. If the iterations end before that, the normal tolerance is
-    // enough.
+    // Iterate until the duality gap meets a finer tolerance. If the iterations end before that, it is enough to meet
+    // the normal tolerance.
     let (mut iterations, mut idle_steps) = (0, 0);
     while !run.is_optimal(tolerance, GAP_FACTOR * tolerance) {
         let is_late = criteria.deadline.is_some_and(|end| Instant::now() >= end);
@@ -70,7 +70,8 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
             }
             return None;
         }
-        // Count steps without progress: short steps, and long steps after which most of the residual remains.
+        // Count consecutive steps without progress: short steps, and long steps after which most of the residual
+        // remains.
         let former = max_norm(&run.residuals.primal);
         let step = run.step();
         let is_stalled = max_norm(&run.residuals.primal) > STALLED_SHARE * former;
@@ -104,8 +105,8 @@ fn has_only_floors(problem: &QuadraticProgram) -> bool {
         *row - problem.equalities == *column && *value == -1.0
     };
     let mut below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
-    // With fewer columns than equations there is rarely a balance. Leave such a problem to clarabel, which detects this
-    // after two iterations.
+    // With fewer columns than equations, the forces can rarely balance the loads. Leave such a problem to clarabel,
+    // which detects within two iterations that there is no balance.
     problem.equalities != 0
         && n >= problem.equalities
         && problem.bound.len() == problem.equalities + n
@@ -190,8 +191,8 @@ impl BlockQp {
         })
     }
 
-    /// Sets the starting point: x is the least-squares solution without bounds, s is at least the mean size of x, and
-    /// each product s·z is the square of this mean.
+    /// Sets the starting point: x is the least-squares solution without bounds, s is at least the mean of |x|, and each
+    /// product s·z is the square of this mean.
     fn set_starting_point(&mut self) {
         self.factor_system();
         let mut side: Vec<[f64; 1]> = self.loads.iter().map(|v| [*v]).collect();
@@ -201,7 +202,7 @@ impl BlockQp {
         let mut x = std::mem::take(&mut self.x);
         self.apply_weight(&mut x);
         self.x = x;
-        // Choose s and z in the interior: each product s·z is the square of the mean size of x.
+        // Choose s and z in the interior: each product s·z is the square of the mean of |x|.
         let mean = self.x.iter().map(|x| x.abs()).sum::<f64>() / self.x.len().max(1) as f64;
         let inside = if mean > 0.0 { mean } else { 1.0 };
         for k in 0..self.x.len() {
@@ -222,7 +223,7 @@ impl BlockQp {
         }
         self.quadratic.multiply(&self.x, &mut residuals.dual);
         let squared = max_norm(&residuals.dual);
-        // `bound` holds Aᵀy until the loop below.
+        // `residuals.bound` is a buffer for Aᵀy until the loop below.
         (self.columns).transpose_product(&self.y, &mut residuals.bound);
         residuals.size = [balanced, squared, max_norm(&residuals.bound)];
         for k in 0..self.x.len() {
@@ -236,13 +237,14 @@ impl BlockQp {
         dot(&self.s, &self.z) / self.s.len().max(1) as f64
     }
 
-    /// True if the primal residual is at most the tolerance, relative to the largest entry of A x, or to 1 if that is
-    /// larger.
+    /// True if the largest entry of the primal residual is at most `tolerance` · max(1, largest entry of A x), in
+    /// absolute values.
     fn is_balanced(&self, tolerance: f64) -> bool {
         max_norm(&self.residuals.primal) <= tolerance * f64::max(1.0, self.residuals.size[0])
     }
 
-    /// True if every residual is small relative to its terms, and Σ s·z is at most `gap` times the objective.
+    /// True if every residual is at most `tolerance`, relative to its terms, and the duality gap Σ s·z is at most
+    /// `gap` · max(1, |objective|).
     fn is_optimal(&self, tolerance: f64, gap: f64) -> bool {
         let [_, squared, along] = self.residuals.size;
         let is_small = |list: &[f64], of: f64| max_norm(list) <= tolerance * f64::max(1.0, of);
@@ -293,8 +295,8 @@ impl BlockQp {
         }
     }
 
-    /// Computes the Newton direction along which each product s·z changes by its entry of `target`, and the given
-    /// fraction of the residuals is removed.
+    /// Computes the Newton direction along which, to first order, each product s·z changes by its entry of `target`. A
+    /// full step removes the fraction `residual_share` of the residuals.
     fn direction(&self, target: &[f64], residual_share: f64) -> Direction {
         let n = self.x.len();
         // Elimination of ds and dz: (P + Z/S) dx = Aᵀdy + side.

@@ -42,13 +42,13 @@ struct Workspace {
     packed: PackedRows,
 }
 
-/// Returns the index at which row 0 of column c would be in a packed lower triangle of `rows` rows. Row r is at this
-/// index + r.
+/// Returns the index at which row 0 of column c would be in a packed lower triangle of `rows` rows. The entry in row r
+/// ≥ c is at this index + r.
 fn packed_begin(rows: usize, c: usize) -> usize {
     c * rows - c * (c + 1) / 2
 }
 
-/// Returns the number of entries in a packed lower triangle.
+/// Returns the number of entries in a packed lower triangle of `rows` rows.
 fn packed_size(rows: usize) -> usize {
     rows * (rows + 1) / 2
 }
@@ -169,7 +169,7 @@ impl Cholesky {
             }
             // Step 2: factor the supernode's own columns.
             factor_columns(front.values, height, width, packed);
-            // Step 3: the update matrix is the lower part of the front minus L₂₁·L₂₁ᵀ.
+            // Step 3: the update matrix is the lower right part of the front minus L₂₁·L₂₁ᵀ.
             if below > 0 {
                 packed.pack(front.values, height, width);
                 packed.subtract_gram(front.update, below, |c| packed_begin(below, c));
@@ -254,7 +254,7 @@ struct RowRun {
 
 impl RowRun {
     /// Splits the rows of a child's update matrix into runs that are consecutive in the parent's front too. `local`
-    /// maps each position to its row in that front.
+    /// maps each row of L to its row in that front.
     fn find(rows: &[u32], local: &[u32], runs: &mut Vec<RowRun>) {
         runs.clear();
         for (k, row) in rows.iter().enumerate() {
@@ -280,7 +280,8 @@ struct Front<'a> {
 }
 
 impl Front<'_> {
-    /// Adds the weighted Gram matrix of a group of columns, whose entries are in the given rows.
+    /// Adds `gram`, the weighted Gram matrix of a group of columns with entries in `rows`. `local` maps each row of L
+    /// to its row in the front.
     fn assemble(&mut self, rows: &[u32], gram: &[f64], local: &[u32]) {
         for (i, column) in rows.iter().enumerate() {
             let mut column = self.column(local[*column as usize] as usize);
@@ -291,7 +292,8 @@ impl Front<'_> {
         }
     }
 
-    /// Extend-add: adds the update matrix of a child, a packed lower triangle of `rows` rows.
+    /// Extend-add: adds the update matrix of a child, a packed lower triangle of `rows` rows. `runs` maps these rows to
+    /// the rows of the front.
     fn extend_add(&mut self, rows: usize, update: &[f64], runs: &[RowRun]) {
         let mut end = 0;
         for (k, run) in runs.iter().enumerate() {

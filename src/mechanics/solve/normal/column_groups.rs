@@ -202,7 +202,8 @@ impl ColumnGroup<'_> {
         }
     }
 
-    /// Computes the group's part of A·W·Aᵀ, Σ weight·column·columnᵀ, with one weight for each column of the program.
+    /// Computes the group's part of A·W·Aᵀ, Σ weight·column·columnᵀ, with one weight for each column of the program,
+    /// and writes it into `sums`.
     ///
     /// The result is a full symmetric matrix: entry (i, j) is at j·width + i.
     pub fn weighted_gram(&self, weights: &[f64], sums: &mut Vec<f64>) {

@@ -41,8 +41,8 @@ impl PackedRows {
         }
     }
 
-    /// Subtracts R·Rᵀ from the first `columns` columns of a lower triangle, where R are the packed rows: a symmetric
-    /// update of rank `self.columns`.
+    /// Subtracts R·Rᵀ from the first `columns` columns of a lower triangle, where R is the matrix of the packed rows: a
+    /// symmetric update of rank `self.columns`.
     ///
     /// Row r of column c of the triangle is at `begin(c)` + r in `target`.
     pub fn subtract_gram(
@@ -58,7 +58,8 @@ impl PackedRows {
             for (h, right) in groups().skip(g) {
                 let r = 4 * h;
                 let sums = products(left, right);
-                // All four entries lie inside the triangle, except on the diagonal and in the last rows.
+                // Whether all four entries lie inside the triangle. This is not the case on the diagonal and in the
+                // last rows.
                 let whole = h > g && r + 4 <= self.rows;
                 for (i, sums) in sums.iter().enumerate().take(wide) {
                     let at = begin(c + i) + r;
@@ -96,8 +97,8 @@ fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
 
 /// Replaces the first `width` columns of a front, of `height` rows each, by those of its Cholesky factor.
 ///
-/// The diagonal entry becomes the inverse of the pivot's root, 1/L(k, k). If the pivot is lost to rounding, the whole
-/// column becomes 0.
+/// Each diagonal entry becomes 1/L(k, k), the inverse of the square root of the pivot. If a pivot is lost to rounding,
+/// its whole column becomes 0.
 pub(super) fn factor_columns(
     values: &mut [f64],
     height: usize,

@@ -123,8 +123,8 @@ impl<'a> OrderedGraph<'a> {
         others.map(|other| self.position[*other as usize])
     }
 
-    /// Returns the elimination tree: the parent of a column is the first row below the diagonal in which the factor
-    /// has an entry.
+    /// Returns the elimination tree: the parent of a column is the row of the first entry below the diagonal in this
+    /// column of the factor.
     ///
     /// `ancestor` leads from a column towards the root of the subtree that contains it so far. The search shortens
     /// these paths (Liu 1986).

@@ -148,7 +148,7 @@ impl<'a> InteriorPoint<'a> {
     }
 
     /// True if the optimum will probably not be strictly complementary: the sum of the slacks of the basic columns,
-    /// extrapolated to the final tolerance, exceeds `crossover.max_slack`.
+    /// relative to the cost and extrapolated to the final tolerance, exceeds `crossover.max_slack`.
     fn is_never_complementary(
         &self,
         optimality: &Optimality,
@@ -162,7 +162,8 @@ impl<'a> InteriorPoint<'a> {
             .is_some_and(|slack| slack > crossover.max_slack)
     }
 
-    /// Removes the primal residual by the least relative change of the amounts, min Σ (df/f)².
+    /// Removes the primal residual by the least relative change of the amounts, min Σ (df/f)². The change is shortened
+    /// if an amount would become negative.
     ///
     /// A Newton step weights the columns by f/z. Near the limit of stability these weights differ so much that a
     /// residual of 10⁻⁶ of the loads remains after every step. The amounts f differ less, so weights of f² remove the
@@ -188,7 +189,7 @@ impl<'a> InteriorPoint<'a> {
         }
     }
 
-    /// Sets the amounts to 0 for the columns that have a cost and are not clearly basic.
+    /// Sets to 0 the amounts of the columns that have a cost and are not clearly basic, and restores the balance.
     ///
     /// The former amounts are restored if the remaining amounts are not an optimum to the given tolerance.
     fn drop_non_basic(&mut self, tolerance: f64) {

@@ -82,7 +82,8 @@ impl Iterate {
         for list in [&mut at.f, &mut at.z] {
             let least = list.iter().fold(f64::INFINITY, |a, b| a.min(*b));
             let mean = list.iter().filter(|v| **v > 0.0).sum::<f64>() / columns as f64;
-            // The smallest variable becomes at least 1, and at least a tenth of the mean.
+            // The smallest variable becomes at least 1, and at least a tenth of the mean, in which negative values
+            // count as 0.
             let inside = f64::max(1.0, 0.1 * mean);
             let shift = if least < inside {
                 inside - least.min(0.0)
@@ -94,7 +95,7 @@ impl Iterate {
         at
     }
 
-    /// Returns the sum of the slacks of the basic columns, whose amounts exceed their slacks.
+    /// Returns the sum of the slacks of the basic columns, which are the columns whose amount exceeds their slack.
     pub fn basic_slack(&self) -> f64 {
         let both = self.f.iter().zip(&self.z);
         both.filter(|(f, z)| f > z).map(|(_, z)| z).sum()
@@ -129,8 +130,8 @@ impl Iterate {
         }
         self.tau += step * direction.tau;
         self.kappa += step * direction.kappa;
-        // The homogeneous form determines only the ratios of these numbers. Rescale them before they leave the range of
-        // f64.
+        // The homogeneous form determines only the ratios of f, z, y, τ and κ. Rescale them before they leave the range
+        // of f64.
         let size = self.tau.max(self.kappa);
         if !(1e-3..1e3).contains(&size) {
             let lists = [&mut self.f, &mut self.z, &mut self.y];

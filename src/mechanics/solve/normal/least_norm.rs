@@ -17,8 +17,8 @@ pub(super) struct LeastNorm {
     pub multipliers: Vec<f64>,
 }
 
-/// Finds the amounts of least norm that balance the loads. `None` if the largest entry of their residual exceeds
-/// `tolerance`.
+/// Finds the amounts of least norm that balance the loads. `None` if the largest absolute entry of the remaining
+/// residual loads − A·amounts exceeds `tolerance`.
 pub(super) fn solve(
     columns: &ColumnGroups,
     factor: &mut Cholesky,

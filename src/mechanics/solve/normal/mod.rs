@@ -1,4 +1,4 @@
-//! The second solver, for programs of many blocks: interior-point methods that solve the normal equations.
+//! The solver for programs of many blocks, besides clarabel: interior-point methods that solve the normal equations.
 //!
 //! The forces and the velocities of a structure are the optima of two linear programs that are dual to each other:
 //!
@@ -69,8 +69,8 @@ const MAX_COLUMN_ENTRIES: usize = 12;
 ///
 /// Returns `None` if clarabel should solve the program. This is the case if the program has few blocks, another form or
 /// a column with too many entries, or if no order of elimination was found. It is also the case if the method ended
-/// without a result for a chain or for a quadratic program, which clarabel may still solve. The least norm of a chain
-/// is an exception.
+/// without a result for a chain or for a quadratic program, which clarabel may still solve. The exception is the least
+/// norm of a chain: there, the answer without a result is returned.
 pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> Option<Answer> {
     let rows = match problem.equalities {
         0 => problem.unknowns,
@@ -87,7 +87,7 @@ pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
     problem.equalities > 0 && !problem.quadratic.is_empty()
 }
 
-/// Like [`solve`], for any number of blocks. The structure counts as a chain if its factorization needs fewer than
+/// Like [`solve`], but also for few blocks. The structure counts as a chain if its factorization needs fewer than
 /// `chain_operations` operations for each unknown.
 fn solve_any_size(
     problem: &QuadraticProgram,
@@ -148,7 +148,8 @@ fn solve_least_norm(
             s: vec![0.0; loads.len()],
             iterations: 1,
         }),
-        // If a chain loses too many digits here, clarabel finds no optimum either, even after two hundred iterations.
+        // If a chain loses too many digits here, return an answer without a result: clarabel finds no optimum either,
+        // even after two hundred iterations.
         None => is_chain.then(|| Answer::without_status(problem)),
     }
 }

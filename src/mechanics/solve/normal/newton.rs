@@ -180,7 +180,7 @@ impl Newton {
         max_step
     }
 
-    /// Writes the changes of the products amount·slack that a corrector aims at into `next_target`. Returns the
+    /// Writes into `next_target` the changes of the products amount·slack at which a corrector aims. Returns the
     /// correction of the product τκ.
     ///
     /// A product that a step of length `step` would move out of the band around `centre` is corrected to the nearest
@@ -200,8 +200,8 @@ impl Newton {
         correction(at.tau, by.tau, at.kappa, by.kappa)
     }
 
-    /// Computes the predictor direction. The same solve, with two right-hand sides, also yields `tau_direction` and
-    /// the pivot of dτ.
+    /// Computes the predictor direction. The linear system is solved at the same time for another right-hand side,
+    /// which yields `tau_direction` and the pivot of dτ.
     fn predict(&mut self, system: &mut System, at: &Iterate, sides: Sides) {
         let lp = system.lp;
         let mut tau_side = lp.loads.to_vec();
@@ -214,8 +214,8 @@ impl Newton {
         let mut both: Vec<[f64; 2]> = tau_side.iter().zip(&side).map(|(a, b)| [*a, *b]).collect();
         system.factor.solve(&mut both);
 
-        // First right-hand side: compute the changes of the velocities and of the force amounts per unit of dτ, and the
-        // pivot of dτ.
+        // From the solution for the first right-hand side, compute the changes of velocities and amounts per unit of
+        // dτ, and the pivot of dτ.
         let part = &mut self.tau_direction;
         part.y.iter_mut().zip(&both).for_each(|(y, v)| *y = v[0]);
         lp.columns.transpose_product(&part.y, &mut part.f);
@@ -225,7 +225,7 @@ impl Newton {
         }
         system.pivot = dot(lp.loads, &part.y) - dot(lp.cost, &part.f) + at.kappa / at.tau;
 
-        // Second right-hand side: the predictor.
+        // The solution for the second right-hand side contains the velocities of the predictor.
         let velocities = self.candidate.y.iter_mut().zip(&both);
         velocities.for_each(|(y, v)| *y = v[1]);
         self.complete_candidate(system, at, sides);
@@ -273,7 +273,7 @@ impl Newton {
             + dot(lp.cost, &to.f)
             + sides.pair / at.tau;
         to.tau = (1.0 - lp.velocity_weight) * gap / system.pivot;
-        // Add the part that is proportional to dτ to dy and df; dz follows from the linearised product.
+        // Add to dy and df the part that is proportional to dτ. Compute dz from the linearised product.
         for (y, part) in to.y.iter_mut().zip(&tau_part.y) {
             *y += part * to.tau;
         }

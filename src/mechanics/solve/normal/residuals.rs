@@ -84,7 +84,7 @@ impl Optimality {
     }
 
     /// True if the amounts balance the loads to the tolerance, relative to the sum of the largest load and the largest
-    /// amount.
+    /// amount, or to 1 if that sum is smaller.
     pub fn is_primal_feasible(&self, lp: &LinearProgram, tolerance: f64) -> bool {
         let f = self.size[0];
         let scale = f64::max(1.0, max_norm(lp.loads) + f / self.tau);
@@ -112,7 +112,8 @@ impl Optimality {
         !self.is_primal_feasible(lp, tolerance) && self.is_dual_optimal(lp, tolerance)
     }
 
-    /// Returns two numbers relative to the cost: the gap between the objectives, and the given sum of slacks.
+    /// Returns the absolute gap between the two objectives, and the given sum of slacks, both divided by the absolute
+    /// cost (the primal objective).
     pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
         [self.primal_objective - self.dual_objective, slack]
             .map(|v| v.abs() / self.primal_objective.abs())

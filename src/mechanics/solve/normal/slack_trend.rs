@@ -20,8 +20,8 @@ pub(super) struct SlackTrend {
 }
 
 impl SlackTrend {
-    /// Records the gap and slack of an iteration. Returns the slack that the trend predicts at `final_gap`, or `None`
-    /// if the trend is not yet known.
+    /// Takes the gap and the sum of slacks of an iteration, both relative to the cost. Returns the sum of slacks that
+    /// the trend predicts at `final_gap`, or `None` if the trend is not yet known.
     pub fn extrapolate(&mut self, [gap, slack]: [f64; 2], final_gap: f64) -> Option<f64> {
         if gap > FIRST_GAP {
             return None;

@@ -49,8 +49,8 @@ impl Supernodes {
     }
 }
 
-/// Symbolic factorization: computes the rows of every supernode. They are the rows with an entry in its columns,
-/// and the rows of the update matrices of its children.
+/// Symbolic factorization: computes the rows below every supernode. They are the rows with an entry in its columns, and
+/// the rows of the update matrices of its children.
 fn symbolic_factor(
     ordered: &OrderedGraph<'_>,
     ranges: &[ColumnRange],

@@ -89,8 +89,8 @@ fn leads_to_rest(
     x: &[f64],
 ) -> bool {
     let u = &x[..program.loads.len()];
-    // A robot's spring exerts its given force at displacement 0. Choose the given forces so that the springs exert the
-    // robots' forces of the solution at its displacements.
+    // A robot's spring exerts its given force at displacement 0. Choose the given forces so that, at the displacements
+    // of the solution, the springs exert the robots' forces of the solution.
     let components = layout.grips(x).iter().zip(&springs.grips);
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
     let robots = Springs::with_given_forces(program, &given, 1.0);

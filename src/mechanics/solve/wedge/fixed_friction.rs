@@ -80,8 +80,8 @@ impl Springs<'_> {
     /// min ½Σp² + ½ρΣe² + Σ limit·q + ½ ground Σu² + loads·u,
     ///
     /// where u are the displacements, `ground` is the stiffness of the springs to the ground, g is the opening of each
-    /// point, and p ≥ max(0, −g) is its compression. For each face, e is the elongation of the spring along it, ρ the
-    /// stiffness of this spring, s the slip, and q ≥ |s − e| the sliding.
+    /// point, and p ≥ max(0, −g) is the compression of its spring. For each face, e is the elongation of the spring
+    /// along the face, ρ is the stiffness of this spring, s is the slip, and q ≥ |s − e| is the sliding distance.
     fn least_energy(&self, friction_limits: &[f64], ground: f64) -> QuadraticProgram {
         let (rows, points) = (self.program.loads.len(), self.points.len());
         let faces = self.tangents.len();

@@ -57,7 +57,8 @@ pub struct SelfStress {
 }
 
 impl SelfStress {
-    /// Returns the indices of the blocks with a velocity above 0.001. The largest velocity of the motion is 1.
+    /// Returns the indices of the blocks with an absolute velocity above 0.001. The largest absolute velocity of the
+    /// motion is 1.
     pub fn moving_blocks(&self) -> impl Iterator<Item = usize> {
         let blocks = self.motion.chunks(3).enumerate();
         blocks.filter_map(|(block, v)| v.iter().any(|v| v.abs() > 1e-3).then_some(block))
@@ -97,10 +98,10 @@ const MAX_BLOCKS_FIXED_FRICTION: usize = 400;
 /// A velocity below this counts as 0; the largest is 1.
 const VELOCITY_TOL: f64 = 1e-6;
 
-/// Checks whether the forces that balance a standing program build up from rest.
+/// Checks whether the loads of a structure that stands can build up balancing forces from rest.
 ///
-/// `given` are the robots' forces in that balance, as (force x, force y, torque/L) for each grip. The robots may exert
-/// other forces within their limits.
+/// `given` are the robots' forces in the known balance, as (force x, force y, torque/L) for each grip. The robots may
+/// exert other forces within their limits.
 ///
 /// Without friction, the forces always build up from rest: the springs then come to rest at the balance of
 /// least Σ N².
@@ -119,8 +120,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
             _ => None,
         })
         .collect();
-    // Fast attempts to find a state of rest: first with robots' springs that start at the given forces, then at 0, then
-    // by the iteration with fixed friction limits.
+    // Fast attempts to find a state of rest: first with robots' springs that start at the given forces, then with
+    // robots' springs that start at 0, then by the iteration with fixed friction limits.
     let motion = match Springs::with_given_forces(program, &given, 1.0).find_rest() {
         Ok(_) => return SelfStressCheck::FromRest,
         Err(motion) => motion,
@@ -155,8 +156,8 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
 }
 
-/// Returns the self-stress that a program needs if its springs do not come to rest. Its size is the least sum of normal
-/// forces at the contacts that open or slide in `motion`.
+/// Returns the self-stress that a structure needs if its springs do not come to rest. Its size is the least sum of
+/// normal forces at the contacts that open or slide in `motion`.
 fn self_stress(program: &Program, motion: Vec<f64>, ruled_out: Vec<RuledOut>) -> SelfStress {
     let springs = Springs::new(program, 1.0);
     // Find the contacts that open or slide, and whether any point closes.

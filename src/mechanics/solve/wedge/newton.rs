@@ -133,7 +133,7 @@ impl Springs<'_> {
     /// without them.
     ///
     /// Returns the spring forces at rest. If no state of rest is found, the error contains the last displacements,
-    /// scaled so that the largest is 1.
+    /// scaled so that the largest absolute value is 1.
     pub(super) fn find_rest(&self) -> Result<Rest, Vec<f64>> {
         let mut u = vec![0.0; self.program.loads.len()];
         let mut pattern = self.all_pressed();

@@ -29,8 +29,8 @@ pub(super) enum Branch {
 }
 
 impl Node {
-    /// Returns the root of the search tree. All points and faces are open, except the faces without friction, for which
-    /// the decision has no effect.
+    /// Returns the root of the search tree. All points and faces are open (undecided), except the faces without
+    /// friction, for which the decision has no effect.
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
         let slides = contacts.map(|c| (!(c.friction > 0.0)).then_some(Slide::Forth));
@@ -58,7 +58,7 @@ impl Node {
         }
     }
 
-    /// True if a face may transmit a friction force. False if all its points are decided as not pressing.
+    /// True if a face may transmit a friction force: at least one of its points presses or is undecided.
     pub fn may_carry(&self, springs: &Springs, contact: usize) -> bool {
         let points = springs.points.iter().zip(&self.pressed);
         points
@@ -97,7 +97,7 @@ impl Node {
             .or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
     }
 
-    /// Returns the given pattern, in which the decisions of the node replace those of the pattern.
+    /// Returns a copy of `pattern` in which the decided points and faces have the states that the node decides.
     pub fn impose_on(&self, pattern: &Pattern) -> Pattern {
         let mut imposed = pattern.clone();
         for (to, decided) in imposed.pressed.iter_mut().zip(&self.pressed) {

@@ -1,5 +1,5 @@
-//! [`VariableLayout::relaxation`]: the relaxation of a node of the branch and bound to linear constraints, as a
-//! quadratic program.
+//! [`VariableLayout::relaxation`]: the relaxation of a branch-and-bound node to linear constraints, as a quadratic
+//! program.
 //!
 //! The unknowns are the displacements of the blocks, the normal force at each application point, the friction force of
 //! each contact and the force components of the robots. For points and faces that the node decides, the springs' law
@@ -70,7 +70,8 @@ impl VariableLayout {
         &x[self.grips..self.end]
     }
 
-    /// Builds the relaxation of a node. Its objective favours complementarity: min Σ N + (N + g) over the open points.
+    /// Builds the relaxation of a node. Its objective favours complementarity: min Σ (N + (N + g)) over the open
+    /// points, plus a small quadratic term.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
         let mut builder = Builder {
             equal: Rows::default(),
@@ -123,7 +124,7 @@ impl VariableLayout {
         }
     }
 
-    /// Adds the springs' law at the points, N = max(0, −g), which is relaxed for open points.
+    /// Adds the springs' law at the points, N = max(0, −g). The law is relaxed for open points.
     ///
     /// Returns, for each contact, the indices of the unknown normal forces that may be above 0.
     fn add_points(&self, springs: &Springs, node: &Node, builder: &mut Builder) -> Vec<Vec<usize>> {
@@ -157,7 +158,7 @@ impl VariableLayout {
         pressing
     }
 
-    /// Adds the springs' law at the faces, T = −slip limited to ±μ(N1 + N2), which is relaxed for open faces.
+    /// Adds the springs' law at the faces, T = −slip, limited to ±μ(N1 + N2). The law is relaxed for open faces.
     fn add_faces(
         &self,
         springs: &Springs,

@@ -36,9 +36,9 @@ impl Springs<'_> {
     /// Computes the spring forces of a pattern. Returns them if they balance every block and obey the springs' law;
     /// otherwise `None`.
     ///
-    /// The iterative refinement corrects openings, slips and yields instead of displacements. The forces on a light
-    /// block are then accurate relative to its own load, even if heavy blocks move far. A motion that the pattern does
-    /// not resist keeps its value in `u`.
+    /// The iterative refinement corrects openings, slips and the displacements of the robots' springs, instead of the
+    /// displacements of blocks. The forces on a light block are then accurate relative to its own load, even if heavy
+    /// blocks move far. A motion that the pattern does not resist keeps its value in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();
@@ -69,7 +69,7 @@ impl Springs<'_> {
     }
 
     /// Computes the forces of the springs in a pattern, from the opening of each point, the slip of each face and the
-    /// yield of each robot.
+    /// displacement `yielded` of each robot's spring.
     fn forces(&self, pattern: &Pattern, gap: &[f64], slip: &[f64], yielded: &[f64]) -> Rest {
         // Compute the normal forces at the pressed points, and their sum for each contact.
         let mut sum = vec![0.0; self.tangents.len()];
@@ -145,7 +145,8 @@ impl Springs<'_> {
         force_sizes
     }
 
-    /// True if the residual of every block is within the tolerance, which is relative to the block's own load.
+    /// True if the residual of every block is within the tolerance, which is a fraction of the block's own load plus
+    /// the rounding error of the forces on it.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
         self.force_sizes(rest)
             .iter()
@@ -165,7 +166,8 @@ impl Springs<'_> {
             .iter()
             .enumerate()
             .map(|(k, c)| {
-                // The tolerance is relative to the smaller load of the two bodies.
+                // The tolerance is a fraction of the smaller load of the two blocks, plus a far smaller fraction of the
+                // contact's own forces.
                 let lighter = c.from.as_ref().map_or(force_sizes[c.on.0].0, |f| {
                     force_sizes[c.on.0].0.min(force_sizes[f.0].0)
                 });

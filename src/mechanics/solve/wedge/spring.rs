@@ -201,7 +201,7 @@ impl<'a> Springs<'a> {
                 *slides = Slide::Back;
             }
         }
-        // A robot yields if the force of its spring exceeds its limit.
+        // A robot yields if the force of its spring exceeds the robot's limit.
         for (grip, limit) in self.grips.iter().zip(&mut found.limits) {
             let force = grip.given - grip.column.dot(u);
             *limit = if force.abs() > grip.limit {

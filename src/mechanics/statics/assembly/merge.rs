@@ -63,8 +63,8 @@ fn merged_body(members: &[&AssemblyBody]) -> Option<AssemblyBody> {
 }
 
 impl AssemblyContact {
-    /// Returns the contact with other bodies: `on` and `from` are their indices in another assembly, where `None` is
-    /// the ground. Returns `None` if both are the same body or both are the ground.
+    /// Returns this contact for another assembly, in which its two bodies have the indices `on` and `from`. The index
+    /// `None` means the ground. Returns `None` if both are the same body or both are the ground.
     ///
     /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.
     pub(super) fn with_bodies(

@@ -78,7 +78,7 @@ impl Assembly {
             if seen[first] {
                 continue;
             }
-            // Find the set by breadth-first search from its first body.
+            // Find the component by breadth-first search from its first body.
             seen[first] = true;
             let mut set = vec![first];
             let mut next = 0;

@@ -29,7 +29,7 @@ impl Effect for Contact {
 }
 
 /// Adds one contact to the assembly for each interface of the kind `kind`. `friction` returns the friction coefficient
-/// of an interface.
+/// of the contact.
 pub(super) fn add(
     context: &FrameContext,
     assembly: &mut Assembly,

@@ -9,8 +9,8 @@ use super::{EffectName, EffectReport, counted};
 /// The effect that this file reports on.
 const NAME: EffectName = EffectName::Margins;
 
-/// Returns the report on margins. `decided_count` is the number of changed components whose verdicts were computed
-/// for the margins; `None` if margins were not requested.
+/// Returns the report on margins. `decided_count` is the number of verdicts that were computed for the margins, each
+/// for one connected part of the structure with a changed quantity. It is `None` if margins were not requested.
 pub fn report(decided_count: Option<usize>) -> EffectReport {
     match decided_count {
         None => EffectReport::skipped(NAME, "not requested", 0),

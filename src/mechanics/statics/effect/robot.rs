@@ -1,5 +1,5 @@
-//! Robots: each robot that holds a block applies a force at its grip point, whose components F_x and F_y are within the
-//! robot's limits.
+//! Robots: each robot that holds a block may apply a force at its grip point. The components F_x and F_y of the force
+//! are within the robot's limits.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.6.
 

@@ -21,7 +21,7 @@ pub enum AdhesionSearch {
 }
 
 /// Returns the report on sticking. `blocks` is the number of blocks in the frame. `unknowns` is the number of unknowns
-/// that sticking adds to the program, or that were saved because it was not computed.
+/// that sticking adds to the linear program, or would add if it were computed.
 pub fn report(blocks: usize, search: AdhesionSearch, unknowns: usize) -> EffectReport {
     match search {
         AdhesionSearch::Found => {

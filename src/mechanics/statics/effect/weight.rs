@@ -5,8 +5,8 @@
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::Assembly;
 
-/// The weight of the blocks. Applies if there is gravity and a placed block has weight; sets the weight of each body and
-/// the direction of gravity.
+/// The weight of the blocks. Applies if there is gravity and a placed block has weight; sets the weight of each body
+/// and the direction of gravity.
 pub(super) struct Weight;
 
 impl Effect for Weight {

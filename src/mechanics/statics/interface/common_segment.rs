@@ -57,13 +57,13 @@ impl CommonSegment {
         self.along.dot(&(p - self.a.from))
     }
 
-    /// Returns the unit vector that points from the first edge to the second.
+    /// Returns the unit vector that is perpendicular to the segment and points out of the first body.
     fn outward(&self) -> Vector {
         Vector::new(self.along.y, -self.along.x)
     }
 
-    /// Returns the distance, in metres, of the edge `e` from the line of the first edge, at the coordinate `s` along
-    /// the segment. It is positive outside the first body.
+    /// Returns the signed distance, in metres, of the edge `e` at the coordinate `s` along the segment. It is measured
+    /// from the line through the start of the first edge in the mean direction, and is positive outside the first body.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
         let (h0, h1) = (

@@ -57,9 +57,9 @@ struct Side {
 impl Side {
     /// Returns the bounding box of the edge in x, y and direction.
     ///
-    /// The range of directions contains each edge that may face this one within the smaller of both angle tolerances.
-    /// Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With it, it
-    /// overlaps only a few, because each joint has a different direction.
+    /// The range of directions is wide enough for each edge that may face this one within the smaller of both angle
+    /// tolerances. Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With
+    /// the direction, the box overlaps only a few, because each joint has a different direction.
     fn bounds(&self) -> Aabb<3> {
         let along = self.edge.vector();
         let angle =
@@ -240,8 +240,8 @@ impl Collection {
         self.interfaces.push(interface);
     }
 
-    /// Records a contact that is too short for an interface, for the notice on short contacts. If its length exceeds the
-    /// rounding error of the coordinates, it is also kept as a sliver.
+    /// Records a contact that is too short for an interface, for the notice on short contacts. If its length exceeds
+    /// the rounding error of the coordinates, it is also kept as a sliver.
     fn add_short(&mut self, interface: Interface, tolerance: Tolerance) {
         self.notices.add_short(interface.length(), tolerance);
         if interface.length() > tolerance.rounding {
@@ -331,7 +331,7 @@ fn only_touching_corner(
 }
 
 /// Compares edge `a` of the first body with edge `b` of the second. Returns their relation, or `None` if they do not
-/// face each other.
+/// face each other closely enough for an interface or a near miss.
 fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Relation> {
     let search_distance = a.search_distance.min(b.search_distance);
     let (a, b) = (a.edge, b.edge);

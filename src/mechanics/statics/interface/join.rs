@@ -39,7 +39,7 @@ pub(super) fn join_segments(segments: Vec<Interface>, tolerance: Tolerance) -> V
     joined
 }
 
-/// Returns the two outermost ends of two segments, in the order along the first segment.
+/// Returns the two outermost ends of two segments, in the order in which the first segment runs.
 ///
 /// All four ends are compared, because it is not known which ends meet if the segments are shorter than the distance
 /// within which ends count as equal.
@@ -115,8 +115,8 @@ impl SegmentGrid {
         self.segments.get_mut(next)?.take()
     }
 
-    /// Returns the index of the first segment on the line of `one` whose end of the given kind lies within reach of
-    /// `p`. `None` if there is no such segment.
+    /// Returns the index of the first segment on the line of `one` that begins or ends (as `end` says) within reach of
+    /// the point `p`. `None` if there is no such segment.
     fn neighbour(&mut self, end: SegmentEnd, p: Point, one: &Interface) -> Option<usize> {
         let (x, y) = self.cell(p);
         let (table, which) = match end {

@@ -110,8 +110,8 @@ fn joined(
 
 /// Creates the interface along the edges from the node `begin` to the node `end`.
 ///
-/// The first body lies to the left of this direction, so the normal into it is the direction rotated anticlockwise by
-/// 90°.
+/// The first body lies to the left of the direction from `begin` to `end`, so the normal into it is this direction
+/// rotated anticlockwise by 90°.
 fn interface(
     scene: &Scene,
     lattice: &Lattice,

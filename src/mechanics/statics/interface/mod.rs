@@ -110,7 +110,7 @@ pub(crate) struct PinnedGap {
 }
 
 impl PinnedGap {
-    /// True if `interface` lies in this gap. While the stone is present, the interface does not exist.
+    /// True if `interface` lies in this gap. Such an interface does not exist while the stone is present.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -249,8 +249,8 @@ fn ordered(a: BodyId, b: BodyId) -> Option<[BodyId; 2]> {
 /// Returns the unit normal n that is exactly perpendicular to the segment between two ends. The tangent (−n_y, n_x)
 /// points from the first end to the second.
 ///
-/// Friction is one force per interface, which acts along the line through the two ends. The moment of this force does
-/// not depend on its point on the line only if the normal is exactly perpendicular to the line.
+/// Friction is one force per interface, which acts along the line through the two ends. If the normal is exactly
+/// perpendicular to this line, the moment of the force is the same for every point of the line.
 fn normal_across(ends: [Point; 2]) -> Vector {
     quarter_turn((ends[0] - ends[1]).normalize())
 }

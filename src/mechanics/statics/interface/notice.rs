@@ -26,7 +26,7 @@ impl Notices {
         self.required_length = self.required_length.max(tolerance.min_length);
     }
 
-    /// Records two bodies with edges that are `distance` metres apart, slightly more than the tolerance.
+    /// Records two bodies with edges that are `distance` metres apart, which is more than the tolerance.
     pub(super) fn add_near_contact(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
         let names = bodies.map(|body| scene.name(body));
         self.unjoined

@@ -29,7 +29,7 @@ impl<'a> ContactsByBody<'a> {
 /// Finds a stone that lies between the two bodies of a gap and keeps the gap open. `None` if there is no such stone.
 ///
 /// Such a stone touches the two bodies on opposite sides. Its height between them is more than half the width of the
-/// gap, and at most 1.1 times the width plus `tolerance` metres. Only bodies for which `is_present` is true are
+/// gap, and at most 1.1 times the width plus `tolerance` metres. Only stones for which `is_present` is true are
 /// considered.
 pub(crate) fn pinning_stone(
     gap: &NearMiss,
@@ -64,7 +64,7 @@ pub(crate) fn pinning_stone(
 /// times larger, the search would only take more time.
 pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
-/// Finds the joints in `open_joints` that a stone keeps open. The gaps of all these joints are narrower than the
+/// Finds the joints in `open_joints` that a stone keeps open. The gaps of all joints in `open_joints` are within the
 /// tolerance.
 pub(super) fn pinned_gaps(
     scene: &Scene,

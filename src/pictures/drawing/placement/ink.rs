@@ -35,7 +35,8 @@ struct ConvexPiece {
 }
 
 impl Ink {
-    /// Adds a convex shape. `corners` has the corners of the shape in order. Two corners give a line of width 0.
+    /// Adds a convex shape. `corners` contains the corners of the shape in order around it. Two corners give a line of
+    /// width 0.
     pub fn convex(&mut self, corners: impl IntoIterator<Item = PagePoint>) {
         self.piece(corners, false);
     }
@@ -67,15 +68,16 @@ impl Ink {
         self.pieces.push(piece);
     }
 
-    /// Builds the grid of all shapes added so far. With the grid, [`place`](super::place) tests positions faster.
+    /// Builds the grid of all shapes added so far, if there is none. Shapes that are added later enter the grid too.
+    /// With the grid, [`place`](super::place) tests positions faster.
     pub fn index(&mut self) {
         if self.grid.is_none() {
             self.grid = Some(Grid::new(&self.pieces));
         }
     }
 
-    /// True if `matches` is true for any piece whose bounding box overlaps the box from `min` to `max`. The search
-    /// stops at the first such piece, and `matches` is called at most once for each piece.
+    /// True if `matches` is true for a piece whose bounding box overlaps the box from `min` to `max`. The search stops
+    /// at the first such piece, and `matches` is called at most once for each piece.
     fn any_near(
         &self,
         min: PagePoint,
@@ -160,8 +162,8 @@ impl Ink {
         self.convex(corners(rect));
     }
 
-    /// Adds a label and its leader line. Leader lines of other labels should cross neither of them. Does nothing for
-    /// `None`.
+    /// Adds a label and its leader line. Leader lines of other labels should cross neither the label nor its line. Does
+    /// nothing for `None`.
     pub(super) fn add_label(&mut self, placed: Option<&Placed>) {
         let Some(placed) = placed else { return };
         self.piece(corners(placed.rect), true);
@@ -261,7 +263,8 @@ impl ConvexSide {
 
     /// True if the line through this side separates its piece from the box from `min` to `max`.
     fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
-        // Two corners of the box have the least and the greatest offset. The direction of the side determines which.
+        // One corner of the box has the least offset, and another the greatest. The direction of the side determines
+        // which corners.
         let (below, above) = if self.along.0 >= 0.0 {
             (min.y, max.y)
         } else {

@@ -1,4 +1,5 @@
-//! [`untangle`] exchanges the positions of two labels whose leader lines cross, if fewer lines cross afterwards.
+//! [`untangle`] exchanges the positions of two labels with leader lines if fewer leader lines cross other lines or
+//! labels afterwards.
 //!
 //! Labels are placed one after the other, so in a crowd a late label may only find a position behind other labels. The
 //! method is a local search over pairs (2-opt). It stops if no exchange reduces the number of crossings, or after a few
@@ -12,8 +13,9 @@ use crate::drawing::{PagePoint, PageRect};
 /// fast.
 const MAX_ROUNDS: usize = 4;
 
-/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings. Returns true if any
-/// label moved.
+/// Exchanges the positions of pairs of labels as long as this reduces the number of crossings, in at most
+/// [`MAX_ROUNDS`] rounds. `avoid` is true if the label with this index must not be at this rectangle. Returns true if
+/// any label moved.
 pub(super) fn untangle(
     ink_without_labels: &Ink,
     page: PageRect,
@@ -21,7 +23,8 @@ pub(super) fn untangle(
     placed: &mut [Option<Placed>],
     avoid: &dyn Fn(usize, PageRect) -> bool,
 ) -> bool {
-    // Moves the label with this number to the centre of the rectangle `to`; `None` if the label does not fit there.
+    // Returns the position of the label with the index `number`, centred in the rectangle `to`; `None` if it does not
+    // fit there.
     let moved = |number: usize, to: PageRect| {
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);

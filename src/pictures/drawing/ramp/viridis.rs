@@ -1,4 +1,5 @@
-//! The colour ramp viridis of matplotlib, by Nathaniel J. Smith, Stéfan van der Walt and Eric Firing (public domain, CC0).
+//! The colour ramp viridis of matplotlib, by Nathaniel J. Smith, Stéfan van der Walt and Eric Firing (public domain,
+//! CC0).
 
 /// 256 colours from dark violet over blue-green to yellow, as 0xrrggbb.
 #[rustfmt::skip]

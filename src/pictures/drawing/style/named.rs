@@ -54,7 +54,7 @@ impl Theme {
     }
 
     /// Returns a theme for print in colour or grey. Items that may touch differ in lightness: force arrows are dark and
-    /// blocks are light. Robots are lighter than failures, and failures are lighter than forces.
+    /// blocks are light. Robots are lighter than missing forces, and missing forces are lighter than all other forces.
     pub fn paper() -> Theme {
         Theme {
             page: Colour::WHITE,

@@ -12,7 +12,7 @@ use super::{Bookmark, Role, Tags};
 /// The rows of a table: the number and the cells of each.
 type Rows = Vec<(usize, Vec<Node>)>;
 
-/// Builds the tag tree of a document: joins consecutive cells to rows, and rows to tables.
+/// Builds the tag tree of a document: joins consecutive cells into rows, and rows into tables.
 pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     let mut nodes = Vec::new();
     // The table whose cells are being collected: the number of the table, and its rows with their numbers.

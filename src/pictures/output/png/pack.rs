@@ -1,4 +1,4 @@
-//! [`encode`] writes pixels as a PNG without loss, with the smallest possible number of bytes per pixel.
+//! [`encode`] writes pixels as a PNG without loss, with one, three or four bytes per pixel: as few as possible.
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 

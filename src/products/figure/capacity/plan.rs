@@ -75,7 +75,8 @@ pub(super) struct SmallPicture {
 }
 
 impl SmallPicture {
-    /// Converts a point of the scene to its position in the small picture; both are in metres.
+    /// Converts a point of the scene to the position in the figure at which the small picture shows it; both are in
+    /// metres.
     pub fn place(&self, point: Point) -> Point {
         self.corner + (point - self.view.min) * self.scale
     }
@@ -160,8 +161,8 @@ impl<'a> Plan<'a> {
         middle(&self.ring)
     }
 
-    /// Returns one small picture for each edge in `numbers`. The pictures are to the right of the structure and the
-    /// polygon. If structure, ground and polygon together are wide, the pictures are below them.
+    /// Returns one small picture for each edge whose index is in `numbers`. The pictures are to the right of the
+    /// structure and the polygon. If structure, ground and polygon together are wide, the pictures are below them.
     fn small_pictures(
         &self,
         analysis: &Analysis,

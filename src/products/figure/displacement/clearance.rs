@@ -22,7 +22,7 @@ impl<'a> Clearance<'a> {
         let blocks = frame.placed.iter();
         let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
         let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
-        // Ignore blocks with schematic outlines: these outlines already overlap at rest.
+        // Ignore blocks with schematic outlines: these outlines may already overlap at rest.
         let is_drawn =
             |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
         let is_listed = scene.lists_contacts();

@@ -74,8 +74,8 @@ struct Pose {
 }
 
 impl Linkage {
-    /// Creates the linkage of the moving blocks in `group`, with the conditions of those of `joints` that keep a block
-    /// of the group in contact.
+    /// Creates the linkage of the moving blocks in `group`. It contains the conditions of every joint of these blocks
+    /// at which the two bodies stay in contact. `joints` are all joints of the frame.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
         let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
         let within = |body: &Vec<Motion>| {
@@ -133,7 +133,8 @@ impl Linkage {
     }
 
     /// Returns the displacement of each block. `amplitude` is the displacement, in metres, of a point of speed 1. All
-    /// joints stay closed if Newton's method finds such positions.
+    /// joints stay closed if Newton's method finds such positions. Otherwise every rigid body moves along its own
+    /// velocity.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
         let start: Vec<Pose> = self
             .members
@@ -255,7 +256,7 @@ impl Linkage {
         })
     }
 
-    /// Returns the displaced position of a point of a body, metres. A body at rest is `None`.
+    /// Returns the displaced position of a point of a body, metres. `body` is `None` for a body at rest.
     fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
         body.map_or(point, |body| {
             self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point)

@@ -31,9 +31,9 @@ pub(super) struct TruePath {
     pub joins: Vec<(usize, Point)>,
 }
 
-/// Returns the path of the force from the first joint to the second. The function tries all orders in which the path
-/// can meet the loads. Returns `None` if there are more than [`MAX_ORDERED`] loads, or if no path exists that stays in
-/// the block and never turns back.
+/// Returns the path of the force from the first joint to the second. `loads` are the loads and the weight. The function
+/// tries all orders in which the path can meet the loads. Returns `None` if there are more than [`MAX_ORDERED`] loads,
+/// or if no path exists that stays in the block and never turns back.
 pub(super) fn path(
     polygon: &Polygon,
     first: LineOfAction,

@@ -215,8 +215,8 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
 /// joins it. `loads` are the forces to which the indices in the path refer. Points whose distance is at most
 /// `same_place` metres coincide.
 ///
-/// A weight that acts on the path itself has no strand of its own to the path. From there on, it is drawn on both
-/// sides of the path, so that a reader can distinguish it from the force that the block transmits.
+/// A weight that acts on the path itself needs no strand that leads to the path. From its point of action on, it is
+/// drawn on both sides of the path, so that a reader can distinguish it from the force that the block transmits.
 fn exact_strands(
     on: BlockId,
     [from, to]: [Origin; 2],
@@ -283,7 +283,8 @@ struct ForceDistribution<'a> {
 
 impl ForceDistribution<'_> {
     /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
-    /// is positive, and leaves the block otherwise. For a force across gravity, its component across gravity decides.
+    /// is positive, and leaves the block otherwise. For a force perpendicular to gravity, the sign of its component
+    /// across gravity decides.
     fn enters(&self, acting: &ForceOnBlock) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ALONG_GRAVITY_TOL * acting.force.norm() {
@@ -317,10 +318,10 @@ impl ForceDistribution<'_> {
     }
 
     /// Returns the position and the direction of one end of a strand, where the force `acting` acts. The strand has the
-    /// direction of `force`: this is `acting.force` at the beginning of a strand, and its opposite at the end. `partner`
-    /// is the force at the other end of the strand. The strands to all `partners` lie side by side, in the order of their
-    /// positions across `force`; those of a missing force lie on one side of the point. `sum` is the sum of the
-    /// magnitudes of all `partners`, N.
+    /// direction of `force`: this is `acting.force` at the beginning of a strand, and its opposite at the end.
+    /// `partner` is the force at the other end of the strand. The strands to all `partners` lie side by side, in the
+    /// order of their positions across `force`; those of a missing force lie on one side of the point. `sum` is the sum
+    /// of the magnitudes of all `partners`, N.
     fn end(
         &self,
         acting: &ForceOnBlock,
@@ -352,9 +353,9 @@ impl ForceDistribution<'_> {
         (at + aside * (middle * self.metres_per_newton), along)
     }
 
-    /// Returns the side of the point `at` on which the strands of a missing force lie. It is 1 if only the point on the
-    /// side of `across` is in the block, -1 if only the point on the other side is, and 0 otherwise. So the strands do
-    /// not cover the other body, on which this force does not act.
+    /// Returns the side of the point `at` on which the strands of a missing force lie, so that they do not cover the
+    /// other body. The function tests one point on each side of `at`, along `across`. The result is 1 if only the point
+    /// in the direction of `across` is in the block, -1 if only the opposite point is, and 0 otherwise.
     fn side(&self, at: Point, across: Vector) -> f64 {
         let inside = |sign: f64| self.polygon.contains(at + across * (sign * SIDE_SHARE));
         match (inside(1.0), inside(-1.0)) {

@@ -44,7 +44,7 @@ pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
 }
 
 /// Returns the text below the verdict: why the frame does not stand, its largest contact force, and its joints at their
-/// limit. In a column of print, the label of the largest contact force is enough.
+/// limit. In a column of print with labels, the text leaves out the largest contact force, because its label shows it.
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let why = verdict::reason(scene, frame_analysis);

@@ -204,8 +204,8 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
         || at.y > view.max.y && body.max.y >= view.max.y
 }
 
-/// True if the diagram shows coordinates: the block has exactly one interface, and no robot holds the block. Otherwise
-/// the picture would not be readable.
+/// True if the diagram shows coordinates: the block has exactly one interface, and no robot holds the block. In other
+/// cases the dashed lines to the axes would make the picture unreadable.
 pub(super) fn guided(
     analysis: &Analysis,
     frame: usize,

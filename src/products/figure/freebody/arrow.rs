@@ -34,8 +34,8 @@ pub(super) struct Arrow {
 
 impl Arrow {
     /// Returns possible centres for the name of the arrow: on both sides of its shaft and beyond its tip, or around a
-    /// torque arrow. `wide` and `high` are the width and height of the name in pixels. `from` is the tail of the arrow
-    /// on the page.
+    /// torque arrow. `wide` and `high` are the width and height of the name in pixels. `from` is the position on the
+    /// page of the tail, or of the centre of a torque arrow.
     pub(super) fn beside(&self, from: PagePoint, wide: f64, high: f64) -> Vec<PagePoint> {
         let (x, y) = self.along;
         let length = libm::hypot(x, y).max(1e-9);

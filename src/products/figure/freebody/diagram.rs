@@ -59,8 +59,9 @@ pub(super) fn least_length(force: &Force) -> f64 {
     }
 }
 
-/// Returns the arrows of the diagram, with lengths proportional to the forces. With [`Corners::All`] there is an arrow
-/// for every force that may act. These arrows only name the forces, so all arrows of one kind have the same length.
+/// Returns the arrows of the diagram. Their lengths are proportional to the forces, but at least [`least_length`]. With
+/// [`Corners::All`] there is an arrow for every force that may act. These arrows only name the forces, so all arrows of
+/// one kind have the same length.
 pub(super) fn arrows(
     analysis: &Analysis,
     block: BlockId,
@@ -118,13 +119,14 @@ impl Diagram<'_> {
         (x * scale, y * scale)
     }
 
-    /// Returns a straight arrow for each force, and a circular arrow for each torque.
+    /// Returns a straight arrow for each force, and a circular arrow for each torque. If arrows only name forces, the
+    /// forces of interfaces are left out.
     fn force_arrows(&self, forces: &[Force]) -> Vec<Arrow> {
         let edge = unit(&self.analysis.scene, None);
         let largest = largest(forces, edge, self.options);
         let mut arrows = Vec::new();
         for force in forces {
-            // If arrows only name forces, skip the forces of interfaces: `corner_arrows` makes their arrows.
+            // If arrows only name forces, `corner_arrows` makes the arrows of the interfaces.
             let of_interface = matches!(force.what, "Normal force" | "Friction force" | "Force")
                 && force.colour == self.options.theme.ink;
             if self.naming && of_interface {

@@ -97,8 +97,8 @@ impl Sheet<'_> {
         } else {
             self.camera.rect(self.view)
         };
-        // Never place the name inside another body, because it would look like the name of that body. Without another
-        // position, the name is left out; the heading also names the block of the diagram.
+        // Never place the name inside another body, because it would look like the name of that body. If there is no
+        // other position, the name is left out. The heading names the block of the diagram anyway.
         let covers_other_block = |_: usize, rect: PageRect| {
             let at = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
             let at = self.camera.back(at);

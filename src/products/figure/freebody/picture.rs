@@ -1,5 +1,6 @@
-//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, the axes, and
-//! the dashed lines from points to the axes. Each function adds its shapes to the [`Ink`], which names must not cover.
+//! Draws the picture of a free-body diagram: the block, the bodies that touch it, the arrows of the forces, the axes,
+//! and the dashed lines from points to the axes. Each function adds its shapes to the [`Ink`], which names must not
+//! cover.
 
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;
@@ -51,7 +52,7 @@ impl Sheet<'_> {
         group
     }
 
-    /// Draws the outline of the block. The colour of the page fills it.
+    /// Draws the block: its outline, filled with the colour of the page.
     pub(super) fn body(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
         self.add_edges(ink, self.polygon(), self.camera.rect(self.view));
@@ -61,7 +62,8 @@ impl Sheet<'_> {
             .with(Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 1.8)))
     }
 
-    /// Adds the visible edges of a polygon to the ink, so that no name covers these edges.
+    /// Adds the visible parts of the edges of a polygon to the ink, so that no name covers them. `seen` is the visible
+    /// part of the page.
     fn add_edges(&self, ink: &mut Ink, polygon: &Polygon, seen: PageRect) {
         for edge in polygon.edges() {
             let line = [edge.from, edge.to].map(|p| self.camera.place(p));
@@ -104,7 +106,8 @@ impl Sheet<'_> {
                 ink.line(end, p, 1.2);
                 let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
                 let (wide, high) = symbol.size(NAME_SIZE);
-                // Names that would overlap on the axis get different distances from it (rows).
+                // If names would overlap at the axis, they get different distances from it: each name has three
+                // possible rows.
                 let place = |row: f64| match axis {
                     "y" => end.moved(-6.0 - wide / 2.0 - row * (wide + 4.0), -0.08 * high),
                     _ => end.moved(0.0, 1.0 + high / 2.0 + row * (0.7 * high)),
@@ -183,7 +186,7 @@ impl Sheet<'_> {
         group
     }
 
-    /// Draws the directions of the x and y axes below the picture.
+    /// Draws two arrows below the picture that show the directions of the x and y axes.
     pub(super) fn axes(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
         let origin = PagePoint::new(

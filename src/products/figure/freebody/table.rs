@@ -177,8 +177,8 @@ impl Table {
             }
             y += ROW_HEIGHT * size;
         }
-        // `y` is the baseline of a further row. Subtract most of it, so that only half a row of space remains below the
-        // table.
+        // `y` is the baseline that a further row would have. Subtract most of the height of this row, so that only half
+        // a row of space remains below the table.
         (group, y - top.y - 0.9 * size)
     }
 }

@@ -48,7 +48,7 @@ impl Piece {
         (items, self.width(size))
     }
 
-    /// Returns the symbol or text in plain text, for screen readers.
+    /// Returns the symbol or text as plain text, for screen readers.
     pub(super) fn stated(&self) -> String {
         match self {
             Piece::Symbol(symbol) => symbol.stated(),

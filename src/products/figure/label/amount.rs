@@ -57,9 +57,9 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
     }
 }
 
-/// Returns the labels with the magnitudes of arrows: of the largest contact force, the largest force of a robot, loads
-/// and missing forces, and of all other forces if the options request it. `few` is true if the frame has few blocks.
-/// Otherwise only the largest of these forces have labels.
+/// Returns the labels with the magnitudes of the largest contact force, the largest force of a robot, the loads and the
+/// missing forces. If the options request magnitudes and the frame has few blocks (`few`), all other forces also have
+/// labels. In a frame with many blocks, only the largest of the loads and missing forces have labels.
 pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let marks = &pen.context.marks[pen.number];
     let options = pen.context.options;

@@ -112,7 +112,8 @@ pub(super) fn drawn(pen: &Pen<'_>, label: &Label, placed: Placed) -> Group {
     let theme = &pen.context.options.theme;
     let mut group = Group::with_class(label.class);
     if let Some(leader) = placed.leader {
-        // A thin grey line is not visible on a dark block, so draw a wider line in the colour of the page below it.
+        // A thin grey line is not visible on a dark block. Therefore first draw a wider line in the page colour, which
+        // lies below the grey line.
         let seam = Path::stroked(Outline::line(leader), Stroke::new(theme.page, 2.0));
         let line = Path::stroked(Outline::line(leader), Stroke::new(theme.faint, 0.7));
         group = group.with(seam.with_opacity(0.7)).with(line);

@@ -126,14 +126,16 @@ fn positions(pen: &Pen<'_>, view: Bounds, labels: &[Label], mut ink: Ink) -> Vec
     let lost = lost.filter(|(label, placed)| label.named && placed.is_none());
     let lost: Vec<PageRect> = lost.map(|(label, _)| label.rect_at_anchor()).collect();
     if !lost.is_empty() {
-        // These labels are drawn over other shapes. Place the others again, so that none of them covers these labels.
+        // Labels in `lost` are drawn over other shapes at their anchors. Place all other labels again, so that none of
+        // them covers a label in `lost`.
         lost.into_iter().for_each(|rect| ink.rect(rect));
         places = place_avoiding(&mut ink, page, &requests, &covers_other_block);
     }
     places
 }
 
-/// True if the amount of a load in a row has a position outside the lines of its row.
+/// True if the amount of a load in a row of loads is at none of the positions that its request lists. `rect` is the
+/// rectangle of the label.
 fn leaves_row(label: &Label, rect: PageRect) -> bool {
     let request = &label.request;
     let at = middle(rect);

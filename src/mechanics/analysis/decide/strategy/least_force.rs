@@ -9,8 +9,8 @@ pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     from_balance(balance_in(program, settings))
 }
 
-/// Solves the program of least force with few iterations. Near the limit of stability it converges slowly or ends
-/// without a result, and other programs decide sooner.
+/// Solves the program of least force, but stops after a few iterations. Near the limit of stability, this program
+/// converges slowly or ends without a result, and other programs decide sooner.
 pub(super) fn first_look(program: &Program, settings: SolverSettings) -> Attempt {
     from_balance(balance_at_first_look(program, settings))
 }

@@ -15,8 +15,8 @@ use crate::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverS
 /// cost too much.
 pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
 
-/// How a component was decided. The variants are ordered: the result of a frame names the last method among those of its
-/// components.
+/// How a component was decided. The variants are ordered: the result of a frame names the last method among those of
+/// its components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Method {
@@ -112,7 +112,8 @@ impl Strategy {
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a result.
     /// 4. Least force with full precision.
-    /// 5. Least adhesion. Its optimum, the sum of the missing forces, distinguishes 0 from almost 0 best.
+    /// 5. Least adhesion. Its optimum is the sum of the missing forces. It distinguishes best between a sum of 0 and a
+    ///    sum of almost 0.
     ///
     /// Three cases differ:
     ///
@@ -197,14 +198,14 @@ impl Strategy {
         matches!(self, Strategy::Force(_))
     }
 
-    /// True if an attempt whose forces failed the proof shows that no forces balance the loads. Only the programs of any
-    /// balance, least residual and least adhesion can show this. They always have an optimum, and this optimum balances
-    /// the loads if any forces do.
+    /// True if an attempt whose forces could not be proved shows that no forces balance the loads. Only the programs of
+    /// any balance, least residual and least adhesion can show this. They always have an optimum, and this optimum
+    /// balances the loads if any forces do.
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
             Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
-            // If the solver ended without a result, nothing is shown.
+            // If the solver ended without a result, the attempt shows nothing.
             Strategy::Adhesion(_) => {
                 let found = attempt.least_adhesion.as_ref();
                 found.is_some_and(|found| found.balanced.is_some())

@@ -11,8 +11,8 @@ use crate::proof::Motion;
 
 impl Line<'_> {
     /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is
-    /// this value according to a linear program. If no value is found, the error is the interval: empty if mechanisms
-    /// exclude all values, otherwise undecided.
+    /// this value according to a linear program. If no value is found, the `Err` contains the interval: empty if
+    /// mechanisms exclude all values, otherwise undecided.
     pub fn nearest(
         &self,
         trial: &mut Trial,
@@ -20,7 +20,7 @@ impl Line<'_> {
         hint: Option<f64>,
     ) -> Result<f64, Interval> {
         let (mut low, mut high) = (self.min_value, f64::INFINITY);
-        // `below` and `above` are the exclusions of all values below `low` and above `high`.
+        // `below` excludes all values below `low`, and `above` excludes all values above `high`.
         let [mut below, mut above] = [None, None];
         let limit = MAX_VANISHING_VALUE * self.typical_large;
         let mut next = Some(present);

@@ -35,7 +35,7 @@ impl ThemeReader {
         entries.iter().find_map(named)
     }
 
-    /// Reads all keys of a file and replaces the values of `theme`. Collects the problems.
+    /// Reads all keys of a file. Writes their values to the fields of `theme`, and collects all problems.
     pub(super) fn theme(&mut self, entries: &[(String, Value)], theme: &mut Theme) {
         for (number, (key, value)) in entries.iter().enumerate() {
             self.once(entries, number, key);
@@ -92,8 +92,8 @@ impl ThemeReader {
         self.note(path, "unknown key".into(), help);
     }
 
-    /// Reports a problem if the value is not one of the known names. `sort` is the kind of the names for the message,
-    /// for example "theme".
+    /// Reports a problem if the value is not one of the known names. `sort` is what the names stand for, for example
+    /// "theme"; the message contains this word.
     fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
         let Value::Text(name) = value else {
             return self.note(
@@ -164,7 +164,7 @@ impl ThemeReader {
     }
 
     /// Reads a table of numbers. `known` lists each possible key with the range and unit of its number. Returns each
-    /// number of the table with the index of its key in `known`.
+    /// valid number with the index of its key in `known`. Reports a problem for every other entry.
     fn numbers(
         &mut self,
         path: &str,
