@@ -1,4 +1,4 @@
-//! Finds the largest force of a joint, and describes it.
+//! Finds the largest contact force of a frame, and describes it.
 
 use super::joint_name::joint_name;
 use super::label::{Callout, EQUAL_FORCE_TOL};
@@ -25,8 +25,8 @@ pub(crate) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact
     })
 }
 
-/// Returns a text `largest: …` at the joint with the largest force. `clear` is its least distance from the joint,
-/// pixels. The list is empty if no joint has a force.
+/// Returns a label `largest: …`, with the amount of the force, for the joint with the largest force. `clear` is the
+/// least distance of the label from the joint, pixels. The list is empty if no joint has a force.
 pub(crate) fn callout(
     pen: &Pen<'_>,
     found: &FrameAnalysis,
@@ -46,7 +46,7 @@ pub(crate) fn callout(
     largest_contact(found).map(callout).into_iter().collect()
 }
 
-/// Describes the largest force of a joint; empty if no joint has a force.
+/// Describes the largest contact force of a frame and its joint; empty if no joint has a force.
 pub(crate) fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let Some(contact) = largest_contact(frame_analysis) else {
         return String::new();

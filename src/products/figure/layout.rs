@@ -65,8 +65,8 @@ impl Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// Combines this layout with `other`: the result has the larger panel width and the smaller scale of the two, so
-    /// the panels of both fit.
+    /// Combines this layout with `other`, so that the panels of both fit. The result has the larger panel width and the
+    /// smaller scale of the two, and the number of columns of this layout.
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;

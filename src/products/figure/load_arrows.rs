@@ -1,5 +1,5 @@
-//! Draws the loads of a frame as arrows, and changes these arrows so that a reader can see them next to other arrows: makes
-//! short arrows longer, and moves arrows along their lines of action away from weights and missing forces.
+//! Draws the loads of a frame as arrows, and changes these arrows so that a reader can see them next to other arrows:
+//! makes short arrows longer, and moves arrows along their lines of action away from weights and missing forces.
 
 use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::mark;
@@ -17,8 +17,8 @@ const TIP_DISTANCE: f64 = 1.35;
 /// The number of sections of a load's arrow. [`covers`] measures the distance from other arrows at their ends.
 const TESTED_POINTS: u32 = 24;
 
-/// Returns the arrows of the loads of a frame, and of their torques, and no other arrows. The tip of a straight arrow is
-/// at the point where the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
+/// Returns only the arrows of the loads of a frame and of their torques. The tip of a straight arrow is at the point
+/// where the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
 pub(super) fn loads_alone(
     analysis: &Analysis,
     frame: usize,
@@ -49,8 +49,8 @@ pub(super) fn loads_alone(
     }
 }
 
-/// Returns the load, in newtons, whose arrow is one unit length long in a figure of loads alone. With this scale the
-/// arrow of the largest load of the frame is easy to read. Weights are not loads.
+/// Returns the load, in newtons, whose arrow is one unit length long in a figure of loads alone. At this scale, the
+/// arrow of the largest load of the frame has the length [`longest_load`]. Weights are not loads.
 pub(super) fn load_scale(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let placed = &scene.frames[frame].placed;

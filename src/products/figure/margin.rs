@@ -92,7 +92,7 @@ impl PanelContent for CollapseMargin {
             let ghost = "how it would begin to fall".to_owned();
             entries.push(Entry::Symbol(ghost_symbol, 20.0, ghost));
             if copies.iter().any(|(_, ends)| ends.len() > 1) {
-                let other = "the same at the other end".to_owned();
+                let other = "how it would begin to fall at the other end".to_owned();
                 entries.push(Entry::Symbol(other_ghost_symbol, 20.0, other));
             }
             entries.extend(mechanism::joint_entries(&joints.concat()));

@@ -111,7 +111,7 @@ impl PanelContent for Mechanism {
             .any(|f| !analysis.frames[f].mechanism.is_empty())
         {
             let [stood, goes] = match context.options.is_column() {
-                true => ["blocks now", "how they begin to move, enlarged"],
+                true => ["blocks now", "how blocks begin to move, enlarged"],
                 false => [
                     "where the blocks stand now",
                     "how the blocks begin to move, enlarged",

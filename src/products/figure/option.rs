@@ -164,7 +164,7 @@ const PRINT_COLUMN: f64 = 520.0;
 impl Options {
     setters! {
         style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
-        normalisation: Normalisation, "The force whose arrow is one unit length long.";
+        normalisation: Normalisation, "Which force has an arrow that is one unit length long.";
         scale: ArrowScale, "Whether each panel has its own scale of arrows or all panels share one scale.";
         fill: Fill, "The quantity that the colours of blocks show, such as stresses.";
         corners: Corners, "Which forces of interfaces a free-body diagram shows.";
@@ -178,14 +178,14 @@ impl Options {
         scale_bar: bool, "Whether a scale bar in metres is drawn.";
         dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
         with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon.";
-        labels: bool, "Whether blocks and robots have labels with their names, and the main forces with magnitudes.";
+        labels: bool, "Whether labels show the names of blocks and robots, and the magnitudes of the main forces.";
         amounts: bool, "Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks.";
     }
 
     optional_setters! {
         columns: usize, "The number of panels in a row.";
-        zoom: BlockId, "The block in the centre of a zoomed picture. The picture only shows its surroundings.";
-        width: f64, "Width of the page, pixels. Font sizes only become smaller on narrow pages with flat pictures.";
+        zoom: BlockId, "The block in the centre of a zoomed picture, which shows only this block and its surroundings.";
+        width: f64, "Page width, pixels. Below 520, texts are smaller if pictures fill under 55 % of the height.";
         height: f64, "Largest height of the picture of a frame without its legend, pixels.";
     }
 

@@ -79,9 +79,9 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     }
 }
 
-/// Returns the sideways offset of an arrow in metres, positive to its left. Of the candidates at which the arrow is not
-/// too close to a placed parallel arrow, the result is the one nearest to `ideal`. Returns `ideal` if there is no such
-/// candidate. Adds the number of candidates, tried or not, to `candidates`.
+/// Returns the sideways offset of an arrow in metres, positive to its left. Of the candidate offsets at which the arrow
+/// is not too close to a placed parallel arrow, the result is the one nearest to `ideal`. Returns `ideal` if no tried
+/// candidate is suitable. Adds the number of all candidates, tried or not, to `candidates`.
 fn offset_of_least_change(
     arrow: &ForceArrow,
     across: Vector,
@@ -117,7 +117,8 @@ fn offset_of_least_change(
         offsets.sort_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.total_cmp(a)));
         offsets.into_iter().take(MAX_CANDIDATES).find(clear)
     };
-    // If the offset is small, do not search again: arrows farther away can only lead to larger offsets.
+    // Consider only nearby arrows first. If the offset found is small, do not search again, because arrows farther away
+    // can only lead to larger offsets.
     let nearby = nearest(Some(
         space_around(arrow).grown(NEARBY_DISTANCE * arrow.width),
     ));

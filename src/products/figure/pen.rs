@@ -40,8 +40,8 @@ pub(crate) fn colour(rgb: Rgb) -> Colour {
     Colour(rgb.0)
 }
 
-/// Returns the lines between the lattice cells of a body on the page. An edge that two cells share is one line. The
-/// outline is empty for a body without cells.
+/// Returns the lines between the lattice cells of a body on the page: one line for each edge that two cells share. The
+/// result is empty for a body without cells.
 pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
     let mut outline = Outline::default();
     let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {

@@ -101,7 +101,7 @@ impl PanelContent for ForcePolygon {
         let mut ink = label::ink(pen);
         let polygon = drawn_polygon(pen, &mut ink);
         let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // No label may lie where the ground to the right of the structure is cut off.
+        // Keep labels out of the area to the right of the shown ground, where the ground is cut off.
         if let Some(shown) = view::ground_shown(scene, unit(scene, None)) {
             let mut beyond = pen.camera.rect(shown);
             let right = beyond.at.x + beyond.width;

@@ -86,11 +86,11 @@ impl PanelContent for CornerEffects {
             .iter()
             .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
         {
-            let words = "one of the most effective moves: new value below, estimated";
+            let words = "one of the most effective moves; the text below states the estimated new margin";
             entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words = "change of a weight, load or joint: new value below, estimated";
+            let words = "change of a weight, load or joint; the text below states the estimated new margin";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
         }
@@ -277,8 +277,8 @@ fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
     plan.changes.iter().map(entry).collect()
 }
 
-/// Returns the legend entry for the scale of the arrows; `None` if there are no arrows. `pixels` is the length, in pixels,
-/// of an arrow that shows a growth of the margin of 1 per metre.
+/// Returns the legend entry for the scale of the arrows; `None` if there are no arrows. `pixels` is the length, in
+/// pixels, of an arrow that shows a growth of the margin of 1 per metre.
 fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
@@ -298,7 +298,7 @@ fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
     (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
 }
 
-/// Formats a change of a margin, for a tilt with the sign for degrees.
+/// Formats a change of a margin. A change of a tilt is followed by the degree sign.
 fn format_change(kind: MarginKind, amount: f64) -> String {
     match kind {
         MarginKind::Tilt => format!("{}°", digits(amount)),

@@ -7,10 +7,10 @@ use crate::scene::{Block, BlockId, Scene};
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;
 
-/// Returns the unit length in metres. On a lattice, this is the side of a cell, unless typical blocks are far larger.
-/// Otherwise it is 0.6·√A, about the edge of a regular hexagon of area A. A is the median area of the blocks, or the
-/// mean area if this is far larger. In a picture zoomed to a block, A is the area of the smallest block in its
-/// surroundings.
+/// Returns the unit length in metres: 0.6·√A, about the edge of a regular hexagon of area A. On a lattice, it is the
+/// side of a cell, unless 0.6·√A is at least 1.5 times this side. A is the median area of the blocks, or the mean area
+/// if its root is more than [`UNEVEN_RATIO`] times the root of the median area. In a picture zoomed to a block, A is
+/// the area of the smallest block in the zoomed view.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::zoomed_view(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));

@@ -186,7 +186,8 @@ impl Writer {
 }
 
 /// Draws a margin as a row of characters. The character `█` covers the values at which the structure stands. The
-/// current value is a disc if the structure is known to stand there, and a cross otherwise.
+/// current value is a disc if the structure is known to stand there, and a cross otherwise. Of several current values,
+/// the least is drawn.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);

@@ -15,9 +15,10 @@ use crate::text;
 /// # Example
 /// ```
 /// use drystone::import::{Format, Options, import};
-/// let imported = import("a; POLYGON ((0 0, 2 0, 2 1))\nb; POINT (3 3)", Format::Wkt, &Options::default()).expect("one
-/// block"); let json = drystone::result::import_json(&imported); assert!(json.contains(r#""element": "line 2
-/// \"b\"""#));
+/// let text = "a; POLYGON ((0 0, 2 0, 2 1))\nb; POINT (3 3)";
+/// let imported = import(text, Format::Wkt, &Options::default()).expect("one block");
+/// let json = drystone::result::import_json(&imported);
+/// assert!(json.contains(r#""element": "line 2 \"b\"""#));
 /// ```
 pub fn import_json(imported: &Imported) -> String {
     log(imported, None)

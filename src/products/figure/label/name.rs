@@ -21,14 +21,16 @@ const EDGE_SHARE: f64 = 0.6;
 /// If the typical edge of a block is longer than this, in unit lengths, its name has a larger font size.
 const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 
-/// Returns the font size of a block's name, in pixels. `edge` is the length of an edge of the block in pixels.
+/// Returns the font size of a block's name, in pixels. `edge` is a typical edge length of the block, or the unit
+/// length, in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
     (0.25 * edge)
         .max(MIN_SIZE)
         .min(pen.context.options.theme.sizes.name)
 }
 
-/// Returns the label with the name of a block; `None` if a zoomed picture does not show any part of the block.
+/// Returns the label with the name of a block; `None` if the bounding box of the block is outside `view`, the shown
+/// part of the scene, in a zoomed picture.
 pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     let block = &pen.context.analysis.scene.blocks[id.0];
     let zoomed = pen.context.options.zoom.is_some();
@@ -66,7 +68,8 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     })
 }
 
-/// Returns the labels with the names of the robots that hold a block.
+/// Returns the labels with the names of the robots that hold a block. A zoomed picture names only the robots whose
+/// grips are in `view`.
 pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
@@ -97,8 +100,8 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     shown.map(named).collect()
 }
 
-/// Returns preferred centres of a label inside a polygon, sorted by their distances from `middle`. If there is a
-/// `view`, only points inside the visible part of the polygon are returned.
+/// Returns points inside a polygon at which the centre of a label may lie, the nearest to `middle` first. If there is a
+/// `view`, the points are inside the part of the polygon that it shows.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
     let bounds = view

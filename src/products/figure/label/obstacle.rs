@@ -7,7 +7,7 @@ use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 use crate::geometry::Polygon;
 
 /// Returns the shapes that labels must not cover: the outlines of ground, blocks and planned blocks, the discs of
-/// robots, and the arrows.
+/// robots, the visible arrows, and the dots that replace small arrows.
 pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let mut ink = Ink::default();
     let scene = &pen.context.analysis.scene;
@@ -47,7 +47,7 @@ fn turning(ink: &mut Ink, pen: &Pen<'_>, turn: &TurnArrow) {
     let centre = pen.camera.place(turn.at);
     for pair in points.windows(2) {
         let width = 3.0 * pen.camera.length(turn.width);
-        // A line that begins at the centre of the circle is no part of the arrow.
+        // A line that begins at the centre of the circle does not belong to the drawn arrow.
         if libm::hypot(pair[0].x - centre.x, pair[0].y - centre.y) > 0.0 {
             ink.line(pair[0], pair[1], width);
         }

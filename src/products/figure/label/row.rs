@@ -58,8 +58,9 @@ impl RowPlaces {
     }
 }
 
-/// Returns the distances of the other load arrows in the row of `arrow`, pixels: arrows with nearly the direction
-/// (`ux`, `uy`) whose tails lie beside `tail`. Along the arrow, the tails differ by at most `along` pixels.
+/// Returns the distances, across the arrow, from `tail` to the tails of the other loads in the row of `arrow`, pixels.
+/// The arrows of these loads have nearly the direction (`ux`, `uy`). Along the arrow, their tails differ from `tail` by
+/// at most `along` pixels.
 fn row(
     pen: &Pen<'_>,
     arrow: &ForceArrow,

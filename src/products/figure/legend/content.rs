@@ -109,7 +109,7 @@ impl<'a> DrawnArrows<'a> {
         !self.too_small && self.arrows().any(|a| kind(a.kind) && self.is_seen(a))
     }
 
-    /// True if the figure draws an arrow for which `kind` is true as a dot.
+    /// True if the figure draws a dot instead of a small arrow for which `kind` is true.
     fn any_dot(&self, kind: fn(ArrowKind) -> bool) -> bool {
         self.arrows()
             .any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
@@ -163,7 +163,8 @@ pub(crate) fn scale(
     let largest = if options.printed() { newtons } else { largest };
     let amount = round_below_in(largest, units.force());
     let width = options.theme.widths.force * unit;
-    // In printed figures, the length of the shaft shows the force. The sample arrow is longer by its head.
+    // In printed figures, the length of the shaft shows the force. The head of the sample arrow is added to this
+    // length.
     let beyond = if options.printed() {
         HEAD_LENGTH * width
     } else {

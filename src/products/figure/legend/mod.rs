@@ -21,8 +21,8 @@ pub(crate) const ENTRY_GAP: f64 = 28.0;
 /// Gap between the entries of a line on a page as wide as a column of print, pixels.
 pub(crate) const NARROW_ENTRY_GAP: f64 = 16.0;
 
-/// Joins several legends into one without duplicate entries. If the same arrow colour belongs to different blocks in
-/// different legends, the result shows the colours of arrows without the names of blocks.
+/// Joins several legends into one without duplicate entries. If the legends have different entries for the colours of
+/// arrows, the result shows these colours without the names of blocks.
 pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for entry in keys.into_iter().flatten() {

@@ -83,8 +83,8 @@ impl ArrowMaker<'_> {
     }
 
     /// Adds the arrow of a torque (N·m) on the body `on`, unless the torque is so small that it may be an error of the
-    /// solver. In the style of the thesis ([`Options::printed`]), the torque of a robot is drawn as two opposite
-    /// vertical arrows, half a unit length to the left and to the right of the point `at`.
+    /// solver. In the style of the thesis ([`Options::printed`]), the torque of a robot, or a missing torque, is drawn
+    /// as two opposite vertical arrows, half a unit length to the left and to the right of the point `at`.
     pub(super) fn torque(
         &self,
         marks: &mut Marks,

@@ -32,8 +32,8 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 /// Returns the force, in N, whose arrow is one unit length long if the scale is chosen for this frame.
 ///
 /// With [`Normalisation::Drawn`], this is the largest drawn force; a torque counts as torque divided by the unit
-/// length. With [`Normalisation::Source`], this is the largest single unknown, weight or load. In a zoomed figure, only
-/// forces in the zoomed view count.
+/// length. With [`Normalisation::Source`], this is the largest single unknown of the linear program, weight or load. In
+/// a zoomed figure, only forces in the zoomed view count.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
     let scene = &analysis.scene;
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);

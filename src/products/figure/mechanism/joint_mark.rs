@@ -51,7 +51,7 @@ pub(crate) fn joint_entries(joints: &[Joint]) -> Vec<Entry> {
     if joints.iter().any(|j| j.slip != 0.0) {
         let any = |is: fn(&Joint) -> bool| joints.iter().any(|j| j.slip != 0.0 && is(j));
         let slides = match (any(|j| j.lift != 0.0), any(|j| j.touch.is_some())) {
-            (true, _) => "slides, and lifts by friction coefficient × distance",
+            (true, _) => "slides, and lifts by friction coefficient × sliding distance",
             (false, false) => "slides along its joint",
             (false, true) if any(|j| j.touch.is_none()) => "slides; some joints also tip",
             (false, true) => "slides on a corner, and tips",

@@ -104,8 +104,8 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     }
 }
 
-/// Returns the width of a page without its margins, in pixels. If the options set no width, the page is wide enough for
-/// the legend even if the picture is narrow.
+/// Returns the width of a page without its margins, in pixels. If the options set no width, the page is at least as
+/// wide as the widest legend entry, up to [`MAX_LEGEND_WIDTH`].
 fn inner_width(options: &Options, layout: &Layout, entries: &[Entry]) -> f64 {
     match options.width {
         Some(width) => (width - 2.0 * layout.margin).max(1.0),

@@ -110,7 +110,7 @@ fn follow_chain(
     }
 }
 
-/// Returns the other body of a contact, which is not `body`.
+/// Returns the body of a contact that is not `body`.
 fn other(contact: &Contact, body: BodyId) -> BodyId {
     let [a, b] = contact.interface.bodies;
     if a == body { b } else { a }

@@ -287,7 +287,7 @@ impl Fan {
     }
 
     /// Writes the number of each joint on the structure, next to the outer or upper end of the joint. The first number
-    /// is `before` + 1. `middle` is the x coordinate of the middle of the chain if it has no joints, metres.
+    /// is `before` + 1. `middle` is the x coordinate, in metres, that is used as the middle of a chain without joints.
     fn number_joints(
         &self,
         frame_analysis: &FrameAnalysis,

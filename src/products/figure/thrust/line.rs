@@ -102,8 +102,8 @@ pub(super) fn lines(
     group
 }
 
-/// Returns the path of an outline in the colour of the line of thrust, `width` pixels wide. The colour is grey if the
-/// frame does not stand, and pale if the line is schematic (`through` is false).
+/// Returns the path of an outline in the colour of the line of thrust, `width` pixels wide. In a frame that does not
+/// stand, the colour is grey. In a frame that stands, a schematic line (`through` is false) is pale.
 fn stroked(
     pen: &Pen<'_>,
     frame_analysis: &FrameAnalysis,

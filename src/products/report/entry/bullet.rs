@@ -123,9 +123,9 @@ impl MarginBar {
     }
 }
 
-/// Returns the lower and the upper end of the scale. The upper end is [`SCALE_END_RATIO`] times the largest value
-/// that is drawn, or 1 for a kernel. If all drawn values are 0, it is 90 for a tilt and 1 otherwise. The lower end is
-/// 0, or minus the upper end if the parameter can be negative.
+/// Returns the lower and the upper end of the scale. The upper end is 1 for a kernel. For other parameters it is
+/// [`SCALE_END_RATIO`] times the largest absolute value that is drawn. If all drawn values are 0, it is 90 for a tilt
+/// and 1 otherwise. The lower end is 0, or minus the upper end if the parameter can be negative.
 fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);

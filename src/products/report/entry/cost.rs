@@ -1,5 +1,5 @@
-//! [`cost`]: the table of the effects that were considered in a frame, with the number of unknowns of each effect and,
-//! on request, the time of each stage.
+//! [`cost`]: the table of the effects that the analysis of a frame simulated or left out. It has the number of unknowns
+//! of each effect and, on request, the time of each stage.
 //!
 //! All effects share the linear programs of the frame. Unknowns are therefore counted by effect, but times by stage.
 //! Only margins and wedging are computed separately and have separate times.
@@ -10,7 +10,8 @@ use crate::result::Timing;
 use crate::text::line;
 use crate::wording::number::{counted, duration};
 
-/// Makes the table of the effects of a frame. The table has times only if `timing` includes them.
+/// Makes the table of the effects that were simulated or left out in a frame. The table has times only if `timing`
+/// includes them.
 pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
     let timed = timing == Timing::Included;
     let (caption, heads): (&str, &[&str]) = match timed {
@@ -39,7 +40,8 @@ pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
     grid
 }
 
-/// Returns the table cells of an effect, and its time in words: `shared` for an effect without a time of its own.
+/// Returns the table cells of an effect, and its time in words: `none` for an effect that was left out, `shared` for an
+/// effect without a time of its own.
 fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
     let time = match described.effect {
         _ if !described.simulated => "none".to_owned(),

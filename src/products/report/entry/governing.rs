@@ -8,8 +8,7 @@ use crate::wording::headline::headline;
 use crate::wording::margin::{Parameter, StatedMargin, stated};
 
 /// Returns the index of the governing step, from 0. This is the first step that falls. If no step falls, it is the
-/// first undecided step. If all steps stand, it is the step whose headline margin
-/// has the smallest relative reserve.
+/// first undecided step. If all steps stand, it is the step whose headline margin has the smallest relative reserve.
 pub(super) fn governing(analysis: &Analysis) -> usize {
     let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
     let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));

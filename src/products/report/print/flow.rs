@@ -140,7 +140,7 @@ impl Flow {
         self.close(Role::Artifact);
     }
 
-    /// Returns the text on one line. Code points replace characters that the fonts do not have.
+    /// Returns the text on one line. Code points such as `U+4E2D` replace characters that the fonts do not have.
     pub fn legible(&self, words: &str) -> String {
         self.fonts.spelled(&line(words)).into_owned()
     }

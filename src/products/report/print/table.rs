@@ -201,9 +201,9 @@ fn small(picture: &Thumbnail) -> String {
     )
 }
 
-/// Returns the widths of the columns in pixels. If there is enough space, each column has the width of its text plus
-/// an equal part of the free space. If not, column heads break at their spaces. If that is not enough, the widest
-/// columns become narrower.
+/// Returns the widths of the columns in pixels. If there is enough space, each column has the width of its text plus an
+/// equal part of the free space, at most [`MAX_SPREAD`]. If not, column heads break at their spaces. If that is not
+/// enough, the widest columns become narrower.
 fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();

@@ -32,7 +32,8 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    /// Compares the blocks of the two frames with index `number`. `units` are the units of the descriptions.
+    /// Compares the blocks of the two frames with index `number`. `units` are the units of the values in the
+    /// descriptions of changes.
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
