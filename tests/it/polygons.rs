@@ -81,7 +81,10 @@ fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
     assert_eq!(ghosts.len(), 2);
     assert_ne!(ghosts[0].items, ghosts[1].items);
     let (words, _) = words_and_dashes(&drawing);
-    assert!(words.contains("how it would begin to fall at the other end"), "{words}");
+    assert!(
+        words.contains("how it would begin to fall at the other end"),
+        "{words}"
+    );
 }
 
 #[test]

@@ -86,11 +86,13 @@ impl PanelContent for CornerEffects {
             .iter()
             .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
         {
-            let words = "one of the most effective moves; the text below states the estimated new margin";
+            let words =
+                "one of the most effective moves; the text below states the estimated new margin";
             entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words = "change of a weight, load or joint; the text below states the estimated new margin";
+            let words =
+                "change of a weight, load or joint; the text below states the estimated new margin";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
         }

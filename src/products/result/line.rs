@@ -169,10 +169,11 @@ pub enum PictureOutcome {
 /// # Example
 /// ```
 /// use drystone::{Analysis, Scene, result::{Fields, PictureOutcome, Origin, line_of}};
-/// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]]
-/// }] }"#)?; let origin = Origin { line: Some(7), ..Origin::default() }; let line = line_of(&origin,
-/// &Analysis::new(&scene), &PictureOutcome::NotAsked, &Fields::default()); assert_eq!(line, "{\"line\":7,\"scene\":\"A
-/// dart\",\"verdict\":\"unstable\"}\n");
+/// let scene = Scene::from_json(
+///     r#"{ "drystone": 1, "title": "A dart", "blocks": [{ "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
+/// let origin = Origin { line: Some(7), ..Origin::default() };
+/// let line = line_of(&origin, &Analysis::new(&scene), &PictureOutcome::NotAsked, &Fields::default());
+/// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn line_of(

@@ -96,8 +96,9 @@ pub enum Layout {
 /// use drystone::result::{Layout, Timing, to_json};
 /// use drystone::scene::Scene;
 ///
-/// let scene = Scene::from_json(r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }]
-/// }"#)?; let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
+/// let scene = Scene::from_json(
+///     r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#)?;
+/// let json = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
 /// assert!(json.contains(r#""verdict":"unstable""#), "nothing holds it");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```

@@ -66,7 +66,11 @@ fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
     let ran = bench.run("check --accuracy proved flat.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(ran.out.contains("undecided"), "{}", ran.out);
-    assert!(ran.out.contains("of the forces on a block"), "{}", ran.out);
+    assert!(
+        ran.out.contains("miss the balance of a block by"),
+        "{}",
+        ran.out
+    );
     // A thrust of 10¹³ weights is balanced to three digits, which is not a proof. The wedge does not fall either.
     fs::write(bench.path("flatter.json"), wedge(1e-13)).expect("writable");
     let ran = bench.run("check flatter.json");

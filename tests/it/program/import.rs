@@ -141,7 +141,7 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
         ),
         (
             "import drawing.svg --gravity down -o scene.json",
-            "give one number",
+            "give gravity in m/s²",
         ),
         ("import stands.json -o scene.json", "already a scene file"),
         ("import drawing.svgz -o scene.json", "unpack it first"),

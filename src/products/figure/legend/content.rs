@@ -22,7 +22,7 @@ const NARROW_BAR: f64 = 72.0;
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
 /// The text for torques of loads. Their arrows have a least length, so that their directions are visible.
-const TURN_SCALE_TEXT: &str = "turning loads by their amounts, small ones drawn larger";
+const TURN_SCALE_TEXT: &str = "torques of loads to scale, small ones drawn larger";
 /// Largest number of blocks that the legend names. With more blocks, it shows only the colours.
 const MAX_NAMED_BLOCKS: usize = 6;
 /// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.

@@ -168,7 +168,7 @@ fn output_of_other_scenes_or_options_is_not_resumed() {
         ),
         (
             towers[..7].concat(),
-            "more lines than the input has scenes, 7",
+            "more lines than the input has scenes (7)",
         ),
     ] {
         write("in.ndjson", &input);
