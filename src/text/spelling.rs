@@ -37,7 +37,7 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
     best
 }
 
-/// Writes the first letters of a name to `into`, in lower case.
+/// Writes the letters of a name to `into` in lower case, at most [`MAX_LETTERS`].
 fn letters(name: &str, into: &mut Vec<char>) {
     into.clear();
     if name.is_ascii() {

@@ -104,8 +104,8 @@ impl Fields {
     }
 
     /// True if the field at `path` is selected: by its own name, by the name of a part of it, or by the name of an
-    /// object that contains it. The names `all` and `frames` do not count, because they do not select fields that a
-    /// result has only on request.
+    /// object that contains it. Names without a dot, such as `all` and `frames`, do not count, because they do not
+    /// select fields that a result has only on request.
     pub fn ask(&self, path: &[&str]) -> bool {
         let within = |chosen: &Vec<&str>| {
             let short = chosen.len().min(path.len());
@@ -163,8 +163,8 @@ pub enum PictureOutcome {
     Refused(String),
 }
 
-/// Writes the selected fields of an analysis as one line that ends with a line feed. The same analysis always
-/// produces the same bytes, unless `frames.solve` or `frames.solve.seconds` is selected.
+/// Writes the selected fields of an analysis as one line that ends with a line feed. The line of a scene is the same in
+/// every run, unless it has times (`frames.solve` or `frames.solve.seconds` is selected).
 ///
 /// # Example
 /// ```
@@ -281,8 +281,8 @@ fn put(out: &mut String, name: &str, value: &Value) {
     out.push_str(&value.to_string());
 }
 
-/// Returns the paths that begin with `name`, each without this first part. The result has an empty path if `name` is a
-/// whole path.
+/// Returns the paths that begin with `name`, each without this first part. A path that consists only of `name` becomes
+/// an empty path.
 fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     let under = chosen.iter().filter(|path| path.first() == Some(&name));
     under.map(|path| path[1..].to_vec()).collect()

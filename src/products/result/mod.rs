@@ -2,9 +2,9 @@
 //!
 //! Invariant: the same analysis always produces the same bytes, apart from times, which [`Timing::LeftOut`] omits.
 //! Numbers are written as the shortest decimal that reads back as the same f64, and never as −0. A number that could
-//! not be computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are
-//! absent if they are empty. `margins` and `only_by_wedging` are absent if they were not requested, and the latter also
-//! if the frame does not stand.
+//! not be computed is `null`; this happens only in `undecided` frames. `unsupported`, `notices` and `doubt` are absent
+//! if they are empty. `margins` and `only_by_wedging` are absent if they were not requested. `only_by_wedging` is also
+//! absent if the frame does not stand.
 //!
 //! serde is used here and in `scene::format`. That module reads files that people write, and this module writes
 //! results for programs. The two modules therefore change for different reasons.
@@ -88,7 +88,7 @@ pub enum Layout {
 /// a robot are per component. For a missing torque, it is the magnitude of the torque in N·m.
 ///
 /// # Units
-/// Metres, newtons and N·m. A spin is in 1/m, because velocities are relative to the fastest point.
+/// Metres, newtons and N·m. A spin is in 1/m, because all velocities are divided by the speed of the fastest point.
 ///
 /// # Example
 /// ```
@@ -232,7 +232,7 @@ impl Serialize for Number {
 
 type Pair = [Number; 2];
 
-/// Returns the coordinates of a point, m.
+/// Returns the coordinates of a point in metres.
 fn place(p: Point) -> Pair {
     [Number(p.x), Number(p.y)]
 }

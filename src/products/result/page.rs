@@ -25,7 +25,8 @@ pub fn quoted(words: &str) -> String {
 }
 
 /// Writes a report as one JSON object that ends with a line feed. The object has the counts and a list of the scenes.
-/// `list` is the key of the list, and `objects` has its entries as JSON, one per scene and line.
+/// `list` is the key of this list. `objects` has the entries of the list as JSON, one for each scene, and each entry is
+/// written on a line of its own.
 ///
 /// ```
 /// use drystone::result::{Counts, report_json};

@@ -1,4 +1,4 @@
-//! Writes the problems of a file that is not a valid scene as a JSON object, which replaces its result.
+//! Writes the problems of a file that is not a valid scene as a JSON object, in place of a result.
 
 use serde::Serialize;
 

@@ -172,9 +172,9 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     })
 }
 
-/// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time, which may
-/// not exist on the machine that runs the test. In this case, the function uses the environment variable
-/// `CARGO_MANIFEST_DIR`, which Cargo and nextest set.
+/// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time. If it does
+/// not exist on the machine that runs the test, the function uses the environment variable `CARGO_MANIFEST_DIR`, which
+/// Cargo and nextest set.
 fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     let now = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     match now {

@@ -129,7 +129,7 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
-        // The numbers in the reference and in `facts` are already rounded.
+        // The numbers in the reference and in `facts` are rounded, so `changes` allows for a different last digit.
         let changes = Facts::read(text)
             .map_err(|error| error.to_string())?
             .changes(facts);

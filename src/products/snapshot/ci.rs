@@ -4,7 +4,7 @@ use super::discovery::shown;
 use super::outcome::{CheckOutcome, Snapshot};
 use crate::text::{github, github_property, xml};
 
-/// Writes the findings as JUnit XML. It has one test case for each snapshot, each orphaned reference, and each scene on
+/// Writes the findings as JUnit XML, with one test case for each snapshot, each orphaned reference, and each scene on
 /// which the program failed. The XML contains no times, so that equal findings give equal bytes.
 pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();

@@ -77,8 +77,8 @@ pub struct Discovered {
 ///
 /// In a folder, a scene is a `.json` file that contains `"drystone"` or already has a reference. A file that is not
 /// valid JSON counts as a damaged scene, and is reported, if it is empty, is not UTF-8, or contains `drystone`,
-/// `blocks` or `polygon`. Hidden files, hidden folders and caches are skipped. The filter `only` selects scenes in one
-/// of three ways:
+/// `blocks` or `polygon`. Hidden files and folders, `node_modules` and cache folders are skipped. The filter `only`
+/// selects scenes in one of three ways:
 ///
 /// 1. If the filter equals the name of a scene, it selects only this scene. Accepting `arch` thus does not accept
 ///    `arch2`.
@@ -105,8 +105,8 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         let Some(bytes) = search.scene_bytes(&path, &base, &settings, &parts) else {
             continue;
         };
-        // Register the references of all scenes, also of scenes that the filter does not select. Otherwise they would
-        // count as orphans.
+        // Register the references of all scenes, even of scenes that the filter does not select. Otherwise these
+        // references would count as orphans.
         for part in &parts {
             search.register(&path, &part.file, &mut expected);
         }
@@ -338,8 +338,8 @@ impl SnapshotSearch {
         for file in expected.keys() {
             stems.insert(file.with_extension(""));
         }
-        // Facts and pictures contain a mark that identifies them as references. Files with the same name but another
-        // extension belong to them.
+        // Facts and pictures contain a mark that identifies them as references; SVG files do not. A file with the same
+        // name as a marked file, but another extension, counts as a reference too.
         let marked: Vec<&PathBuf> = self
             .others
             .iter()

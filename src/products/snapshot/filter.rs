@@ -15,8 +15,9 @@ pub(super) enum Filter<'f> {
 }
 
 impl<'f> Filter<'f> {
-    /// Makes the filter for the text `only`. If the text equals one of the scene `names`, the filter selects only
-    /// this scene. Otherwise a text with `*` is a pattern for names, and any other text must occur in a name.
+    /// Makes the filter for the text `only`; `None` selects all scenes. If the text equals one of the scene `names`,
+    /// the filter selects only this scene. Otherwise a text with `*` is a pattern for names, and any other text must
+    /// occur in a name.
     pub(super) fn new(
         only: Option<&'f str>,
         mut names: impl Iterator<Item = String>,

@@ -39,5 +39,5 @@ pub use layer::Layer;
 pub use outcome::{CheckOutcome, Finding, Snapshot, State};
 pub use setting::Settings;
 
-// Rust exports macros at the root of the crate. They are also exported here, because users look for them here.
+// Rust exports macros at the root of the crate. This module exports them too, because users look for them here.
 pub use crate::{assert_figure, assert_scene, assert_scenes};

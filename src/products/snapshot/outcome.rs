@@ -141,7 +141,7 @@ impl Snapshot {
         lines
     }
 
-    /// Returns the reference files that can be accepted, with their new contents.
+    /// Returns the paths of the references that have a new content, each with this content.
     fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()

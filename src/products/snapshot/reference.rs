@@ -21,8 +21,9 @@ pub struct Part {
     pub width: Option<u32>,
 }
 
-/// Lists the reference files of a scene or figure, one for each combination of layer, kind, theme and width that the
-/// settings require. The path of each file is `base` with suffixes for its combination.
+/// Lists the reference files of a scene or figure for the layers in the settings: one file of facts, one SVG for each
+/// kind of figure, and one PNG for each combination of kind, theme and width. The path of each file is `base` with
+/// suffixes for its combination.
 pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);

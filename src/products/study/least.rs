@@ -51,8 +51,8 @@ pub(super) fn largest_of_unique(
         if answer.status != Status::Solved {
             continue;
         }
-        // Read the multipliers of the constraints −x ≤ 0. Each column has one such row; a column with a limit has a
-        // second row.
+        // Read the multipliers of the constraints −x ≤ 0. Each column has one such row; a column with a limit also has
+        // a row for this limit.
         let mut row = program.loads.len();
         let mut multiplier = Vec::with_capacity(face.len());
         for column in &face {
@@ -76,7 +76,8 @@ pub(super) fn largest_of_unique(
     None
 }
 
-/// Returns the contact or grip of a column, and the components of its unit force: N1, N2 and T at a contact.
+/// Returns the contact or grip of a column, and the components of its unit force: N1, N2 and T at a contact; Fx, Fy and
+/// torque at a grip.
 fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
     let mut vector = [Double::ZERO; 3];
     match column.force {
@@ -98,7 +99,7 @@ fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
             vector[component] = sign.into();
             (program.contacts.len() + grip, vector)
         }
-        // This case never occurs: the columns of a program that is stable without adhesion contain no adhesion.
+        // This case never occurs: this function gets only columns without adhesion.
         _ => (usize::MAX, vector),
     }
 }

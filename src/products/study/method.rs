@@ -97,7 +97,7 @@ fn effort(iterations: usize) -> Effort {
     }
 }
 
-/// Returns the largest component of the loads that the columns, with these amounts, do not balance.
+/// Returns the largest component of the unbalanced loads, if the columns have these amounts.
 fn imbalance(loads: &[f64], columns: &[Column], amounts: &[f64]) -> f64 {
     let mut rest = loads.to_vec();
     for (column, amount) in columns.iter().zip(amounts) {

@@ -161,7 +161,8 @@ impl Task {
     }
 }
 
-/// Computes the reference of each independent part of a frame, and combines them into the reference of the frame.
+/// Computes the reference solution of each independent part of a frame, and combines these solutions to one for the
+/// frame.
 fn truth(programs: &[Program]) -> FrameReference {
     let references: Vec<(&Program, Reference)> =
         programs.iter().map(|p| (p, Reference::new(p))).collect();
@@ -213,8 +214,8 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
     }
 }
 
-/// Runs a method three times, or up to nine times while the total time is below 0.02 s. The time of the run is the
-/// median.
+/// Runs a method at least three times, and up to nine times as long as the total time is below 0.02 s. The time of the
+/// run is the median.
 fn run(method: Method, tolerance: f64, task: &Task, truth: &FrameReference) -> Run {
     let mut times = Vec::with_capacity(9);
     let mut outcome = Outcome::empty();

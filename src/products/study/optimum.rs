@@ -208,8 +208,8 @@ impl Guess<'_> {
             rest,
             largest,
         } = refined;
-        // Compute the primal objective value, Σ cost·amount, and the dual objective value, the power of the loads
-        // plus Σ limit·multiplier.
+        // Compute the primal objective value, Σ cost·amount, and the dual objective value: the power of the loads plus
+        // Σ limit·(reduced cost) over the columns at their limit.
         let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
             sum + Double::from(self.costs[*j]) * *x
         });
@@ -266,8 +266,8 @@ impl Guess<'_> {
         Double::from(self.costs[j]) - product(&self.sparse[j], y)
     }
 
-    /// True if column `j` may have a negative amount. This holds for a grip without cost if the opposite column is on
-    /// the face and has no limit, because only the difference of their amounts matters.
+    /// True if column `j` may have a negative amount. This holds for a column of a grip without cost if the column of
+    /// the opposite force is on the face and has no limit: only the difference of the two amounts matters.
     fn may_be_negative(&self, j: usize, face: &[usize]) -> bool {
         let grip = |j: usize| matches!(self.columns[j].force, Force::Grip { .. });
         let partner = |k: &usize| {

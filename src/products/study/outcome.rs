@@ -54,8 +54,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for a falling program that needs the adhesion `total` at `points` failures. `total` is in
-    /// the scaled units of the program; `None` if it is not known.
+    /// Returns the outcome for a part of a frame that falls. Adhesion of `total` at `points` failures would hold it.
+    /// `total` is in the scaled units of the program; `None` if it is not known.
     pub(super) fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Unstable,
@@ -65,8 +65,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for a program whose forces `amounts` balance the loads. `imbalance` is the largest error of
-    /// this balance, in the scaled units of the program.
+    /// Returns the outcome for a part of a frame that stands: the forces `amounts` balance the loads. `imbalance` is
+    /// the largest error of this balance, in the scaled units of the program.
     pub(super) fn stands(amounts: &Amounts, imbalance: f64, effort: Effort) -> Outcome {
         Outcome {
             verdict: Verdict::Stable,

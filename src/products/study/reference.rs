@@ -1,5 +1,5 @@
-//! [`Reference`]: computes the true verdict, the total force and the largest force of a program, with a certificate.
-//! The total is given only if at least twelve digits are certain.
+//! [`Reference`]: computes the true verdict, the total force and the largest force of a linear program, with a
+//! certificate. The total is given only if at least twelve digits are certain.
 //!
 //! 1. If a balance without adhesion has a certified optimum ([`optimum`]), the program is stable. Its value is the
 //!    least total force.
@@ -41,7 +41,8 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Computes the true verdict, total and largest force of a program, with a bound on the error of the total.
+    /// Computes the true verdict, the total force and the largest force of a program, with a bound on the error of the
+    /// total force.
     pub fn new(program: &Program) -> Reference {
         let unknown = Reference {
             verdict: Verdict::Undecided,

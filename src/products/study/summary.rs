@@ -41,8 +41,8 @@ fn median(mut list: Vec<f64>) -> Option<f64> {
 /// Summarises a study over all its frames. Returns one entry for each combination of method and tolerance, in the
 /// order of the runs.
 ///
-/// The time of a frame is divided by the time of `standard` on the same frame, at the tolerance nearest to the
-/// default. Large frames therefore do not dominate small ones.
+/// The time of a frame is divided by the time of the method `standard` on the same frame, at the tolerance nearest to
+/// the default. Large frames therefore do not dominate small ones.
 pub fn summary(study: &Study) -> Vec<Summary> {
     let Some(first) = study.cases.first() else {
         return Vec::new();

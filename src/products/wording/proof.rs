@@ -109,7 +109,7 @@ pub fn sentence(proof: Proof) -> String {
             let weak = if proof.holds() {
                 ""
             } else {
-                " The power of the loads is too small for a proof, or the motion violates contacts too fast."
+                " The power of the loads is too small for a proof, or blocks move too fast against a contact or robot."
             };
             format!(
                 "There is a motion that no contact resists, and along which the loads do more work than robots can absorb, {ruled_out}.{weak}"

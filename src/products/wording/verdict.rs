@@ -100,8 +100,8 @@ pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     sentence_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
 
-/// Writes the same sentence as [`sentence`], but formats each quantity with `write`, which gets the value in the SI
-/// unit and the unit.
+/// Writes the same sentence as [`sentence`], but formats each quantity with `write`. This function gets the value in SI
+/// units, and the unit in which the scene writes it.
 pub fn sentence_with(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,

@@ -12,13 +12,14 @@ use super::Options;
 use super::draft::Remark;
 use crate::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 
-/// Coordinates perpendicular to the plane that differ by less than this share of the largest coordinate count as equal. The
-/// thicknesses of the blocks are compared with the same share of the largest thickness.
+/// Coordinates perpendicular to the plane count as equal if they differ by less than this share of the largest
+/// coordinate. The thicknesses of the blocks are compared with the same share of the largest thickness.
 const EQUAL_COORDINATE_TOL: f64 = 1e-6;
 /// Coordinates are rounded to this many steps per unit of length before the two ends of a prism are compared.
 const STEPS_PER_UNIT: f64 = 1e6;
 
-/// A coordinate plane: its name, and the indices of the axes that point to the right, up, and perpendicular to the plane.
+/// A coordinate plane: its name, and the indices of the axes that point to the right, up, and perpendicular to the
+/// plane.
 type Plane = (&'static str, [usize; 3]);
 
 /// The planes in the order in which they are tried: z is up in COMPAS.

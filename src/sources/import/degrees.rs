@@ -12,8 +12,8 @@ const MAX_EXTENT_DEGREES: f64 = 1.0;
 /// The largest depth to which nested collections are searched for coordinates.
 const MAX_DEPTH: usize = 50;
 
-/// Returns a message if the coordinates are taken to be longitudes and latitudes in degrees; it says why, and what to
-/// do. `None` if they are taken to be lengths.
+/// Returns a message if the coordinates are probably longitudes and latitudes in degrees. The message says why, and
+/// what to do. Returns `None` if the coordinates are probably lengths.
 pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let remedy = "drystone needs lengths: draw the structure in its own plane, or project it first, for example with \
         ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, give --unit m";
@@ -63,7 +63,8 @@ fn collect(object: &Map<String, Value>, depth: usize, points: &mut Vec<Point>) {
     }
 }
 
-/// Adds the points in nested lists to `points`. The JSON parser limits the nesting depth of the lists.
+/// Adds the points in nested lists to `points`. The recursion needs no limit, because the JSON parser limits the
+/// nesting depth.
 fn numbers(value: &Value, points: &mut Vec<Point>) {
     let Some(list) = value.as_array() else { return };
     let number = |i: usize| list.get(i).and_then(Value::as_f64);

@@ -18,8 +18,9 @@ const MAX_PAIRS_PER_BODY: usize = 10;
 /// The largest number of comparisons of a corner with an edge in the search for the holes of one path.
 const MAX_COMPARISONS: usize = 200_000_000;
 
-/// Returns a remark if a drawing has too many outlines, or too many pairs of outlines that overlap. `boxes` are the
-/// bounding boxes of the blocks, and those of the parts of the ground; pairs are counted within each of the two lists.
+/// Returns a remark if a drawing has too many outlines, or too many pairs of outlines with overlapping bounding boxes.
+/// `boxes` are the bounding boxes of the blocks, and those of the parts of the ground; pairs are counted within each of
+/// the two lists.
 pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
     let count: usize = boxes.iter().map(Vec::len).sum();
     if count > MAX_BODIES {
@@ -69,7 +70,7 @@ pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
             }
         }
     }
-    // `regions` compares the bounding boxes of all pairs.
+    // The number of rings has a limit too, because `regions` compares the bounding boxes of all pairs of rings.
     rings.len().saturating_mul(rings.len()) > MAX_COMPARISONS
 }
 

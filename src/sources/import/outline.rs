@@ -141,7 +141,7 @@ impl Outlines {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the bounding boxes of the blocks, or of the parts of the ground.
+    /// Returns the bounding boxes of all bodies with the role `kind`: of the blocks, or of the parts of the ground.
     pub(super) fn boxes(&self, kind: Role) -> Vec<Bounds> {
         let bodies = self.bodies.iter().filter(|b| b.kind == kind);
         bodies
@@ -255,7 +255,8 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
 }
 
 impl Body {
-    /// Returns the polygon of the body, which [`Outlines::new`] has found valid.
+    /// Returns the polygon of the body. [`Outlines::new`] has found it valid; `None` if a later change has made it
+    /// invalid.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         polygon(&self.rings).ok()
     }

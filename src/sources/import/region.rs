@@ -59,8 +59,9 @@ fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
     outer.intersects(inner) && outer.width() >= inner.width() && outer.height() >= inner.height()
 }
 
-/// True if most corners of a ring are inside another ring. Single corners may lie on an edge of the other ring. The
-/// test counts crossings of a horizontal ray (even-odd).
+/// True if most corners of a ring are inside another ring. Not all corners must be inside, because some may lie on an
+/// edge of the other ring. A corner is inside if a horizontal ray from it crosses the other ring an odd number of
+/// times.
 fn lies_in(ring: &[Corner], other: &[Corner]) -> bool {
     let inside = |p: Point| {
         let mut odd = false;

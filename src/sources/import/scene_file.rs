@@ -167,8 +167,8 @@ impl Rounding {
     /// Returns a rounding to multiples of the largest power of ten that is at most `step`, in metres.
     fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
-        // Otherwise do not round. Factors above 10^15 would change nothing, because f64 has 16 digits. Factors below 1
-        // would round to more than a metre.
+        // Round only with factors from 1 to 10^15. Larger factors would change nothing, because f64 has 16 digits.
+        // Smaller factors would round to more than a metre.
         let factor = if (0.0..=15.0).contains(&power) {
             libm::pow(10.0, power)
         } else {

@@ -68,7 +68,8 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     draft
 }
 
-/// Splits a line into name and geometry. The prefix `SRID=…;`, which databases write, is not a name.
+/// Splits a line into name and geometry, at the last semicolon or tab before the first parenthesis. The prefix
+/// `SRID=…;`, which databases write, is not a name.
 fn named(line: &str) -> (&str, &str) {
     let geometry = line.find('(').unwrap_or(line.len());
     match line[..geometry].rfind([';', '\t']) {

@@ -29,7 +29,8 @@ pub struct Arch {
 }
 
 impl Default for Arch {
-    /// Returns an arch of 13 voussoirs over 4 m, 0.4 m thick, with a friction coefficient of 0.7. It stands.
+    /// Returns an arch of 13 voussoirs with a clear width of 4 m, 0.4 m thick, with a friction coefficient of 0.7. It
+    /// stands.
     fn default() -> Arch {
         Arch {
             voussoirs: 13,

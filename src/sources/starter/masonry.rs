@@ -93,8 +93,8 @@ pub struct Tower {
 }
 
 impl Default for Tower {
-    /// Returns a tower of 8 blocks of 1 m by 0.5 m, each 0.1 m to the right of the block below. It stands; the
-    /// largest possible shift is 0.125 m.
+    /// Returns a tower of 8 blocks of 1 m by 0.5 m, each 0.1 m to the right of the block below. It stands, and would
+    /// stand with shifts of up to 0.125 m.
     fn default() -> Tower {
         Tower {
             blocks: 8,
@@ -241,7 +241,8 @@ impl Doorway {
         }
     }
 
-    /// Returns the steps: the left jamb, then the lintel with the robot, then the right jamb.
+    /// Returns the steps: the left jamb; then the lintel, which the robot holds; then the right jamb, and the robot
+    /// lets go.
     fn steps(&self, grip: GripEntry) -> Vec<StepEntry> {
         let jamb = |side: &str| {
             let blocks = (0..self.courses).map(|i| jamb_block(side, i));

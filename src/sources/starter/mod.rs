@@ -18,8 +18,8 @@ use crate::scene::format::{BlockEntry, GroundEntry, Pair};
 /// short, and the rounding error is far smaller than any block.
 const SIGNIFICANT_DIGITS: f64 = 4.0;
 
-/// Rounds a coordinate, in metres, to four significant digits of `least`, the smallest length of the structure in
-/// metres.
+/// Rounds a coordinate, in metres, to the place of the fourth significant digit of `least`, the smallest length of the
+/// structure in metres.
 fn rounded(x: f64, least: f64) -> f64 {
     let decimals = SIGNIFICANT_DIGITS - 1.0 - libm::floor(libm::log10(least));
     let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
@@ -41,7 +41,7 @@ fn block(id: String, polygon: Vec<Pair>) -> BlockEntry {
     }
 }
 
-/// Returns ground from x = `left` to x = `right`, in metres, with its surface at y = 0 and `depth` metres thick.
+/// Returns ground from x = `left` to x = `right`, in metres. It is `depth` metres thick, with its surface at y = 0.
 fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
     GroundEntry {
         polygon: Some(rectangle([left, -depth], [right, 0.0])),

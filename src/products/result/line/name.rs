@@ -48,7 +48,8 @@ fn leaf(word: &'static str) -> Name {
     }
 }
 
-/// Returns the path of the field with this name; `None` if there is no such field.
+/// Returns the words of the path of the field with this name, such as `frames`, `proof`; `None` if there is no such
+/// field.
 pub(super) fn find(typed: &str) -> Option<Vec<&'static str>> {
     if typed == "all" {
         return Some(vec!["all"]);

@@ -34,7 +34,7 @@ struct Event {
 /// Describes the differences between two drawings, given as SVG text. The list is empty if there are no differences.
 ///
 /// # Errors
-/// [`SvgParseError`] if one of the texts is not SVG; `expected` is read first.
+/// [`SvgParseError`] if one of the texts is not SVG. If both are not, the error describes `expected`.
 ///
 /// # Example
 /// ```
@@ -138,8 +138,8 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
     }
 }
 
-/// True if two attribute values are equal, apart from rounding: by at most 1 in a colour channel, and by at most
-/// [`POSITION_TOL`] in a number.
+/// True if two attribute values are equal apart from rounding. Colour channels may differ by 1, and other numbers by
+/// [`POSITION_TOL`].
 fn same_value(a: &str, b: &str) -> bool {
     if a == b {
         return true;

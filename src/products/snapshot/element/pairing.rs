@@ -28,7 +28,7 @@ pub(super) fn pairs<'e>(old: &'e [Element], new: &'e [Element]) -> Vec<Pair<'e>>
 
 /// Returns a hash of the properties that an element must share with its partner at this stage of the pairing.
 fn key(element: &Element, stage: usize) -> u64 {
-    // The hash may differ between versions of Rust. This has no effect, because it is not stored or printed.
+    // The hash may differ between versions of Rust. This does no harm, because the hash is not stored or printed.
     let mut hasher = DefaultHasher::new();
     match stage {
         0 => element.hash(&mut hasher),
@@ -111,8 +111,8 @@ fn longest_common_subsequence(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Finds the longest common subsequence by dynamic programming, and returns it as pairs of indices. The table
-/// contains the length of the subsequence for all pairs of suffixes.
+/// Finds the longest common subsequence by dynamic programming, and returns it as pairs of indices. The table contains
+/// the length of the longest common subsequence for each pair of suffixes.
 fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let across = b.len() + 1;
     let mut table = vec![0u32; (a.len() + 1) * across];
@@ -140,7 +140,8 @@ fn longest(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Finds a common subsequence with a greedy method: pairs each key with its next occurrence among the next 64 keys.
+/// Finds a common subsequence with a greedy method: pairs each key of `a` with its first occurrence among the next 64
+/// keys of `b`.
 fn greedy_common_subsequence(a: &[u64], b: &[u64]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut next = 0;

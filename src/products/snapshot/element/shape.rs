@@ -77,7 +77,7 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     if stayed <= POSITION_TOL {
         return Movement::None;
     }
-    // 2. The translation from centroid to centroid moves all points to their new positions.
+    // 2. Translation: the shift of the centroid moves all points to their new positions.
     let (from, to) = (centre(&a), centre(&b));
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
     if far(&b, &|p| [p[0] + x, p[1] + y]) <= 2.0 * POSITION_TOL {
@@ -86,7 +86,8 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
         }
         return Movement::Moved(rounded(x), rounded(y));
     }
-    // 3. The best rotation about the centroids moves all points to their new positions.
+    // 3. Rotation: the best rotation about the centroid, after the shift of the centroid, moves all points to their new
+    //    positions.
     let angle = best_rotation(&a, &b, from, to);
     let (sin, cos) = libm::sincos(angle);
     let turned = |p: [f64; 2]| {

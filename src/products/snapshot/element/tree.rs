@@ -70,7 +70,7 @@ impl Element {
         format!("{} × {}", side("width"), side("height"))
     }
 
-    /// Returns the title up to the first colon that a space follows. The rest of the title contains numbers.
+    /// Returns the title up to the first colon with a space after it. The rest of the title contains numbers.
     pub(super) fn label(&self) -> &str {
         self.title.split(": ").next().unwrap_or_default()
     }

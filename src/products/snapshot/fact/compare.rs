@@ -147,7 +147,7 @@ fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>)
     }
 }
 
-/// Returns the keys of old and new facts, in the order of the new facts. Keys that only old facts have come last.
+/// Returns the keys of old and new facts, in the order of the new facts. Keys of facts that no longer exist come last.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
         let kind = if key.0 == FALLING_FACT {
@@ -332,9 +332,9 @@ fn change(old: &Value, new: &Value) -> String {
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
-/// Returns the largest difference between two values, in units of their last digit. Returns `None` if rounding can
-/// explain the difference. Returns 1e6 if the values differ in their unit, in how many numbers they have, or in a
-/// word.
+/// Returns the largest difference between the numbers of two values, in units of their last digit (1e-6 for numbers
+/// without a unit). Returns `None` if rounding can explain the difference. Returns 1e6 if the values differ in their
+/// unit, in their word or in how many numbers they have, or if only one of two numbers is `none`.
 fn differ(old: &Value, new: &Value) -> Option<f64> {
     let shape = old.unit == new.unit && old.numbers.len() == new.numbers.len();
     if !shape {

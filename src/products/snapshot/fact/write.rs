@@ -65,8 +65,8 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
     }
 }
 
-/// Returns the facts of the scene itself, such as blocks and loads. A user edits them, so they cause the changes of the
-/// results.
+/// Returns the facts of the scene itself, such as blocks and loads. A user edits these facts, so they cause the changes
+/// of the results.
 fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
     let blocks = scene.blocks.iter().map(|block| Fact {
         kind: "block".into(),

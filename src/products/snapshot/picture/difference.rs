@@ -193,6 +193,7 @@ impl Difference {
     }
 
     /// True if the pictures count as equal: they have the same size, and no pixel differs by more than the tolerance.
+    /// Pixels that differ only in antialiasing count as equal.
     pub fn is_none(&self) -> bool {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
     }
@@ -217,8 +218,9 @@ impl Difference {
         words.join("; ")
     }
 
-    /// Draws an image of the difference. The expected picture is pale grey. Pixels that differ are red, and a
-    /// rectangle encloses them. Antialiasing is yellow, and pixels outside one of the pictures are blue.
+    /// Draws an image of the difference. The expected picture is pale grey. Pixels that differ are red, and a rectangle
+    /// encloses them. Pixels that differ only in antialiasing are yellow, and pixels outside one of the pictures are
+    /// blue.
     pub fn image(&self, expected: &Picture) -> Picture {
         let [(ew, eh), (fw, fh)] = self.sizes;
         let (wide, high) = (ew.max(fw), eh.max(fh));
@@ -243,8 +245,8 @@ impl Difference {
     }
 }
 
-/// Returns the largest visible difference between two colours in a channel, from 0 to 255. Red, green and blue are
-/// multiplied by alpha first, and alpha counts as a channel.
+/// Returns the largest difference of a channel between two colours, from 0 to 255. Red, green and blue are multiplied
+/// by alpha first, and alpha counts as a channel.
 fn visible_difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     if a[3] == 255 && b[3] == 255 {
         return max_channel_difference(a, b);

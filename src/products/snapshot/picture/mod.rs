@@ -180,8 +180,9 @@ impl Picture {
     }
 
     /// Encodes the picture as a small PNG with a palette of at most 256 colours. If an opaque picture has more colours,
-    /// frequent colours stay exact. Other colours are rounded as little as possible, and the file stores the rounding
-    /// of each colour. If a picture with transparent pixels has more colours, it is stored exactly, without a palette.
+    /// frequent colours stay exact, and similar other colours are merged. The file then stores the largest rounding
+    /// error of each palette colour. If a picture with transparent pixels has more colours, it is stored exactly,
+    /// without a palette.
     ///
     /// # Errors
     /// The message of the PNG encoder.

@@ -179,7 +179,8 @@ fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     nearest.copied().unwrap_or(centre)
 }
 
-/// Encodes a picture as PNG with a palette. If `palette` is `None`, each pixel has its own red, green, blue and alpha.
+/// Encodes a picture as PNG with a palette. If `palette` is `None`, the file stores red, green, blue and alpha of each
+/// pixel.
 pub(super) fn encode(
     picture: &Picture,
     palette: Option<&Palette>,

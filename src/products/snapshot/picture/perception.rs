@@ -39,7 +39,8 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// Returns the up to eight neighbours of a pixel. The flag is true if the pixel lies at the border of the picture.
+/// Returns the up to eight neighbours of a pixel. The second value is true if the pixel lies at the border of the
+/// picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
     let (right, bottom) = (
@@ -53,7 +54,7 @@ fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, 
 
 /// True if a pixel of `picture` is part of an antialiased edge that `other` also has.
 pub(super) fn is_antialiased(picture: &Picture, other: &Picture, x: u32, y: u32) -> bool {
-    // Find the darkest and the brightest neighbour. A pixel with more than two neighbours of equal brightness lies
+    // Find the darkest and the brightest neighbour. A pixel with more than two neighbours of its own brightness lies
     // inside an area and not at an edge.
     let own = brightness(on_white(picture.pixel(x, y)));
     let (around, edge) = neighbours(picture, x, y);

@@ -135,8 +135,9 @@ impl StatedMargin<'_> {
             && (from_zero || free(self.interval.low()))
     }
 
-    /// Returns the relative distance of the current value from the nearest end of the interval, from 0 to 1. It is 0
-    /// if the frame is not known to stand at the current value. It is 1 if the interval has no end or is undecided.
+    /// Returns the relative distance of the current value from the nearest end of the interval, from 0 to 1. It is 0 if
+    /// the frame is not known to stand at the current value. It is 1 if the interval has no end or is undecided, or if
+    /// there is no current value.
     ///
     /// The distance to an upper end is divided by the value of this end, and the distance to a lower end by the
     /// current value. There are three exceptions: the distance of a tilt is divided by 90°, that of a kernel by 1

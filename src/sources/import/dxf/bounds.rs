@@ -7,7 +7,8 @@ use crate::import::subpath::Subpath;
 /// Two outlines coincide if their boxes differ by at most this share of their size.
 const COINCIDENCE_TOL: f64 = 1e-6;
 
-/// Returns the bounding box of a curve; `None` if a coordinate is not finite.
+/// Returns the bounding box of a curve, in which an arc counts as its whole ellipse. Returns `None` if a coordinate is
+/// not finite.
 pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
     let hull = curve.hull();
     let is_finite = hull
@@ -20,7 +21,7 @@ pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
     }
 }
 
-/// Returns the bounding box of a part; `None` for a point.
+/// Returns the bounding box of a part; `None` for a point, or if no curve has finite coordinates.
 pub(super) fn part_box(part: &Part) -> Option<Bounds> {
     match &part.form {
         PartGeometry::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),

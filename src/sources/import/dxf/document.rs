@@ -65,7 +65,7 @@ impl<'r> Document<'r> {
     }
 }
 
-/// Returns the index of the next record of a kind from `start` on, or the number of records if there is none.
+/// Returns the index of the first record of this kind at or after `start`, or the number of records if there is none.
 fn end_of(records: &[Record<'_>], start: usize, kind: &str) -> usize {
     let rest = records[start..].iter().position(|r| r.kind == kind);
     rest.map_or(records.len(), |offset| start + offset)

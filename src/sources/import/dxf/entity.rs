@@ -85,7 +85,7 @@ pub(super) enum Extrusion {
 }
 
 /// Returns the direction of an entity's normal, which has the group codes 210, 220 and 230. The direction is `Other` if
-/// the x or y component is larger than 1e-6, or if the z component is 0.
+/// the magnitude of the x or y component exceeds 1e-6, or if the z component is 0.
 pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
     let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
         .map(|(code, default)| entity.number(code).unwrap_or(default));
@@ -177,7 +177,7 @@ fn segment(from: Point, to: Point, bulge: f64) -> Segment {
     })
 }
 
-/// Reads an ARC: centre, radius, and start and end in degrees, anticlockwise.
+/// Reads an ARC: centre, radius, and the angles of start and end in degrees, measured anticlockwise.
 fn arc(entity: &Record<'_>) -> Subpath {
     let radius = entity.number(40).unwrap_or(f64::NAN);
     let angle = |code| entity.number(code).unwrap_or(0.0).to_radians();
@@ -190,8 +190,8 @@ fn arc(entity: &Record<'_>) -> Subpath {
     )
 }
 
-/// Reads an ELLIPSE: centre, the end of the long axis relative to the centre, the ratio of the axes, and start and
-/// end in radians.
+/// Reads an ELLIPSE: centre, the end of the long axis relative to the centre, the ratio of the axes, and the angles of
+/// start and end in radians.
 fn ellipse(entity: &Record<'_>) -> Subpath {
     let centre = point(entity, 10);
     let major = point(entity, 11).coords;

@@ -57,7 +57,8 @@ impl<'t> Groups<'_, 't> {
         Some(())
     }
 
-    /// Returns the value of the next group with this code, and skips the groups before it.
+    /// Returns the value of the next group with this code, and skips the groups before it; `None` if there is no such
+    /// group.
     fn value_of(&mut self, code: i32) -> Option<&'t str> {
         self.skip_to(code)?;
         self.next().map(|(_, value)| value)
@@ -93,8 +94,8 @@ impl<'t> Groups<'_, 't> {
         })
     }
 
-    /// Reads a boundary that is stored as edges: lines and arcs. Group code 93 is the number of edges, and code 72 the
-    /// type of each edge. Returns `None` if there are no edges.
+    /// Reads a boundary that is stored as edges: lines, arcs and parts of ellipses. Group code 93 is the number of
+    /// edges, and code 72 the type of each edge. Returns `None` if there are no edges.
     fn edges(&mut self) -> Result<Option<Subpath>, &'static str> {
         let edges = count(self.value_of(93).ok_or("its boundary is not complete")?);
         let mut curve: Option<Subpath> = None;
@@ -146,8 +147,9 @@ impl<'t> Groups<'_, 't> {
     }
 }
 
-/// Appends an edge to the end of a curve. Reverses the edge if only its end meets the curve. A curve of a single edge
-/// is also reversed if only its start meets the edge. Returns an error message if the curve and the edge do not meet.
+/// Appends an edge to the end of a curve. Reverses the edge if its end, but not its start, meets the end of the curve.
+/// Reverses a curve of a single edge if only the start of the curve meets the edge. Returns an error message if the
+/// curve and the edge do not meet.
 fn append(curve: &mut Subpath, edge: Subpath) -> Result<(), &'static str> {
     let end = curve.segments.last().map_or(curve.start, Segment::end);
     let near = |a: Point, b: Point| (a - b).norm() <= END_TOL * (1.0 + a.coords.norm());

@@ -22,8 +22,8 @@ pub(super) struct Record<'t> {
 /// Splits the text of a file into records. Comments (code 999) are left out.
 ///
 /// # Errors
-/// Returns a message if the file is binary, is not complete, has too many records, or has a line that is not part of a
-/// group.
+/// Returns a message if the file is binary, is not complete, does not begin with a record, has too many records, or has
+/// a line without a number where a group code must be.
 pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.starts_with("AutoCAD Binary DXF") {

@@ -225,7 +225,8 @@ impl<'d> DxfWalk<'d> {
                 map: around
                     .map
                     .after(&transform(insert, block, [cell % columns, cell / columns])),
-                // Names of anonymous blocks, such as those of dimensions and hatches, begin with an asterisk.
+                // Names of anonymous blocks, such as those of dimensions and hatches, begin with an asterisk. No user
+                // gave them, so the name of the outer block is kept.
                 block: match name.starts_with('*') {
                     true => around.block.clone(),
                     false => name.to_owned(),

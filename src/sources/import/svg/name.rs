@@ -27,7 +27,7 @@ pub(super) fn all_names(node: Node<'_, '_>) -> impl Iterator<Item = String> {
     label(node).into_iter().chain(id)
 }
 
-/// True if a group is an Inkscape layer. Blocks without a name do not get the name of their layer.
+/// True if a group is an Inkscape layer. A block without a name gets the name of its group, but not that of its layer.
 pub(super) fn is_layer(node: Node<'_, '_>) -> bool {
     node.attribute((INKSCAPE_NAMESPACE, "groupmode")) == Some("layer")
 }

@@ -1,4 +1,4 @@
-//! The kinds of remarks about SVG elements. Of each kind, only the first remarks are listed, and the others are
+//! The kinds of remarks about SVG elements. Of each kind, only the first 20 remarks are listed, and the others are
 //! counted.
 
 /// At most this many remarks of one kind are listed; the others are counted.

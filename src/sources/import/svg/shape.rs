@@ -93,8 +93,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 }
 
-/// Returns the name of a shape: the name of the `<use>` element that copies it, its own name, the name of its group,
-/// or its id.
+/// Returns the name of a shape. This is the first of the following that exists: the name of the `<use>` element that
+/// copies it, its own name, the name of its group, its id.
 fn shape_name(node: Node<'_, '_>, around: &Context) -> String {
     let copied = around.copy.as_ref().and_then(|c| c.name.clone());
     copied

@@ -68,7 +68,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// Returns the size from which the scale was computed as text, such as `210mm wide`.
+/// Returns a text with the size of the page that determines the scale, such as `210mm wide`.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width {
         ("width", "wide")
@@ -78,8 +78,8 @@ fn described(root: Node<'_, '_>, by_width: bool) -> String {
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
-/// Reads an attribute as a length in user units. A percentage is taken of `whole`. Returns `None` if the attribute is
-/// missing or not valid.
+/// Reads an attribute as a length in user units. A percentage refers to the length `whole`. Returns `None` if the
+/// attribute is missing or not valid.
 pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> {
     in_pixels(Length::from_str(node.attribute(name)?).ok()?, Some(whole))
 }

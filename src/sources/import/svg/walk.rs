@@ -113,7 +113,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         self.draw(node, around, inner);
     }
 
-    /// Counts an element. Returns true, and adds a remark, if a limit on the number or depth of elements excludes it.
+    /// Counts an element. Returns true, and adds a remark, if the element exceeds a limit: on the number of elements,
+    /// on their comparisons with style rules, or on the nesting depth.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
         self.seen += 1;
         self.styled = self.styled.saturating_add(self.sheet.rules.len());
