@@ -193,7 +193,7 @@ pub fn line_of(
         out.push(',');
         out.push_str(whole.trim_start_matches('{').trim_end_matches("}\n"));
     } else {
-        let timing = match fields.ask(&["frames", "solve", "seconds"]) {
+        let timing = match fields.ask(&["frames", "solve"]) {
             true => Timing::Included,
             false => Timing::LeftOut,
         };

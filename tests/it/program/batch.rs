@@ -152,6 +152,7 @@ fn fields_select_the_output() {
         json!({ "only_by_wedging": false })
     );
     assert!(frame("frames.solve.seconds")["solve"]["seconds"].is_number());
+    assert!(frame("frames.solve.stages")["solve"]["stages"]["solution"].is_number());
     assert!(frame("frames")["solve"].get("seconds").is_none());
 
     let ran = bench.run("batch falls.json --fields verdict,frames.prof,x");
