@@ -75,7 +75,7 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
     let how = if counts.is_empty() {
         String::new()
     } else {
-        format!(" on {}", listed(&counts))
+        format!(" with {}", listed(&counts))
     };
     let bodies = bodies.len();
     format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")

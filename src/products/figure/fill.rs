@@ -99,7 +99,7 @@ impl Fills {
         match self.scale {
             FillScale::Limit(limit) => {
                 let limit = quantity(limit, self.units.force());
-                let what = format!("of the robots' limit of {limit}, the source's rule");
+                let what = format!("of the robots' limit of {limit}, by the rule of the thesis");
                 (ends("100 %".into()), what)
             }
             FillScale::Largest(largest) => (

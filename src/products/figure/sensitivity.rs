@@ -126,7 +126,7 @@ impl PanelContent for CornerEffects {
         };
         let end = end_name(plan.kind, plan.is_high);
         let stated = format!(
-            "{} {}, the {end} end of its interval",
+            "limit: {} {}, the {end} end of its interval",
             name(plan.kind, plan.is_high),
             value(plan.kind, plan.value)
         );

@@ -321,7 +321,7 @@ pub fn lines(
         let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         let stated = format!(
-            "{name} {before}, the {} end of its interval",
+            "limit: {name} {before}, the {} end of its interval",
             end_name(kind, is_high)
         );
         lines.push(match changes.is_empty() {
