@@ -295,10 +295,12 @@ pub fn columns(program: &Program) -> Vec<Column> {
     columns
 }
 
-/// Returns the columns of all adhesive forces of a program, which have no limits.
+/// Returns the columns of all adhesive forces of a program. Adhesive forces have no limits. The columns of the contacts
+/// come first, then those of the grips: forces and torques of robots beyond their limits.
 ///
 /// They correspond to the negative forces of [Vallat23](crate::doc::references) §2.0.8. Each contact has adhesive
-/// friction at only one of its application points, because friction forces at both points act along the same line.
+/// friction, with one column for each direction, at only one of its application points, because friction forces at both
+/// points act along the same line.
 pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {

@@ -117,8 +117,8 @@ impl BoundedNnls {
             }
             if search.candidates.is_empty() {
                 if entry == Entry::Several && !is_balanced {
-                    // A column may have left again because other columns entered together with it. Now let one column
-                    // enter at a time.
+                    // Some columns may be rejected only because they entered together with others. Clear the
+                    // rejections, and let one column enter at a time.
                     entry = Entry::One;
                     search.rejected.fill(false);
                 } else if digits == Digits::All {
@@ -144,7 +144,7 @@ impl BoundedNnls {
             if progress == Progress::Moved || entered.iter().any(stays) {
                 search.rejected.fill(false);
             }
-            // A column that entered and left again is rejected until the amounts change: it entered because of
+            // A column that entered and left again is rejected until the amounts change: it probably entered because of
             // rounding.
             for (k, former) in entered {
                 search.rejected[k] = search.state[k] == former;

@@ -41,7 +41,7 @@ const ATTEMPTS: [(f64, Conditioning); 4] = [
 ];
 
 /// Finds the force of `grip` with the largest component along `direction`, a unit vector. `is_retry` is true if the
-/// result with plain conditioning could not be proved; only full conditioning is then tried.
+/// result of an earlier call could not be proved; only full conditioning is then tried.
 pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool) -> Support {
     let load = match largest(&program.loads) {
         0.0 => 1.0,

@@ -2,7 +2,7 @@
 //!
 //! The origin of a page is its upper left corner; x points right and y points down, in pixels. Only [`Camera`] converts
 //! from the scene, where y points up. Later items lie on top of earlier items. This module does not use forces or file
-//! formats; `output` writes a drawing to a file.
+//! formats; `output` converts a drawing to SVG, PNG and other formats.
 
 mod advance;
 pub mod arrow;

@@ -60,7 +60,7 @@ impl Symbol {
         }
     }
 
-    /// Returns the same symbol with the superscript `above` at its last letter.
+    /// Returns this symbol with `above` as the superscript of its last letter.
     pub fn raised(mut self, above: &str) -> Symbol {
         if let Some(last) = self.letters.last_mut() {
             above.clone_into(&mut last.above);

@@ -173,7 +173,7 @@ fn widest(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of the bands of carried forces. It is paler in a frame that does not stand.
+/// Returns the colour of the bands of carried forces. It is greyer in a frame that is not stable.
 fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     match verdict {
         Verdict::Stable => theme.motion,

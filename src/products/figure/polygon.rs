@@ -213,8 +213,8 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     polygon
 }
 
-/// If a reaction is nearer to an action (a weight or a load) than this fraction of the polygon's size, and nearly
-/// parallel, all reactions are moved sideways, so that they do not cover the actions.
+/// If two points of a reaction are nearer to an action (a weight or a load) than this fraction of the polygon's size, all
+/// reactions are moved sideways, so that they do not cover the actions.
 const OVERLAP_SHARE: f64 = 0.03;
 /// Distance by which reactions are moved sideways, as a fraction of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
@@ -237,7 +237,7 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
         acting.windows(2).map(pair).collect(),
         answering.windows(2).map(pair).collect(),
     );
-    // Two sides overlap if the middle and the first quarter point of one side both nearly lie on the other side.
+    // Two sides overlap if the midpoint and the first quarter point of one of them both lie close to the other.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();

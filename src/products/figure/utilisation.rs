@@ -183,8 +183,8 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     }
     if stated.is_empty() {
         match frame_analysis.robots.is_empty() {
-            true => "no friction is available".to_owned(),
-            false => "no friction is available, and no robot has limits".to_owned(),
+            true => "no loaded interface has friction".to_owned(),
+            false => "no loaded interface has friction, and no robot has limits".to_owned(),
         }
     } else {
         stated.join("; ")

@@ -208,7 +208,7 @@ pub fn page(study: &Study) -> Result<String, ChartError> {
                 p.small {
                     "Errors are relative errors of the total force, or of the total sticking if a frame falls. "
                     "The reference values are computed in extended precision. The error of each reference total has a certified bound. "
-                    "A red cross marks at least one wrong verdict. "
+                    "A red cross marks a method and tolerance with at least one wrong verdict. "
                     "The golden band is the Pareto front: no other method without wrong verdicts is both faster and more accurate."
                 }
                 h2 { "All frames together" }

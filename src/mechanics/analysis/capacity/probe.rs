@@ -20,7 +20,7 @@ const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 const MAX_SHARE_INSIDE: f64 = 1e-7;
 
 /// The farthest force and the half-plane of its motion agree if the force lies within this distance of the boundary,
-/// relative to the size of the force. Otherwise the program is solved again with higher accuracy.
+/// relative to the size of the force. Otherwise the program is solved again with full conditioning.
 const AGREES: f64 = 1e-7;
 
 /// A motion in which the point of the force is slower than this does not limit the force. The fastest point of a motion
@@ -153,8 +153,9 @@ impl Probe {
             program.grips[grip].limits[1] = most;
         }
         let first = self.farthest_in(&program, direction, false);
-        // If the force or the motion has no proof, or if they do not agree, solve the program again with higher
-        // accuracy.
+        // If the force or the motion has no proof, or if they do not agree, solve the program again with full
+        // conditioning: equilibration and iterative refinement. If its force has no proof either, try forces slightly
+        // inside the limit.
         match first {
             Farthest::At {
                 carried,

@@ -50,7 +50,7 @@ impl ProofCache {
         self.motions.push(motion);
     }
 
-    /// Returns the error of the most exact forces in the cache that balance a component, as
+    /// Returns the error of the most accurate forces in the cache that balance a component, as
     /// [`proof::Proof::force_error`] defines it. `None` if no forces in the cache balance it.
     pub(super) fn least_error(&self, component: &Component) -> Option<f64> {
         let errors = self.forces.iter().filter_map(|cached| {

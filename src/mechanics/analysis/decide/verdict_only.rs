@@ -42,7 +42,7 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (decision.verdict, decision.mechanism)
 }
 
-/// Returns the error of the most exact known forces that balance an assembly, as `Proof::force_error` defines it.
+/// Returns the error of the most accurate known forces that balance an assembly, as `Proof::force_error` defines it.
 /// Known forces are those in the cache, and those that the balance equations alone determine. `None` if no such forces
 /// are known.
 pub(in crate::mechanics::analysis) fn least_force_error(

@@ -6,7 +6,7 @@ use super::trial::{Setting, Trial};
 use crate::analysis::Verdict;
 use crate::solve::Tangent;
 
-/// The largest number of Newton steps for one threshold, midpoint steps included.
+/// The largest number of steps for one threshold, including steps that do not go to a root.
 const MAX_STEPS: usize = 24;
 
 /// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
@@ -108,7 +108,8 @@ impl Threshold {
         };
         let mut falling = Vec::new();
         // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
-        // computed. `share`: the length of the next step from the inner end, as a fraction of the bracket.
+        // computed. `share`: where the next value is if the root of the tangent lies outside the bracket: its distance
+        // from the inner end, as a fraction of the bracket.
         let (mut reached, mut share): (Option<[f64; 2]>, f64) = (None, 0.5);
         for _ in 0..MAX_STEPS {
             if bracket.tangent.residual_sum <= MAX_STABLE_RESIDUAL {

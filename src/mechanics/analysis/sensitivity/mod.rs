@@ -1,4 +1,4 @@
-//! [`Sensitivity`]: the derivatives of a margin with respect to corners, weights, friction and loads.
+//! [`Sensitivity`]: the derivatives of a margin with respect to corners, load points, weights and friction.
 //!
 //! At an end of a margin's interval the forces balance, and the power of all forces along the mechanism u is 0. If a
 //! quantity p changes, the parameter value λ at this end changes such that this power stays 0. Therefore dλ/dp =
@@ -36,11 +36,11 @@ pub(super) use find::{Part, find};
 pub use slope::Slope;
 
 impl Analysis {
-    /// Returns the derivatives of a margin of a frame (numbered from 0) with respect to corners, weights, friction and
-    /// loads.
+    /// Returns the derivatives of a margin of a frame (numbered from 0) with respect to the positions of corners and of
+    /// load points (per metre), weights (per newton) and friction coefficients (per unit).
     ///
-    /// The derivatives are in the unit of the margin (degrees for the tilt), per metre, per newton, or per unit of
-    /// friction. The frame is analysed again unless [`Options::sensitivity`] requested this margin.
+    /// The derivatives are in the unit of the margin (degrees for the tilt) divided by these units. The frame is
+    /// analysed again unless [`Options::sensitivity`] requested this margin.
     ///
     /// # Errors
     /// Returns the reason if neither end of the margin has derivatives. For [`MarginKind::Robots`], or if the frame

@@ -9,8 +9,8 @@ use crate::scene::path::Trail;
 use crate::scene::problem;
 use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
 
-/// The size of a schematic disc or support, as a fraction of the diagonal of the rectangle around all centres and
-/// contacts.
+/// The radius of a schematic disc, and half the width of a schematic support, as a fraction of the diagonal of the
+/// rectangle around all centres and contacts.
 const SYMBOL_SIZE_SHARE: f64 = 0.03;
 /// The number of corners of the schematic disc around a centre.
 const DISC_CORNERS: usize = 8;

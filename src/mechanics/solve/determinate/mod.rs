@@ -34,8 +34,8 @@ const ROUNDING_TOL: f64 = 1e-12;
 /// loads changes by a similarly small fraction.
 const EXTRA_OPENING: f64 = 1e-14;
 
-/// Returns the contact forces that balance the loads. `None` if the contacts do not form a tree (see `joints`), or if a
-/// contact cannot exert its force.
+/// Returns the contact forces that balance the loads. `None` if the contacts do not form a tree or other conditions of
+/// `joints` are not met, if a contact cannot exert its force, or if a force is not finite.
 pub fn determinate(program: &Program) -> Option<Amounts> {
     let joints = joints(program)?;
     let split = SplitForces::new(program, &joints)?;

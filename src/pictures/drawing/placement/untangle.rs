@@ -1,5 +1,5 @@
-//! [`untangle`] exchanges the positions of two labels with leader lines if fewer leader lines cross other lines or
-//! labels afterwards.
+//! [`untangle`] exchanges the positions of two labels with leader lines if the leader lines then cross each other or
+//! labels less often. Crossings with drawn shapes do not count.
 //!
 //! Labels are placed one after the other, so in a crowd a late label may only find a position behind other labels. The
 //! method is a local search over pairs (2-opt). It stops if no exchange reduces the number of crossings, or after a few

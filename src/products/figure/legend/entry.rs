@@ -78,7 +78,8 @@ impl Entry {
         }
     }
 
-    /// True if the two entries explain the same symbol with the same text, so that a legend needs only one of them.
+    /// True if a legend needs only one of the two entries. Two entries for missing forces, for planned blocks, or for
+    /// arrow colours without names always count as the same. Other entries of the same kind must have the same text.
     pub(super) fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,

@@ -1,4 +1,5 @@
-//! Writes the text below the verdict in a figure of a margin: for which values of the parameter the frame stands.
+//! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or load
+//! factor) at which the structure begins to fall or would stand.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
 use crate::wording::margin::{Parameter, stands};
@@ -65,8 +66,9 @@ fn parameter(toward: Toward) -> &'static str {
     }
 }
 
-/// Describes the margin of a frame that stands: the values at both ends of the interval, at which the frame begins to
-/// fall. An end that is not known is left out. If no value is known, the text says why.
+/// Describes the margin of a frame that stands: the values at which it begins to fall. An end that does not exist or is
+/// not confirmed is left out. If no end is left (for the load factor: no upper end), the text says whether the frame
+/// never falls or its margin was not confirmed.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     // If the value is below 1, it is the least load factor, which does not limit how much the loads may grow.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;

@@ -1,4 +1,5 @@
-//! Describes why the force polygon of a structure that falls is closed.
+//! Describes how the force polygon of a falling structure closes: only with the missing forces, or without them. Also
+//! names the missing forces.
 
 use super::{closed, outer};
 use crate::analysis::{Failure, FrameAnalysis};

@@ -232,7 +232,8 @@ impl Fan {
                 below = at.y;
             }
         }
-        // The thrust H is the distance of the pole from the load line.
+        // The thrust H is the largest horizontal component of the joint forces. If all loads are vertical, it is the
+        // distance of the pole from the load line, at the scale of the polygon.
         let across = quarter_turn(scene.down());
         let thrust = quantity(self.chain.thrust(across), scene.units.force());
         let ends = self.vertices.iter().copied().chain([self.pole]);

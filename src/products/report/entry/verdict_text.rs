@@ -62,7 +62,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
                 Toward::HorizontalLoad => {
                     let side = if value < 0.0 { "left" } else { "right" };
                     format!(
-                        "Under a horizontal load to the {side} of {} times the weight",
+                        "Under a horizontal load of {} times each weight to the {side}",
                         three(value.abs())
                     )
                 }
