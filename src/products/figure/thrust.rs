@@ -141,16 +141,8 @@ impl PanelContent for ThrustLine {
         }
         if schematic {
             // Only one entry of the legend explains what the width of the line means.
-            let thick = match through || falls {
-                true => String::new(),
-                false => format!(" (this width shows {largest})"),
-            };
-            let what = match context.options.is_column() {
-                true => format!("schematic{thick}: no single line of action in the block"),
-                false => {
-                    format!("schematic{thick}: no single line of action runs through the block")
-                }
-            };
+            let width = (!through && !falls).then_some(&*largest);
+            let what = schematic_text(context, width);
             entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
         }
         if context.options.with_polygon {
@@ -176,6 +168,18 @@ impl PanelContent for ThrustLine {
             }
             Verdict::Undecided => format!("no line of thrust is proved; {why}"),
         }
+    }
+}
+
+/// Returns the text of the legend for schematic lines. `largest` is the force that the width of the thickest line shows;
+/// `None` if another entry states it.
+fn schematic_text(context: &FigureContext<'_>, largest: Option<&str>) -> String {
+    let shows = largest.map_or_else(String::new, |largest| {
+        format!(" (this width shows {largest})")
+    });
+    match context.options.is_column() {
+        true => format!("schematic{shows}: no single line of action in the block"),
+        false => format!("schematic{shows}: no single line of action runs through the block"),
     }
 }
 

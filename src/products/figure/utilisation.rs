@@ -158,6 +158,20 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
             ));
         }
     }
+    stated.extend(most_used_robots(scene, frame_analysis));
+    if stated.is_empty() {
+        match frame_analysis.robots.is_empty() {
+            true => "no loaded interface has friction".to_owned(),
+            false => "no loaded interface has friction, and no robot has limits".to_owned(),
+        }
+    } else {
+        stated.join("; ")
+    }
+}
+
+/// Names the robot that uses the largest fraction of its limits, or states how many robots use it. `None` if no robot of
+/// the frame has limits.
+fn most_used_robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
     let robots = || {
         frame_analysis
             .robots
@@ -170,24 +184,16 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let equal = most.map(|most| robots().filter(move |r| percent(r.limit_used) == percent(most)));
     let most_used: Vec<_> = equal.into_iter().flatten().collect();
     match most_used.as_slice() {
-        [] => {}
+        [] => None,
         [robot] => {
             let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
-            stated.push(format!("robot\u{a0}{id} gives {share} of its limit"));
+            Some(format!("robot\u{a0}{id} gives {share} of its limit"))
         }
-        [robot, ..] => stated.push(format!(
+        [robot, ..] => Some(format!(
             "{} give {} of their limits",
             counted(most_used.len(), "robot"),
             percent(robot.limit_used)
         )),
-    }
-    if stated.is_empty() {
-        match frame_analysis.robots.is_empty() {
-            true => "no loaded interface has friction".to_owned(),
-            false => "no loaded interface has friction, and no robot has limits".to_owned(),
-        }
-    } else {
-        stated.join("; ")
     }
 }
 

@@ -18,7 +18,9 @@
 //! are not linear, such as the position of a corner.
 
 use super::refine;
-use super::region::{SAME_DIRECTION, clipped, corners, half_planes, set_edges, square};
+use super::region::{
+    SAME_DIRECTION, bounded_polygon, clipped, corners, opposite, set_edges, sides, square,
+};
 use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
 use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
@@ -217,5 +219,42 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
         (Some(first), Some(last)) if (first - last).norm() > 1e-4 => vec![*first, *last],
         (Some(first), _) => vec![*first],
         _ => Vec::new(),
+    }
+}
+
+/// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
+/// extended along the rays. `slack` is added to each limit. An unbounded set is cut off at a distance of about `far`,
+/// unless it is a half-plane, a strip or a line.
+fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec<(Vector, f64)> {
+    let side = |from: Vector, outward: Vector| {
+        let normal = outward.normalize();
+        (normal, normal.dot(&from) + slack)
+    };
+    if opposite(rays).is_some() {
+        let sides = sides(corners, rays, 1.0).into_iter();
+        let sides = sides.map(|(_, from, to)| side(to, -quarter_turn(to - from)));
+        return sides.collect();
+    }
+    match bounded_polygon(corners, rays, far)[..] {
+        [] => Vec::new(),
+        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
+            .map(|(x, y)| side(point, Vector::new(x, y)))
+            .to_vec(),
+        [a, b] => {
+            let along = b - a;
+            let across = quarter_turn(along);
+            vec![
+                side(a, across),
+                side(a, -across),
+                side(a, -along),
+                side(b, along),
+            ]
+        }
+        ref ring => (0..ring.len())
+            .map(|k| {
+                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
+                side(from, -quarter_turn(to - from))
+            })
+            .collect(),
     }
 }

@@ -3,7 +3,7 @@
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
-use crate::geometry::{Point, Vector, cross, in_half_plane, quarter_turn};
+use crate::geometry::{Point, Vector, cross, in_half_plane};
 use crate::scene::BlockId;
 
 /// Unbounded sets are cut off at this multiple of their size.
@@ -101,7 +101,7 @@ fn edge_of(line: &HalfPlane) -> CapacityEdge {
 /// Returns the sides of a convex set, anticlockwise. Each side is given by the indices of its two vertices, `None`
 /// where the side is unbounded, and by two points on it. On an unbounded side, one of these points is a corner, and the
 /// other lies at the distance `size` from it.
-fn sides(
+pub(super) fn sides(
     corners: &[Vector],
     rays: &[Vector],
     size: f64,
@@ -142,7 +142,7 @@ fn sides(
 
 /// Returns the first ray if the last ray is its opposite; otherwise `None`. With two such rays, the set is a line or a
 /// strip; with three, it is a half-plane to the left of the first ray.
-fn opposite(rays: &[Vector]) -> Option<Vector> {
+pub(super) fn opposite(rays: &[Vector]) -> Option<Vector> {
     match rays {
         [first, .., last] if rays.len() < 4 => {
             ((first + last).norm() <= SAME_DIRECTION).then_some(*first)
@@ -311,48 +311,6 @@ pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> 
         points.extend(corners.iter().map(|f| (f + ray * far, None)));
     }
     hull(points).into_iter().map(|p| p.0).collect()
-}
-
-/// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
-/// extended along the rays. `slack` is added to each limit. An unbounded set is cut off at a distance of about `far`,
-/// unless it is a half-plane, a strip or a line.
-pub(super) fn half_planes(
-    corners: &[Vector],
-    rays: &[Vector],
-    far: f64,
-    slack: f64,
-) -> Vec<(Vector, f64)> {
-    let side = |from: Vector, outward: Vector| {
-        let normal = outward.normalize();
-        (normal, normal.dot(&from) + slack)
-    };
-    if opposite(rays).is_some() {
-        let sides = sides(corners, rays, 1.0).into_iter();
-        let sides = sides.map(|(_, from, to)| side(to, -quarter_turn(to - from)));
-        return sides.collect();
-    }
-    match bounded_polygon(corners, rays, far)[..] {
-        [] => Vec::new(),
-        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
-            .map(|(x, y)| side(point, Vector::new(x, y)))
-            .to_vec(),
-        [a, b] => {
-            let along = b - a;
-            let across = quarter_turn(along);
-            vec![
-                side(a, across),
-                side(a, -across),
-                side(a, -along),
-                side(b, along),
-            ]
-        }
-        ref ring => (0..ring.len())
-            .map(|k| {
-                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
-                side(from, -quarter_turn(to - from))
-            })
-            .collect(),
-    }
 }
 
 /// True if a force belongs to the convex hull of the corners, extended along the rays.

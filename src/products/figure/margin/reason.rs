@@ -74,20 +74,8 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;
     let edge = analysis.edge(frame, toward).map(|(edge, _)| edge);
     if let Some(edge) = edge.filter(is_upper) {
-        let ends = [interval.low(), interval.high()].map(|end| end.and_then(End::value));
-        let is_single = ends
-            .iter()
-            .all(|end| end.is_some_and(|v| v.abs() < SAME_AS_ZERO));
-        match toward {
-            Toward::Tilt if is_single => {
-                return "stands only without a tilt; falls once gravity is turned to either side"
-                    .into();
-            }
-            Toward::HorizontalLoad if is_single => {
-                return "stands only without a horizontal load; falls once pushed to either side"
-                    .into();
-            }
-            _ => {}
+        if let Some(words) = only_at_zero(toward, interval) {
+            return words.into();
         }
         return match toward {
             Toward::Tilt => {
@@ -129,6 +117,23 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
             ),
         },
         _ => "its margin was not found".to_owned(),
+    }
+}
+
+/// Returns the sentence about a frame that stands only without a tilt or a horizontal load. `None` for other intervals, and
+/// for the load factor.
+fn only_at_zero(toward: Toward, interval: &Interval) -> Option<&'static str> {
+    let ends = [interval.low(), interval.high()].map(|end| end.and_then(End::value));
+    let is_zero = |end: &Option<f64>| end.is_some_and(|v| v.abs() < SAME_AS_ZERO);
+    match toward {
+        _ if !ends.iter().all(is_zero) => None,
+        Toward::Tilt => {
+            Some("stands only without a tilt; falls once gravity is turned to either side")
+        }
+        Toward::HorizontalLoad => {
+            Some("stands only without a horizontal load; falls once pushed to either side")
+        }
+        Toward::LoadFactor => None,
     }
 }
 
