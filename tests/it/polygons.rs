@@ -165,7 +165,7 @@ fn a_report_of_an_unstable_frame_says_that_missing_forces_are_included() {
     };
     let (falls, used) = captions(&block(1.0, 4.0));
     assert!(
-        falls.contains("These forces include the missing forces."),
+        falls.contains("These forces are in equilibrium only together with the missing forces."),
         "{falls}"
     );
     assert_eq!(used, None);

@@ -121,7 +121,9 @@ fn the_most_effective_changes_are_listed_with_their_values() {
     let analysis = analysed(&of_assets("study/arch-27.json"), MarginKind::Tilt);
     let text = svg::write(&draw(&analysis));
     assert!(
-        text.contains("tilt 15.9° right, the right end of its interval"),
+        text.contains(
+            "limit: tilt 15.9° right (right end of the interval in which the frame stands)"
+        ),
         "{text}"
     );
     assert!(text.contains("+2 mm → about 16.1° right"), "{text}");

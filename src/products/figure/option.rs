@@ -185,7 +185,7 @@ impl Options {
     optional_setters! {
         columns: usize, "The number of panels in a row.";
         zoom: BlockId, "The block in the centre of a zoomed picture, which shows only this block and its surroundings.";
-        width: f64, "Page width, pixels. Below 520, texts are smaller if pictures fill under 55 % of the height.";
+        width: f64, "Width of the page, pixels. On a page narrower than 520, texts are shorter; they are also smaller if the pictures would take less than 55 % of the height of the page.";
         height: f64, "Largest height of the picture of a frame without its legend, pixels.";
     }
 

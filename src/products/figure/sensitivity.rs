@@ -126,7 +126,7 @@ impl PanelContent for CornerEffects {
         };
         let end = end_name(plan.kind, plan.is_high);
         let stated = format!(
-            "limit: {} {}, the {end} end of its interval",
+            "limit: {} {} ({end} end of the interval in which the frame stands)",
             name(plan.kind, plan.is_high),
             value(plan.kind, plan.value)
         );

@@ -264,7 +264,8 @@ pub fn toward(direction: Vector) -> String {
     }
 }
 
-/// Returns the name of one end of a margin: of the upper end if `is_high`, otherwise of the lower end.
+/// Returns the name of the value at one end of a margin, such as `tilt`. Only for the load factor does the name depend on
+/// the end: `load factor` (upper) or `least load factor` (lower). [`end_name`] names the end itself.
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Friction, _) => "least friction",
@@ -321,7 +322,7 @@ pub fn lines(
         let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         let stated = format!(
-            "limit: {name} {before}, the {} end of its interval",
+            "limit: {name} {before} ({} end of the interval in which the frame stands)",
             end_name(kind, is_high)
         );
         lines.push(match changes.is_empty() {

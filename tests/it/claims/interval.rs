@@ -287,12 +287,12 @@ fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words:
         "{words}"
     );
     assert_eq!(
-        is_one_of(&["at least", "and more", "to any value on the right"]),
+        is_one_of(&["at least", "and more", "without a limit to the right"]),
         bound == (true, false),
         "{words}"
     );
     assert_eq!(
-        is_one_of(&["at most", "up to", "from any value on the left"]),
+        is_one_of(&["at most", "up to", "without a limit to the left"]),
         bound == (false, true),
         "{words}"
     );

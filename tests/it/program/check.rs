@@ -175,7 +175,10 @@ fn the_most_effective_changes_of_a_margin_are_listed_in_words() {
     let output = bench
         .run("check --sensitivity horizontal_load stands.json")
         .out;
-    assert!(output.contains("the right end of its interval"), "{output}");
+    assert!(
+        output.contains("(right end of the interval in which the frame stands)"),
+        "{output}"
+    );
     assert!(
         output.contains("; what changes it most, estimated from derivatives:"),
         "{output}"

@@ -76,8 +76,8 @@ impl Joint<'_> {
         });
         let across = [0, 1].map(|k| normal.dot(&below[k]) + self.sign * opens[k]);
         let along = tangent.dot(&below[0]) + self.sign * slides;
-        // The spin follows from the difference of the two openings, and the velocity of the centroid from the first
-        // point.
+        // The spin follows from the difference of the body's normal velocities at the two points. The velocity of the
+        // centroid follows from the velocity at the first point and the spin.
         let (levers, lever) = self.levers();
         let spin = (across[1] - across[0]) / (levers[1] - levers[0]);
         let velocity = normal * (across[0] - spin * levers[0]) + tangent * (along - spin * lever);

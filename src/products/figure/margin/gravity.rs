@@ -132,7 +132,7 @@ fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Op
     };
     let ends = [interval.low(), interval.high()].into_iter().flatten();
     let mut ends = ends.filter_map(End::value);
-    ends.find(|other| other * edge < 0.0)
+    ends.find(|other| *other != edge && other * edge <= 0.0)
 }
 
 /// Draws the symbol of turned gravity for the legend: a dashed line for the present direction, and an arrow.

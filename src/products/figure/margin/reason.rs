@@ -140,26 +140,22 @@ fn only_at_zero(toward: Toward, interval: &Interval) -> Option<&'static str> {
 /// Tilts in degrees, and horizontal loads as fractions of the weights, that are 0 except for rounding.
 const SAME_AS_ZERO: f64 = 1e-9;
 
-/// Describes both ends of an interval around 0, such as `9° to the left, or by 14° to the right`. `edge` is the end
-/// nearer to 0, which comes first. The other end is left out if its value is not known. `amount` formats a value.
+/// Describes the ends of an interval around 0, for a text after `by`: `9° to the left, or by 14° to the right`, or `9° to
+/// either side` if both amounts are equal. `edge` is the end nearer to 0 and comes first. The other end is left out if it
+/// is unbounded or not confirmed. `amount` formats the size of a value without its sign.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
-    let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
-    let ends = [interval.low(), interval.high()].into_iter().flatten();
-    let mut ends = ends.filter_map(End::value);
+    // An end at 0 has no sign, so its side follows from which of the two ends it is.
+    let [low, high] = [interval.low(), interval.high()].map(|end| end.and_then(End::value));
+    let distance = |end: Option<f64>| end.map_or(f64::INFINITY, |value| (value - edge).abs());
+    let (side, other_side, other) = match distance(low) <= distance(high) {
+        true => ("left", "right", high),
+        false => ("right", "left", low),
+    };
     let near = amount(edge);
-    match ends
-        .find(|other| other * edge < 0.0)
-        .map(|other| (other, amount(other)))
-    {
-        Some((_, far)) if far == near => format!("{near} to either side"),
-        Some((other, far)) => {
-            format!(
-                "{near} to the {}, or by {far} to the {}",
-                side(edge),
-                side(other)
-            )
-        }
-        None => format!("{near} to the {}", side(edge)),
+    match other.map(amount) {
+        Some(far) if far == near => format!("{near} to either side"),
+        Some(far) => format!("{near} to the {side}, or by {far} to the {other_side}"),
+        None => format!("{near} to the {side}"),
     }
 }
 

@@ -79,7 +79,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     loads.sort_by_key(|load| load.cause);
     forces.extend(total_weight(&weights, about));
     forces.extend(listed_loads(scene, &loads, about));
-    let caption = "Reactions, weights and loads; moments about the origin";
+    let caption = "External forces on the supported blocks; moments about the origin";
     table(caption, &forces, Units::new(scene, frame_analysis))
 }
 
@@ -296,8 +296,13 @@ pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
         Verdict::Stable => {
             "The sums are zero in the printed digits: weights, loads and reactions balance."
         }
+        Verdict::Unstable
+            if !frame_analysis.unsupported.is_empty() && frame_analysis.failures.is_empty() =>
+        {
+            "The table of the whole structure leaves out the blocks that nothing carries. The other blocks are in equilibrium."
+        }
         Verdict::Unstable if frame_analysis.failures.is_empty() => {
-            "The structure falls: the sums are the forces that are missing for a balance."
+            "The structure falls, and its forces were not computed: the sums are the imbalance."
         }
         Verdict::Unstable => {
             "The sums are zero only with the missing forces, which neither contacts nor robots can give."

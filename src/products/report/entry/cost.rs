@@ -72,12 +72,12 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
     [
         stage(
             "setting up",
-            "the contributions of all effects are assembled together",
+            "the equations of all effects are set up together, so no time can be given for a single effect",
             stages.assembly,
         ),
         stage(
             "solving and proving",
-            "all effects are solved together, so no time can be given for a single effect",
+            "all effects except margins and wedging are solved together, so these effects have no times of their own",
             stages.solution,
         ),
     ]

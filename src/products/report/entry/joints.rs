@@ -187,7 +187,10 @@ impl<'a> Ranking<'a> {
         };
         let added = match self.frame_analysis.verdict {
             Verdict::Stable => "",
-            Verdict::Unstable => " These forces include the missing forces.",
+            Verdict::Unstable if self.frame_analysis.failures.is_empty() => "",
+            Verdict::Unstable => {
+                " These forces are in equilibrium only together with the missing forces."
+            }
             Verdict::Undecided => " These forces are not proved.",
         };
         format!(

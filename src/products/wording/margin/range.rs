@@ -76,10 +76,10 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
     match (least, most) {
         (None, None) => "at any value".to_owned(),
         (None, Some(high)) if parameter.is_signed() => {
-            format!("from any value on the left to {}", value(high))
+            format!("up to {}, without a limit to the left", value(high))
         }
         (Some(low), None) if parameter.is_signed() => {
-            format!("from {} to any value on the right", value(low))
+            format!("from {} on, without a limit to the right", value(low))
         }
         (None, Some(high)) => format!("up to {}", value(high)),
         (Some(low), None) => format!("at {} and more", value(low)),

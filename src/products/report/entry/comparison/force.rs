@@ -19,7 +19,8 @@ pub(super) struct SharedForces<'a> {
 }
 
 impl<'a> SharedForces<'a> {
-    /// Pairs the interfaces of the two frames with index `number`; see [`shared_forces`].
+    /// Pairs the interfaces of frame `number` (from 0) of the first analysis with those of the same frame of the second;
+    /// see [`shared_forces`].
     pub fn new(sides: [Side<'a>; 2], number: usize) -> SharedForces<'a> {
         let [was, is] = sides.map(|side| {
             let analysis = side.analysis;
