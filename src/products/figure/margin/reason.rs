@@ -1,5 +1,5 @@
-//! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or load
-//! factor) at which the structure begins to fall or would stand.
+//! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or
+//! load factor) at which the structure begins to fall or would stand.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
 use crate::wording::margin::{Parameter, stands};
@@ -135,8 +135,9 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
 /// Tilts in degrees, and horizontal loads as fractions of the weights, that are 0 except for rounding.
 const SAME_AS_ZERO: f64 = 1e-9;
 
-/// Describes both ends of an interval around 0, such as `9° to the left, or by 14° to the right`. `edge` is the end
-/// nearer to 0, which comes first. The other end is left out if its value is not known. `amount` formats a value.
+/// Describes both ends of an interval around 0, such as `9° to the left, or by 14° to the right`, or `9° to either
+/// side` for ends of equal size. `edge` is the end nearer to 0, which comes first. The other end is left out if it does
+/// not exist or its value is not known. `amount` formats a value.
 fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> String {
     let side = |edge: f64| if edge > 0.0 { "right" } else { "left" };
     let ends = [interval.low(), interval.high()].into_iter().flatten();
