@@ -203,7 +203,7 @@ fn typical_extent<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     })
 }
 
-/// Returns, for each coordinate, the largest minus the smallest centre of the boxes, multiplied by 2.
+/// Returns, for each coordinate, twice the difference between the largest and the smallest centre of the boxes.
 fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] {
     let (mut min, mut max) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
     for (bounds, _) in order {

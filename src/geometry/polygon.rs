@@ -242,8 +242,8 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
     }
 }
 
-/// Returns an error for each pair of sides that cross or touch. If there is no such pair, returns an error for each
-/// ring without area.
+/// Returns an error for each pair of sides that [`crossings`] finds: pairs that cross or touch. If there is no such
+/// pair, returns an error for each ring without area.
 ///
 /// If two sides cross, the areas of the two loops can cancel. Then only the crossing is reported, not the zero area.
 fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Vec<PolygonError>> {

@@ -243,8 +243,8 @@ fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> 
 
 /// Returns at most [`MAX_GENERATORS`] generators. Their zonotope lies within the zonotope of the generators passed in.
 ///
-/// If the sum of two generators replaces them, the zonotope can only become smaller, and the gauge larger. Adding up
-/// parallel generators does not change the zonotope.
+/// Replacing two generators by their sum can only make the zonotope smaller and the gauge larger. Adding up parallel
+/// generators does not change the zonotope.
 fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
     // If there are very many generators, add up those in the same cell of directions. Otherwise add up only parallel
     // ones.

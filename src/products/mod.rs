@@ -1,5 +1,5 @@
-//! Output for people and programs: results, sentences, figures and reports. These modules use both mechanics and
-//! pictures.
+//! Output for people and for other programs: results, sentences, figures and reports. These modules use both mechanics
+//! and pictures.
 //!
 //! The modules are listed in the order of dependency. Each module uses only the modules above it.
 

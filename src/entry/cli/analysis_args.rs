@@ -35,8 +35,8 @@ impl AnalysisArgs {
         self.wedging
     }
 
-    /// Returns the name and the value of each option on which the result of a scene depends. A resume file records
-    /// these names and values.
+    /// Returns the name and the value of each of the four options of [`AnalysisArgs`]. A resume file records these
+    /// values, because the results of a batch depend on them.
     pub(crate) fn described(self) -> [(&'static str, String); 4] {
         let level = match self.accuracy {
             Accuracy::Standard => "standard",

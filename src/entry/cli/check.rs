@@ -268,7 +268,8 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     words
 }
 
-/// Returns the lines below a table that show, for each frame, how its margin changes with the input.
+/// Returns the lines below a table for the option `--sensitivity`: how the selected margin of each frame changes with
+/// the input. Without this option, the page is empty.
 fn sensitivities(analysis: &Analysis) -> Page {
     let mut page = Page::default();
     let scene = &analysis.scene;

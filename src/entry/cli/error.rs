@@ -317,7 +317,8 @@ fn windowed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<us
     let letters: Vec<char> = text.chars().collect();
     let start = place.range.start.min(letters.len());
     let wide = |c: &char| seen(c.encode_utf8(&mut [0; 4]));
-    // Choose which characters are shown: up to a third of the width before the problem, then as many as fit after it.
+    // Choose which characters are shown: at most a third of the width for text before the problem, and the rest of the
+    // width for the text from the problem on.
     let fits = |letters: &mut dyn Iterator<Item = &char>, most: usize| {
         let mut left = most;
         let fit = letters.take_while(|c| {

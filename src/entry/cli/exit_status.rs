@@ -8,11 +8,11 @@ use crate::scene::format::Expectation;
 /// The result of a command. The greatest of several results is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ExitStatus {
-    /// Done, and every frame is stable.
+    /// Done, and every frame stands, or falls as the scene expects.
     Done,
-    /// Done; no frame is unstable, and at least one is undecided.
+    /// Done; at least one frame is undecided, and no frame counts as [`ExitStatus::Unstable`].
     Undecided,
-    /// Done, and at least one frame is unstable.
+    /// Done, and at least one frame falls, or stands although the scene expects it to fall.
     Unstable,
     /// The output could not be written.
     NotWritten,
@@ -22,8 +22,8 @@ pub(crate) enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// Returns the worst exit status of the frames of an analysis. If the scene expects a frame to fall, the frame
-    /// counts as `Done` if it falls, and as `Unstable` if it stands.
+    /// Returns the worst exit status of the frames of an analysis. A frame that the scene expects to fall counts as
+    /// `Done` if it falls, and as `Unstable` if it stands.
     pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict);
         ExitStatus::from_verdicts(&analysis.scene, verdicts)

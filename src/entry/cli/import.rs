@@ -258,8 +258,8 @@ impl Import {
         }
     }
 
-    /// Prints a summary of the import to standard error: warnings, how many blocks, ground parts and robots were
-    /// imported, notes, and the bodies whose corners were moved.
+    /// Prints a summary of the import to standard error: the warnings, the numbers of imported blocks, parts of the
+    /// ground and robots, the material of `--material`, the notes, and the bodies whose corners were moved.
     fn print_summary(&self, terminal: &Terminal, name: &str, imported: &Imported) {
         for remark in &imported.remarks {
             terminal.notes(&remark_page("warning", name, remark));

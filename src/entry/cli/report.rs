@@ -186,7 +186,7 @@ impl Report {
     }
 
     /// Analyses the scenes of all tasks. Returns the parts of the report, the files that are not valid scenes, and the
-    /// worst exit status.
+    /// worst exit status of the valid scenes.
     fn describe_all(
         &self,
         tasks: &[Task],

@@ -164,7 +164,8 @@ pub(crate) fn read_each(
     Ok(paths.into_iter().map(outcome).collect())
 }
 
-/// Replaces each folder by the `.json` files in it, sorted by name. Subfolders are not read.
+/// Replaces each folder by the `.json` files in it, sorted by name. Subfolders are not read. Returns an error if a
+/// folder has no `.json` file.
 pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     let mut all = Vec::new();
     for path in paths {
@@ -199,7 +200,7 @@ fn read_one(path: &Path, tolerance: Option<f64>) -> Result<Source, CliError> {
     Ok(with_text(path, tolerance)?.0)
 }
 
-/// Reads one scene. Returns it with the text of its file.
+/// Reads one scene. Returns the scene together with the text of its file.
 pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, String), CliError> {
     let bytes = if path == Path::new("-") {
         let mut bytes = Vec::new();

@@ -124,9 +124,9 @@ pub(crate) enum Detail {
 
 /// Writes the table of one scene, for a terminal of `width` columns.
 ///
-/// If the rows would be wider, titles and names are shortened as far as needed. If that is not enough, every value is
-/// written on a separate line. The remarks below the rows may be wider than the terminal; [`Page::fitted`] breaks
-/// them.
+/// If the rows would be wider than that, titles and names are shortened as far as needed. If that is not enough, every
+/// value is written on a separate line. The remarks below the rows may be wider than the terminal; [`Page::fitted`]
+/// breaks them.
 pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();

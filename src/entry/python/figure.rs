@@ -103,7 +103,7 @@ pub(super) fn report(
     };
     let mut analysis = analysis.clone();
     if form == Form::Pdf {
-        // A PDF contains text in the built-in fonts of drystone, so characters that these fonts lack are replaced.
+        // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts lack.
         analysis.scene = Arc::new(missing_glyphs::legible(&analysis.scene, &Fonts::default()));
     }
     let report_options = ReportOptions {

@@ -206,8 +206,8 @@ impl Analysis {
         self.analysis.verdict() == Verdict::Stable
     }
 
-    /// Returns the result in the form that `check --json` prints. `file` is the name of the scene file in the result,
-    /// `timing` includes times, and `lines` breaks the JSON into lines.
+    /// Returns the result in the form that `check --json` prints. The result states `file` as the name of the scene
+    /// file. With `timing`, it contains times; with `lines`, the JSON is broken into lines.
     fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
         let timing = match timing {
             true => Timing::Included,
@@ -313,8 +313,8 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
 }
 
 /// Analyses scenes on several threads. Returns an analysis or an exception for each scene, in the order of the scenes.
-/// Calls `progress` with the number of finished scenes. If `progress` raises an exception or the user interrupts
-/// Python, the work ends with this exception.
+/// Repeatedly calls `progress` with the number of finished scenes. If `progress` raises an exception or the user
+/// interrupts Python, the work ends with this exception.
 #[pyfunction]
 fn check_many(
     py: Python<'_>,

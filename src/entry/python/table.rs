@@ -223,8 +223,8 @@ impl<T> Rows<T> {
         self.columns.push((name, Column::Word(all.collect())));
     }
 
-    /// Adds columns with the names of two bodies and their indices among the blocks. The index is −1 for the ground or
-    /// if there is no body.
+    /// Adds columns with the names of two bodies and their indices among the blocks. The index is −1 for the ground. If
+    /// there is no body, the name is empty and the index is −1.
     fn bodies(&mut self, scene: &Scene, of: impl Fn(&T) -> [Option<BodyId>; 2]) {
         let name = |id: Option<BodyId>| id.map_or_else(String::new, |id| scene.name(id).to_owned());
         self.word("body_0", |row| name(of(row)[0]));

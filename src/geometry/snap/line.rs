@@ -67,11 +67,11 @@ impl Fit {
 }
 
 impl Lines {
-    /// Creates the lines. `on` maps each straight side, given by its two end nodes, to the other nodes that lie on this
-    /// side.
+    /// Creates the lines. `on` maps each straight side, given by its two end nodes, to the nodes of other bodies within
+    /// the gap of this side.
     ///
-    /// Sides that share at least two nodes get one common line if it passes every node within the node's gap. Otherwise
-    /// each of these sides gets its own line.
+    /// Sides that share at least two nodes get one common line, if the distance of every node from this line is at most
+    /// the node's gap. Otherwise each of these sides gets its own line.
     pub(super) fn new(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
         let sets: Vec<BTreeSet<usize>> = on
@@ -161,8 +161,8 @@ impl Lines {
 }
 
 impl Line {
-    /// Returns a line for the nodes `members`, which lie on `sides`. `None` if no line passes every node within the
-    /// node's gap.
+    /// Returns a line for the nodes `members` on or near the sides `sides`. The distance of every node from the line is
+    /// at most the node's gap. `None` if no such line is found.
     ///
     /// The line runs along the longest side if no node lies beyond the ends of this side by more than the node's gap.
     /// Otherwise the line is fitted to the nodes. The fitted line is made exactly horizontal or vertical if the scatter
@@ -225,7 +225,7 @@ impl Line {
         Some(closest)
     }
 
-    /// Returns the line for the current positions of its nodes, computed as its kind requires.
+    /// Computes the line from the current positions of its nodes, in the way that [`LineKind`] describes.
     fn fit(&self, nodes: &Nodes) -> Fit {
         let place = |n: usize| nodes.all[n].at;
         if let LineKind::Side([a, b]) = self.kind {

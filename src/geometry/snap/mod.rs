@@ -116,11 +116,12 @@ pub(crate) struct Moved {
     pub(crate) to: BTreeSet<usize>,
 }
 
-/// Moves corners onto corners and sides of other bodies that lie within the gaps. Corners that merge take the position
-/// of the corner of a fixed body, or else of the earliest body in the list.
+/// Moves corners onto corners and sides of other bodies if their distance is at most the smaller of their gaps. Corners
+/// that merge take the position of the corner of a fixed body, or else of the earliest body in the list.
 ///
 /// A body marked in `fixed` does not change: corners of other bodies may move onto it, but its own corners never move.
-/// Overlaps with a depth of up to `noise` times the smaller gap of two bodies are ignored.
+/// Bodies that snapping would damage stay as drawn. Snapping may deepen an overlap of two bodies by at most `noise`
+/// times the smaller of their gaps.
 pub(crate) fn snapped<'b>(
     bodies: &'b [Rings],
     gaps: Gaps<'_>,
@@ -241,7 +242,8 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     rebuild_bodies(bodies, &nodes, taken, touching, gaps)
 }
 
-/// Returns all pairs of a node and a side of another body whose distance is at most the smaller of their gaps.
+/// Returns all pairs of a node and a side of another body whose distance is at most the smaller of their gaps. Curved
+/// sides of the bodies marked in `kept` are left out, because these bodies get no new corners.
 ///
 /// The index contains the nodes, and each side is a query. An index of the sides would be slower: the boxes of hundreds
 /// of sides of thin stones can overlap, whereas nodes are points.
@@ -365,8 +367,9 @@ fn rebuild_bodies(
     }
 }
 
-/// Returns the indices of the bodies that snapping damaged: bodies whose outline is no longer valid or lost too much
-/// area, and both bodies of a pair that overlaps more than before.
+/// Returns the indices of the bodies that snapping damaged. A body is damaged if its rings are no longer a valid
+/// polygon, or if a ring changed its direction or lost half of its area. Both bodies of a pair are damaged if they
+/// overlap deeper than before, by more than `noise` times the smaller of their gaps.
 fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -> BTreeSet<usize> {
     let mut wrong = BTreeSet::new();
     let mut polygons: Vec<Option<Polygon>> = Vec::new();

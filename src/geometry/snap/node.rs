@@ -225,7 +225,8 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
 /// in metres, corner, corner).
 ///
 /// The pairs are sorted by distance, then by the numbers of the corners, so that the result does not depend on the
-/// order of the index. A corner gets at most [`MAX_COINCIDENT`] pairs with earlier corners at its own position.
+/// order in which the spatial index finds them. A corner gets at most [`MAX_COINCIDENT`] pairs with earlier corners at
+/// its own position.
 fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();

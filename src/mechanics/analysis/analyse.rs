@@ -220,8 +220,8 @@ fn find_wedging(
     }
 }
 
-/// Computes the margins of a frame and stores them in `analysis`. Returns how many changed copies of its components
-/// were evaluated for this; `None` if `options` request no margins.
+/// Computes the margins of a frame. Stores them in `analysis`, with a notice for each withheld margin. Returns how many
+/// changed copies of the frame's components were evaluated for this; `None` if `options` request no margins.
 fn find_margins(
     scene: &Scene,
     analysis: &mut FrameAnalysis,

@@ -61,7 +61,8 @@ impl From<&Penetration> for AmbiguousPlace {
 }
 
 /// Analyses the scene again: once with very short contacts added, and once with all small gaps and overlaps closed. A
-/// frame becomes undecided if this changes its verdict. Does nothing if the scene gives a contact tolerance.
+/// frame becomes undecided if this changes its verdict. If the deadline has passed, every frame with overlapping bodies
+/// becomes undecided. Does nothing if the scene gives a contact tolerance.
 pub(super) fn recheck(
     scene: &Scene,
     interfaces: &Interfaces,

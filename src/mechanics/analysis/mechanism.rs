@@ -41,7 +41,8 @@ pub enum Toward {
 }
 
 impl Toward {
-    /// Returns the parameter of a margin that has a mechanism at its limit; `None` for friction, kernel and robots.
+    /// Returns the parameter that belongs to a margin; `None` for friction, kernel and robots, which this type does not
+    /// contain.
     pub fn from_margin(kind: MarginKind) -> Option<Toward> {
         match kind {
             MarginKind::Tilt => Some(Toward::Tilt),

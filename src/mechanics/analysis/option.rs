@@ -118,7 +118,7 @@ impl Options {
     pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
-            // A strict proof needs a smaller tolerance: only a more exact solution reduces the solver's error in a
+            // A strict proof needs a smaller tolerance: only a more accurate solution reduces the solver's error in a
             // motion.
             Accuracy::Proved => SolverSettings {
                 tolerance: TOLERANCE * 1e-2,

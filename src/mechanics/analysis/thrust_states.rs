@@ -19,8 +19,8 @@ use crate::resultant::{friction_used, from_point_forces};
 use crate::scene::{BlockId, BodyId, Scene};
 use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
 
-/// The supports have different horizontal forces if loads and robots push with more than this fraction of the weight. The
-/// value is below the three digits with which a thrust is written.
+/// The supports have different horizontal forces if loads and robots push with more than this fraction of the weight.
+/// The value is below the three digits with which a thrust is written.
 const UNEQUAL_THRUST: f64 = 1e-4;
 
 /// For frames with more blocks no thrust states are computed, because their programs would take longer than the
@@ -67,8 +67,8 @@ impl Analysis {
     /// Returns three sets of balancing forces of a frame (numbered from 0): the forces of least horizontal thrust, the
     /// forces of greatest horizontal thrust, and the most central forces. All three are `None` if the frame does not
     /// exist, does not stand, has more than 200 blocks, or needs almost no thrust. They are also `None` if the least
-    /// thrust is not found, if not exactly two blocks touch the ground, or if loads and robots push horizontally, because
-    /// there is then no single horizontal thrust.
+    /// thrust is not found, if not exactly two blocks touch the ground, or if loads and robots together push
+    /// horizontally, because there is then no single horizontal thrust.
     pub fn thrust_states(&self, frame: usize) -> ThrustStates {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();

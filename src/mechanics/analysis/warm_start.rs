@@ -195,7 +195,7 @@ fn begins(assembly: &Assembly, columns: &[Column]) -> Vec<(usize, Origin)> {
                 let grip = &assembly.grips[grip];
                 Origin::Grip(grip.robot, assembly.bodies[grip.body].block, bits(grip.at))
             }
-            // The columns of the warm start are only of these two kinds.
+            // The warm start has only columns of contacts and of grips, without adhesion.
             _ => continue,
         };
         if begins.last().is_none_or(|(_, last)| *last != origin) {

@@ -231,12 +231,13 @@ pub struct Correction<'a> {
 /// Returns the problem of balancing `loads` with the least sum of squared forces. Every amount must be at least 0 and
 /// at most the limit of its column.
 ///
-/// Without a `correction`, the sum is over the squares of N1, N2 and T of each contact and of each component of a grip.
+/// Without a `correction`, the squares are those of N1, N2 and T at each contact, and of F_x, F_y and M/L at each grip.
 /// The result therefore does not depend on how the friction cone is divided into columns.
 ///
 /// With a `correction`, the unknowns are changes of given amounts, and the sum is over the squared change of each
-/// column. Here `loads` are the part of the loads that the given amounts do not balance. Squares of forces would not
-/// bound opposite columns, such as the two directions of a robot's force, and the solver would end without a result.
+/// column. Here `loads` are the part of the loads that the given amounts do not balance. With squares of forces,
+/// opposite columns, such as the two directions of a robot's force, could grow together without bound, and the solver
+/// would end without a result.
 pub fn least_squares(
     loads: &[f64],
     columns: &[Column],

@@ -143,8 +143,8 @@ impl BodyForces {
     }
 }
 
-/// Returns the imbalance τ of each body, in the order of the bodies. τ is infinite if even changes by many times the
-/// forces do not balance the body.
+/// Returns the imbalance τ of each body, in the order of the bodies. τ is infinite if no relative changes of the
+/// forces, however large, balance the body.
 ///
 /// Values up to 10⁻¹⁰ are upper bounds of τ.
 pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {

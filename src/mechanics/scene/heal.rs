@@ -366,8 +366,8 @@ impl Scene {
     }
 
     /// Returns a copy of the scene, healed with the contact tolerance `gap`, in metres, and without its list of small
-    /// overlaps. Bodies that healing leaves as written still count as touching within this distance, but within at most
-    /// a twentieth of their size.
+    /// overlaps. Bodies that healing does not move still count as touching within this distance, but within at most a
+    /// twentieth of their size.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
         let reach = HealingReach {

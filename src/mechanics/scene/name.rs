@@ -29,8 +29,9 @@ pub(super) struct Names<'f> {
 }
 
 impl<'f> Names<'f> {
-    /// Creates a table of names, in which each name has its index in `list`. A name that occurs twice has the index of
-    /// its first occurrence. If `incomplete` is set, unknown names are not reported.
+    /// Creates a table of the names in `list` and their indices. A name that occurs twice has the index of its first
+    /// occurrence. `sort` is the kind of the objects, such as "block". If `incomplete` is set, unknown names are not
+    /// reported.
     pub(super) fn new(sort: &'static str, list: Vec<&'f str>, incomplete: bool) -> Names<'f> {
         let mut numbers = BTreeMap::new();
         for (i, name) in list.iter().enumerate() {

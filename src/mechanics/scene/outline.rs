@@ -22,7 +22,7 @@ pub(super) enum Outline {
     Cells(Vec<Cell>),
 }
 
-/// Builds the polygon of an entry from its corners and holes. If the polygon is not valid, reports all its problems and
+/// Builds the polygon of an entry from its corners and holes. If the polygon is not valid, reports the problems and
 /// returns `None`.
 pub(super) fn polygon(
     findings: &mut Findings,

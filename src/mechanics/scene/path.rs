@@ -87,7 +87,7 @@ impl fmt::Display for Path {
     }
 }
 
-/// True if a key can be written after a dot without ambiguity.
+/// True if a path can contain the key after a dot without ambiguity. Other keys are written as `["key"]`.
 fn is_plain(key: &str) -> bool {
     !key.is_empty()
         && key

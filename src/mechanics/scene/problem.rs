@@ -170,8 +170,8 @@ fn new_wording(code: Code, message: impl Into<String>, help: impl Into<String>) 
     }
 }
 
-/// Formats a number for messages with at most six significant digits, but with all digits before the point. A number of
-/// at least 10⁹ or below 10⁻⁵ is written with a power of ten.
+/// Formats a number for messages with at most six significant digits, but with all digits before the point. If its
+/// absolute value is at least 10⁹ or below 10⁻⁵, a number other than 0 is written with a power of ten.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
@@ -200,7 +200,7 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
-/// Shortens a text of more than 40 characters to 38, the last of which is "…".
+/// If a text has more than 40 characters, returns its first 37 characters and "…"; otherwise the whole text.
 pub(super) fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_string()

@@ -23,7 +23,7 @@ impl Scene {
     /// Reads and checks a scene file.
     ///
     /// # Errors
-    /// All problems of the scene, each with line, column and path.
+    /// All problems of the scene, each with line, column and path. If the text is not JSON, only the first error in it.
     ///
     /// # Example
     /// ```

@@ -119,8 +119,8 @@ impl<'f> Resolution<'f> {
         resolution
     }
 
-    /// Returns the scene; `None` if one of its bodies is not valid. Problems are reported in the order of the calls
-    /// below.
+    /// Returns the scene; `None` if one of its bodies is not valid. Problems are reported in the order of the calls in
+    /// this function.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let names = self.body_names(findings);
@@ -173,7 +173,7 @@ impl<'f> Resolution<'f> {
         })
     }
 
-    /// Returns the names of all blocks and robots. Contacts, robots, loads and steps refer to them.
+    /// Returns the names of all blocks and robots. Contacts, robots, loads and steps refer to these names.
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
         let hidden = |list: &str, ids: &[String]| findings.unread.hides_names(list, ids.len());
         BodyNames {
@@ -227,9 +227,9 @@ impl<'f> Resolution<'f> {
         steps::frames(findings, &self.file.steps[..known], &context)
     }
 
-    /// Returns the overlaps of bodies that are small enough to be allowed, and reports larger overlaps. Also reports a
-    /// point at which too many corners meet. Checks nothing if the file lists contacts or has a block without an
-    /// outline.
+    /// Finds bodies that overlap. Returns the overlaps that are small enough to be allowed, and reports the larger
+    /// ones. Also reports a point at which too many corners meet. Checks nothing if the file lists contacts or has a
+    /// block without an outline.
     fn penetrations(
         &self,
         findings: &mut Findings,

@@ -85,11 +85,11 @@ struct Digits {
 }
 
 /// Returns two numbers about the shortest decimal notation of `x`: how many significant digits it has, and how many
-/// digits after the decimal point. The second number is negative for a multiple of ten: −2 for 300. `None` if the
-/// notation needs more than 12 decimals or 15 digits.
+/// digits after the decimal point. The second number is negative for a multiple of ten: −2 for 300. `None` if `x` is 0,
+/// or if the notation needs more than 12 decimals or 15 digits.
 ///
-/// Two different decimal numbers with at most 15 digits never round to the same double. The first decimal number that
-/// matches is therefore the shortest.
+/// Two different decimal numbers with at most 15 digits never round to the same double. The function tries 0, 1, 2, …
+/// decimals; the first decimal number that equals `x` is therefore the shortest.
 fn few_digits(x: f64) -> Option<(usize, i64)> {
     let mut power = 1.0;
     for behind in 0..=MAX_ROUNDED_DIGITS as i64 {
@@ -110,7 +110,8 @@ fn few_digits(x: f64) -> Option<(usize, i64)> {
     None
 }
 
-/// Writes a number into `text`, with the fewest digits that identify this number. Replaces the previous content.
+/// Writes a number into `text` in scientific notation, with the fewest digits that identify this number. Replaces the
+/// previous content.
 fn write_shortly(text: &mut String, x: impl LowerExp) {
     text.clear();
     // Writing to a `String` cannot fail.

@@ -1,5 +1,5 @@
-//! [`Source`]: the text of a scene file, with the position of every value in the text. Problems get their line and
-//! column from it.
+//! [`Source`]: the text of a scene file, with the position of every value in the text. The line and the column of each
+//! problem are computed from it.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// Parses a JSON text. The error contains the index of the byte from which on the text is not valid JSON.
+    /// Parses a JSON text. The error contains the index of the byte at which the text stops being valid JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
         Ok(Source {
@@ -75,8 +75,8 @@ impl<'t> Source<'t> {
         items.unwrap_or_default().iter().map(|n| n.range.start)
     }
 
-    /// Returns the range of bytes of the value or key at this path. Of a value with several lines, returns only the
-    /// range of the first line. If the text does not contain the whole path, returns the range of the deepest value on
+    /// Returns the range of bytes of the value or key at this path. For a value with several lines, returns only the
+    /// range of its first line. If the text does not contain the whole path, returns the range of the deepest value on
     /// the path that the text contains. `None` if the text is not JSON.
     pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;

@@ -19,7 +19,8 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let source = Source::plain(&text);
     let utf16 = bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]);
     let byte = bytes.get(valid).copied().unwrap_or(0);
-    // The text contains a replacement character in place of the invalid byte. Up to there, text and bytes agree.
+    // The text contains a replacement character in place of the invalid byte. Before this character, the text and the
+    // bytes are equal.
     SceneError::of_text(
         &source,
         one(&text, valid),
@@ -89,8 +90,8 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>) -> (Range<usiz
     (here, wording)
 }
 
-/// Returns the range of the first line that a version control system wrote to mark a merge conflict. A line of seven
-/// equal signs alone does not count.
+/// Returns the range of bytes of the first line that a version control system wrote to mark a merge conflict. A line of
+/// seven equal signs alone does not count.
 fn conflict(text: &str) -> Option<Range<usize>> {
     let is_mark = |line: &&str| line.starts_with(['<', '>']) && crate::text::is_conflict_mark(line);
     let line = text.lines().find(is_mark)?;

@@ -1,4 +1,5 @@
-//! [`Session`]: places and removes blocks one by one, and returns the verdict after each step.
+//! [`Session`]: places and removes blocks one by one, lets robots hold and release blocks, and returns the verdict
+//! after each of these steps.
 //!
 //! A session is for planners and training loops that need a verdict after each step. The solution of the last step is
 //! the warm start for the next step. The result of a warm start is accepted only with a proof. The verdict is therefore
@@ -126,8 +127,8 @@ impl Session {
         Ok(session)
     }
 
-    /// Places a block, and returns the verdict. A block without an id gets the smallest number from 1 that is not used
-    /// yet.
+    /// Places a block, and returns the verdict. A block without an id gets as its id the smallest number (1, 2, …) that
+    /// no placed block has.
     ///
     /// # Errors
     /// Returns an error, and places nothing, if the block is not valid, for example because it overlaps another block,
@@ -150,7 +151,7 @@ impl Session {
     ///
     /// # Errors
     /// Returns an error, and removes nothing, if the block is not placed, if a robot holds it, or if the
-    /// scene without it is not valid.
+    /// scene without the block is not valid.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0]
@@ -188,8 +189,8 @@ impl Session {
         self.file.blocks.retain(|entry| !named(entry));
     }
 
-    /// Makes a robot hold a block, and returns the verdict. `at` is the grip point in metres; by default it is the
-    /// centroid of the block.
+    /// Makes a robot hold a block, and returns the verdict. `at` is the grip point in metres; `None` means the centroid
+    /// of the block.
     ///
     /// # Errors
     /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds
@@ -239,12 +240,12 @@ impl Session {
         Ok(self.update_verdict())
     }
 
-    /// Returns the verdict after the last step.
+    /// Returns the verdict on the blocks that are placed at present.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
 
-    /// Returns how the last verdict was found: by a warm start or by a complete analysis.
+    /// Returns how the latest verdict was found: by a warm start or by a complete analysis.
     pub fn source(&self) -> Source {
         self.source
     }
@@ -311,7 +312,8 @@ impl Session {
         self.verdict
     }
 
-    /// True if a step can be computed without reading the whole scene again: on a lattice without corner contacts.
+    /// True if a step can be computed without reading the whole scene again: if all bodies consist of lattice cells,
+    /// and the scene has no corner contacts.
     fn is_incremental(&self) -> bool {
         self.scene.exact && !self.scene.corner_contacts
     }

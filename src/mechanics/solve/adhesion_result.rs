@@ -1,4 +1,5 @@
-//! [`LeastAdhesion`]: the least tension and excess friction that contacts would need for a structure to stand.
+//! [`LeastAdhesion`]: the least additional forces with which a structure would stand: tension and excess friction of
+//! contacts, and excess forces of robots.
 
 use super::amounts::{Amounts, Effort};
 

@@ -1,4 +1,4 @@
-//! [`Amounts`]: the forces at all contacts and grips of a program. [`Effort`]: how many optimisation programs were
+//! [`Amounts`]: the forces at all contacts and grips of a structure. [`Effort`]: how many optimisation programs were
 //! solved for a result, and how many iterations they took.
 
 use super::residual_norm::largest;
@@ -27,7 +27,8 @@ impl Amounts {
         }
     }
 
-    /// Returns the sum of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective of Vallat (2023).
+    /// Returns the sum of the absolute values of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective
+    /// of Vallat (2023). L is the unit of length of the program.
     pub fn total(&self) -> f64 {
         let contacts: f64 = self
             .normal

@@ -1,5 +1,5 @@
 //! The linear program of least force: finds admissible forces of least sum that balance every block. If there are none,
-//! finds a motion that no contact resists and along which the structure falls.
+//! finds a motion that no contact resists, and along which the loads do more work than the robots can absorb.
 //!
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
@@ -101,7 +101,7 @@ fn doubtful_share(solved: &Dual) -> f64 {
     }
 }
 
-/// Finds forces of least sum that balance every block, or a motion that no contact resists.
+/// Finds forces of least sum that balance every block, or a motion that proves that there are no such forces.
 pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
 }

@@ -154,8 +154,8 @@ impl BasisFactor {
     }
 }
 
-/// Chooses the pivot among columns whose first entries are at the same position; `None` if all these entries are so
-/// small that they count as rounding errors.
+/// Chooses the pivot among columns whose first entries are at the same position; `None` if there are no such columns,
+/// or if all these entries are so small that they count as rounding errors.
 fn choose(
     candidates: &[usize],
     columns: &[SparseColumn],

@@ -301,8 +301,9 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns the next edge: the angle to its normal, in radians, and the column that changes along it. `None` if no
-    /// column changes the force, or if the angle would be more than 180°.
+    /// Returns the next edge: the angle from the present direction to the normal of this edge, in radians, and the
+    /// column that changes along the edge. `None` if no column changes the force, or if the angle would be more than
+    /// 180°.
     fn next_edge(&self, way: Turn) -> Option<(f64, Change)> {
         let tangent = quarter_turn(self.normal) * way.sign();
         let turns = self.changes().into_iter().map(|change| {

@@ -105,7 +105,7 @@ impl Row {
         entry.copied().unwrap_or(0.0)
     }
 
-    /// Givens rotation: entries x, y at k and k + 1 become c·x + s·y and c·y − s·x.
+    /// Applies a Givens rotation to the row: the entries x and y in columns k and k + 1 become c·x + s·y and c·y − s·x.
     fn rotate(&mut self, k: usize, c: f64, s: f64) {
         let (x, y) = (self.entry(k), self.entry(k + 1));
         if y == 0.0 && x == 0.0 {

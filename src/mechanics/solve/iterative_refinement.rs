@@ -38,8 +38,8 @@ pub(super) fn balance_by_least_change(
     better.map(|(a, d)| (a + size * d).max(0.0)).collect()
 }
 
-/// Refines amounts in at most two rounds. It stops earlier if they balance the loads up to rounding, or if a round does
-/// not reduce the residual.
+/// Refines amounts in at most two rounds. Stops earlier if the amounts balance the loads up to rounding, if the solver
+/// finds no correction, or if a round does not reduce the residual.
 ///
 /// Each round solves a quadratic program for a correction that keeps every amount ≥ 0, and adds about nine correct
 /// digits. Without refinement, the imbalance of a very light block under a very heavy block is hidden by the rounding

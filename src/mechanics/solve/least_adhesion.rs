@@ -1,5 +1,5 @@
-//! Computes the least adhesion: the least tension and excess friction that contacts would need for a structure to
-//! stand. Further objectives, in this order: least force, and fewest points with adhesion.
+//! Computes the least adhesion with which a structure would stand: tension and excess friction of contacts, and excess
+//! forces of robots. Further objectives, in this order: least force, fewest points with adhesion, least Σ force².
 //!
 //! This is the limit β → ∞ of [Vallat23](crate::doc::references) §2.0.8, computed without a large number. Each stage
 //! keeps only the columns on the face of optima of the previous stage. A stage therefore cannot worsen the objective of
@@ -185,8 +185,8 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
     }
 }
 
-/// Stage 1: computes the least Σ adhesion. Returns the optimum, and true if admissible forces had a small cost in the
-/// last linear program.
+/// Stage 1: computes the least Σ adhesion. Returns the solution of the last linear program, and true if admissible
+/// forces had a small cost in this program.
 fn first_stage(
     whole: &Face,
     size: Size,
@@ -217,8 +217,8 @@ fn first_stage(
     (last, dear)
 }
 
-/// Returns the stopping rule of stage 1 for many blocks. If a block is light, stage 1 does not stop early, because
-/// the adhesion of light blocks converges last.
+/// Returns the stopping rule of stage 1 for many blocks. If a block is far lighter than the largest load, stage 1 does
+/// not stop early, because the adhesion of light blocks converges last.
 fn crossover(loads: &[f64]) -> CrossoverTolerance {
     let bodies = loads
         .chunks_exact(3)

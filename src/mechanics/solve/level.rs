@@ -66,8 +66,8 @@ pub(super) fn block_loads(loads: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the smallest nonzero load of a body, or infinity if no body has a load. The size of a load is defined in
-/// [`block_loads`].
+/// Returns the smallest nonzero load among all bodies, or infinity if no body has a load. The size of a load is defined
+/// in [`block_loads`].
 pub(super) fn lightest(loads: &[f64]) -> f64 {
     let positive = block_loads(loads).into_iter().filter(|load| *load > 0.0);
     positive.fold(f64::INFINITY, f64::min)

@@ -136,8 +136,8 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
                 };
             }
             (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do work for each of
-            // these λ.
+            // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do positive work for
+            // each of these λ.
             (Status::Unbounded, _) => {
                 return ExtremeValue {
                     motion: Some(scaled.motion(&answer)),
@@ -186,7 +186,7 @@ impl ScaledLoads {
         ReducedColumns::new(&columns_in(program, self.load_size)).columns
     }
 
-    /// Converts a factor on the scaled direction to a factor on the original direction.
+    /// Converts a factor of the scaled direction to the factor of the original direction.
     pub(super) fn factor(&self, scaled: f64) -> f64 {
         scaled * self.load_size / self.direction_size
     }
@@ -197,8 +197,8 @@ impl ScaledLoads {
         pairs.map(|(load, along)| load + factor * along).collect()
     }
 
-    /// Returns the amount of each column under the scaled load `total`, without the solver's residual, in program
-    /// units.
+    /// Returns the amount of each column under the scaled loads `total`, in program units. The solver's residual is
+    /// removed first.
     pub(super) fn amounts(
         &self,
         total: &[f64],

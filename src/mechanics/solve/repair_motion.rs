@@ -1,5 +1,5 @@
 //! Removes a solver's error from a motion. In the corrected motion, every contact opens or stays closed, up to rounding
-//! errors. If violations remain, the proof subtracts their effect.
+//! errors. If violations remain, the proof subtracts the power that contacts can absorb because of them.
 //!
 //! A motion from an interior-point method violates contacts by about a billionth of its speed. Contact forces of a
 //! billion times the loads could then resist it. The method is iterative refinement: each round scales the violations
@@ -43,7 +43,8 @@ const MAX_ROUNDS: usize = 5;
 /// must not move it.
 const NON_BINDING_RATIO: f64 = 1e4;
 
-/// Returns a motion that no contact resists and that is near a given motion. `None` if no such motion is found.
+/// Returns a motion near a given motion that no contact resists, and in which robots with very large limits do not
+/// move. `None` if no such motion is found.
 ///
 /// The largest velocity of the given motion must be about 1. Some motions are impossible without violations, such as
 /// the motion of a flat wedge into its notch. The loads then have almost no power along the corrected motion.
@@ -89,8 +90,8 @@ fn open_contacts(
         if round == MAX_ROUNDS {
             break;
         }
-        // If contacts cannot open, the program has an interior only if each round may leave a small part of the
-        // violation.
+        // If contacts cannot open, the quadratic program has interior points only if each round may leave a small part
+        // of the violation.
         let left = match extra {
             0.0 => MAX_REMAINING_SHARE.max(ROUNDING_TOL / worst),
             _ => 0.0,

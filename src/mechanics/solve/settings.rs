@@ -1,8 +1,8 @@
-//! [`SolverSettings`]: tolerance, conditioning and choice of optimum for a solver.
+//! [`SolverSettings`]: the tolerance, stopping rule, conditioning and choice of optimum of a solver.
 
 use crate::clock::Instant;
 
-/// The default tolerance of infeasibility and duality gap, relative to the data of the program.
+/// The default tolerance of feasibility and duality gap, relative to the data of the program.
 ///
 /// It is the largest tolerance with which every frame measured in [`doc::accuracy`](crate::doc::accuracy) is decided.
 pub const TOLERANCE: f64 = 1e-9;
@@ -64,7 +64,7 @@ pub enum Choice {
 }
 
 impl From<Conditioning> for SolverSettings {
-    /// Returns settings with this conditioning, the default tolerance and [`Choice::Unique`].
+    /// Returns settings with this conditioning, the default tolerance, no crossover and [`Choice::Unique`].
     fn from(conditioning: Conditioning) -> SolverSettings {
         SolverSettings {
             tolerance: TOLERANCE,

@@ -62,8 +62,8 @@ pub(super) struct Simplex {
 }
 
 impl Simplex {
-    /// Chooses a basis among the given columns; those with a smaller `rank` are preferred. All other columns keep their
-    /// amounts.
+    /// Chooses a basis among the given columns; columns with a smaller `rank` are preferred. Unit columns complete the
+    /// basis if necessary. All columns outside the basis keep their amounts.
     pub fn new(
         mut variables: Vec<Variable>,
         loads: Vec<f64>,
@@ -111,7 +111,8 @@ impl Simplex {
     }
 
     /// Increases (`sign` = 1) or decreases (`sign` = −1) the amount of a variable outside the basis until this amount
-    /// or a basic amount reaches a bound. `None` if the new basis is singular.
+    /// or a basic amount reaches a bound. If no amount reaches a bound, changes nothing and returns [`Move::Endless`].
+    /// `None` if the new basis is singular.
     pub fn move_amount(&mut self, variable: usize, sign: f64) -> Option<Move> {
         let mut change = vec![0.0; self.loads.len()];
         for (row, value) in &self.variables[variable].column {
@@ -150,10 +151,10 @@ impl Simplex {
         self.set_basic_amounts();
     }
 
-    /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts, and the position
-    /// of the amount that reaches its bound. The amounts change by `sign` · `change` per unit of the step. If several
-    /// amounts reach a bound, the one with the largest change is taken, because the new basis is then farthest from
-    /// singular. `None` if no amount reaches a bound.
+    /// Ratio test in two passes: returns the longest step that keeps all bounds of the basic amounts up to a small
+    /// tolerance, and the position of the amount that reaches its bound. The amounts change by `sign` · `change` per
+    /// unit of the step. If several amounts reach a bound, the one with the largest change is taken, because the new
+    /// basis is then farthest from singular. `None` if no amount reaches a bound.
     fn ratio_test(&self, change: &[f64], sign: f64) -> Option<(f64, usize)> {
         // The distance of a basic amount to the bound that it approaches, and its change per unit of the step.
         let approaching = change.iter().enumerate().filter_map(|(position, change)| {

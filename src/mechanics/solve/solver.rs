@@ -27,8 +27,8 @@ pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Condition
     solve_within(problem, settings, MAX_ITERATIONS)
 }
 
-/// Solves a linear or quadratic program in at most `iterations` iterations. If they are not enough, the status is
-/// `Unsolved`.
+/// Solves a linear or quadratic program in at most `iterations` iterations. If they are not enough, or if the deadline
+/// has passed, the status is `Unsolved`.
 ///
 /// # Panics
 /// Panics in the same case as [`solve`].

@@ -70,7 +70,8 @@ impl Tangent {
         self.y.iter().map(|v| -v).collect()
     }
 
-    /// Returns the forces of least residual, after the least change that removes the residual.
+    /// Returns the forces of least residual, corrected by the least change that removes the residual. Amounts that
+    /// would become negative are set to 0, so a residual may remain.
     pub fn forces(&self, program: &Program) -> Amounts {
         let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
         let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
@@ -79,8 +80,8 @@ impl Tangent {
         face.to_forces(program).0
     }
 
-    /// Returns the work of the contact forces along y, if each contact has full friction and the normal, points and
-    /// friction coefficient that it has in `program`.
+    /// Returns the work of the contact forces along the velocities y. Each contact has full friction, and has the
+    /// normal, points and friction coefficient that it has in `program`.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {

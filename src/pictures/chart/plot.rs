@@ -88,7 +88,7 @@ fn font<'a>(size: i32) -> TextStyle<'a> {
         .color(&INK)
 }
 
-/// Returns the same style for text that begins at the point where it is drawn and is vertically centred on this point.
+/// Returns `style`, changed so that text begins at the point where it is drawn and is vertically centred on this point.
 fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
     style.pos(Pos::new(HPos::Left, VPos::Center))
 }

@@ -100,7 +100,7 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
 fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep: f64) {
     let parts = (sweep.abs() / (PI / 4.0)).ceil().clamp(1.0, 64.0);
     let step = sweep / parts;
-    // The distance of the control points from the ends of a curve with which the curve approximates the arc.
+    // With control points at this distance from the ends of a cubic curve, the curve approximates the arc.
     let handle = 4.0 / 3.0 * libm::tan(step / 4.0) * radius;
     let at = |angle: f64, along: f64| {
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));

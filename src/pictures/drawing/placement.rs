@@ -99,7 +99,8 @@ pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Op
 
 /// Like [`place`], with a function `avoid` that gets the index of a request and a rectangle for its label. A rectangle
 /// for which `avoid` is true has a high cost: it is used only if all other free positions on the rings cost more, and
-/// then with a leader line. `avoid` does not apply to the positions that a request lists.
+/// then with a leader line. `avoid` does not apply to the positions that a request lists. After many labels without a
+/// free position, the rings are no longer searched.
 pub fn place_avoiding(
     ink: &mut Ink,
     page: PageRect,

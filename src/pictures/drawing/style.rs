@@ -151,7 +151,7 @@ impl Sizes {
         ..Sizes::DEFAULT
     };
 
-    /// Returns the sizes of a narrow figure whose texts would otherwise need more space than its picture. Titles,
+    /// Returns the sizes for a narrow figure whose texts would otherwise need more space than its picture. Titles,
     /// captions, verdicts, reasons and legends become smaller if they have their default size. A size that a style file
     /// sets does not change.
     pub(crate) fn compact(self) -> Sizes {

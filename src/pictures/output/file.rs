@@ -40,7 +40,7 @@ const MAX_LINKS: usize = 40;
 static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes all files, or none of them if one cannot be written. All files are first written under temporary names, and
-/// then renamed.
+/// then renamed. A device or a pipe is written directly.
 ///
 /// # Errors
 /// Returns the error of the first file that could not be written. In this case nothing has changed, unless the system

@@ -2,8 +2,8 @@
 //! same way.
 //!
 //! Attributes have a fixed order, and one function formats all numbers, so the same drawing gives the same bytes. Ids
-//! of elements begin with a mark that the options give, or otherwise with a hash of the drawing, so that several figures
-//! can be on one page.
+//! of elements begin with a mark that the options give, or otherwise with a hash of the drawing, so that several
+//! figures can be on one page.
 
 #[cfg(feature = "embed")]
 mod font;

@@ -34,8 +34,9 @@ impl ListEntry {
         }
     }
 
-    /// Returns a final entry such as `And 3 more gaps.` if there are more than [`MAX_MARKED`] entries of this kind.
-    /// Otherwise returns `None`. `count` is the number of all of them, and `what` their name.
+    /// Returns a final entry such as `And 3 more gaps.` if there are more than [`MAX_MARKED`] entries of one kind.
+    /// Otherwise returns `None`. `count` is the number of all entries of this kind, and `what` is their name in the
+    /// plural.
     fn unlisted(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(MAX_MARKED);
         (more > 0).then(|| ListEntry {

@@ -282,8 +282,8 @@ fn before_stroke(theme: &Theme) -> Stroke {
     Stroke::new(theme.faint, 1.0).dashed([4.0, 3.0])
 }
 
-/// Draws a small picture of the mechanism beyond an edge of the polygon. The picture shows the number of the edge, and an
-/// arrow in the direction in which the loaded point begins to move.
+/// Draws a small picture of the mechanism beyond an edge of the polygon. The picture shows the number of the edge, and
+/// an arrow in the direction in which the loaded point begins to move.
 fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut Ink) -> Group {
     let (analysis, theme) = (pen.context.analysis, &pen.context.options.theme);
     let scene = &analysis.scene;

@@ -169,8 +169,8 @@ fn to_largest(
     (scale(largest), amounts.into_iter().map(frame).collect())
 }
 
-/// Computes the shares by the rule of the thesis, which the documentation of this module describes. Returns the
-/// quantity and the share of each block.
+/// Computes the shares by the rule of the thesis, which the documentation of this module describes. `amplitudes` are
+/// those of the placed blocks of each frame, N. Returns the colour scale, and the share of each block.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
     let scene = &analysis.scene;
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);

@@ -173,7 +173,8 @@ fn widest(unit: f64) -> f64 {
     (width * unit).clamp(least, most)
 }
 
-/// Returns the colour of the bands of carried forces. It is greyer in a frame that is not stable.
+/// Returns the colour of the bands of carried forces. In a frame that is not stable, it is mixed with the colour of
+/// outlines.
 fn carried(theme: &Theme, verdict: Verdict) -> Colour {
     match verdict {
         Verdict::Stable => theme.motion,
@@ -297,8 +298,8 @@ impl<'a> Picture<'a> {
     }
 
     /// Draws a dot at the point of action of the resultant of each joint with a force. A joint at its limit has a
-    /// special mark instead of the dot. A robot at its limit also has such a mark. In a frame with many blocks, nothing
-    /// is drawn.
+    /// filled diamond instead of the dot, and a joint that [`limit::marked`] returns as the nearest to its limit has an
+    /// open diamond. A robot at its limit also has a filled diamond. In a frame with many blocks, nothing is drawn.
     fn dots(&self, ink: &mut Ink) -> Group {
         let mut group = Group::with_class("resultants");
         if self.many() {

@@ -145,8 +145,8 @@ impl Row<'_> {
     }
 
     /// Chooses the number of columns: the largest number up to 3 (for four panels, up to 2) for which the panels are
-    /// not too small. If the figure is then too high for a page, chooses the smallest larger number for which it fits,
-    /// or the number with the least height if none fits.
+    /// not too small. If the whole figure should fit on one page but is too high, chooses the smallest larger number
+    /// for which it fits, or the number with the least height if none fits.
     fn columns(&self, fit: Fit) -> usize {
         let (count, across) = (self.count, self.across);
         // If the rows may be distributed over several pages, panels may have a small scale, but they must not be

@@ -43,7 +43,8 @@ const OFFSET_RESOLUTION: f64 = 1e-6;
 /// rounding error must not reject it.
 const CLEAR_TOL: f64 = 1e-6;
 
-/// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other.
+/// Moves overlapping parallel arrows of a frame sideways, so that they are drawn next to each other. Does nothing if
+/// there are more than [`MAX_ARROWS`] arrows.
 pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     let arrows = &mut marks.arrows;
     if arrows.len() > MAX_ARROWS {

@@ -168,8 +168,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns the colour of the block, the ground or the page at a position on the page. Labels need it for their
-    /// contrast.
+    /// Returns the fill colour at a position on the page: that of a block, of the ground, or of the empty page. The
+    /// colour of a label is chosen so that it has a contrast with this colour.
     pub(crate) fn below(&self, at: PagePoint) -> Colour {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let at = self.camera.back(at);

@@ -44,7 +44,8 @@ const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
 /// are far smaller, and missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
 
-/// True if a force acts on the structure from outside. Such a force is a side of the polygon.
+/// True if a force acts on the structure from outside: a weight, a load, or a force of the ground or a robot. Such a
+/// force is a side of the polygon.
 fn outside(arrow: &ForceArrow) -> bool {
     !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
 }
@@ -213,8 +214,8 @@ fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
     polygon
 }
 
-/// If two points of a reaction are nearer to an action (a weight or a load) than this fraction of the polygon's size, all
-/// reactions are moved sideways, so that they do not cover the actions.
+/// If two points of a reaction are nearer to an action (a weight or a load) than this fraction of the polygon's size,
+/// all reactions are moved sideways, so that they do not cover the actions.
 const OVERLAP_SHARE: f64 = 0.03;
 /// Distance by which reactions are moved sideways, as a fraction of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
@@ -229,8 +230,8 @@ struct Chain {
 }
 
 /// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` are the corners
-/// of the polygon between the actions (weights and loads), `answering` those between the reactions. `size` is the size
-/// of the polygon, in the same unit.
+/// at the ends of all actions (weights and loads), `answering` those at the ends of all reactions. `size` is the size
+/// of the polygon, in the unit of these corners.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
     let (acting, answering): (Vec<_>, Vec<_>) = (
@@ -262,8 +263,8 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 }
 
 /// Computes the force polygon of a frame from the external forces among the arrows in `marks`. The polygon is placed to
-/// the right of the structure. Returns `None` if the frame has no block, if there are fewer than two external forces,
-/// or if all of them are 0.
+/// the right of the structure. Returns `None` if no frame has a block, if this frame has fewer than two external
+/// forces, or if all of them are 0.
 fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames.iter().flat_map(|frame| &frame.placed);

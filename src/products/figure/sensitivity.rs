@@ -1,5 +1,5 @@
-//! Draws how a margin changes if corners of blocks move: an arrow at each corner shows the direction in which to move
-//! it.
+//! Draws how a margin changes if corners of blocks move: an arrow at a corner shows in which direction a displacement
+//! of this corner enlarges the margin most.
 //!
 //! The arrow points in the direction in which the interval of the margin grows most. Its length is proportional to the
 //! growth per metre. Corners that move together have one arrow. The most effective changes have numbers, and the legend
@@ -149,7 +149,8 @@ impl PanelContent for CornerEffects {
     }
 }
 
-/// Draws the arrows at the corners. The most effective arrows are drawn last, so that no other arrow covers them.
+/// Draws the arrows at the corners. The numbered arrows, which have the largest effects, are drawn last, so that no
+/// other arrow covers them.
 fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
     let (context, theme) = (pen.context, &pen.context.options.theme);
     let scale = scale(context.analysis, context.unit, context.options);
@@ -198,7 +199,7 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
     let mut group = Group::with_class("changes");
     let loads = &pen.context.marks[pen.number].arrows;
     let scale = scale(pen.context.analysis, pen.context.unit, pen.context.options);
-    // If there is no empty position for a number, it may cover other shapes, but not these `marks`.
+    // A number without an empty position may cover other shapes, but not the arrows in `marks`.
     let mut marks = Ink::default();
     for load in loads {
         let (from, along) = (pen.camera.place(load.at), pen.camera.turn(load.vector));

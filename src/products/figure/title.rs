@@ -14,7 +14,7 @@ const MAX_LINES: usize = 5;
 pub(crate) const FACE: Face = Face::SerifBold;
 
 /// Breaks a title into lines of at most `room` pixels. Returns the lines and the font size in pixels, which is
-/// smaller for long titles.
+/// smaller for long titles. A title that needs more than [`MAX_LINES`] lines is cut.
 pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64) {
     let least = theme.sizes.caption.min(theme.sizes.title);
     let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));

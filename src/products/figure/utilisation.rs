@@ -90,7 +90,7 @@ impl PanelContent for Utilisation {
         let mut robots = frames.iter().flat_map(|f| &f.robots);
         let spent = robots.any(|r| r.limit_used >= FULL_UTILISATION);
         if spent || all.iter().flatten().any(uses_all_friction) {
-            // In other equilibrium states, the same interface or robot may use less than all.
+            // In other equilibrium states, the same interface or robot may use less of its friction or limits.
             let all = "all of it in the forces shown".to_owned();
             entries.push(Entry::Symbol(full_symbol, SYMBOL_WIDTH, all));
         }
@@ -128,7 +128,7 @@ fn uses_all_friction(bearing: &Bearing) -> bool {
 }
 
 /// Describes the interface that uses the largest fraction of its friction, and the robot that uses the largest
-/// fraction of its limits.
+/// fraction of its limits. If several interfaces use all their friction, states only their number.
 fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let mut stated = Vec::new();
     let bearings = bearings(scene, frame_analysis);

@@ -62,8 +62,9 @@ fn colour(method: Method) -> [u8; 3] {
     }
 }
 
-/// Draws a chart as SVG, with the time on the x axis and the error on the y axis. It has a line for each method, the
-/// Pareto front, and red crosses for wrong verdicts.
+/// Draws a chart as SVG. The x axis is the time relative to the method `standard`, and the y axis is the largest
+/// relative error of the total force. The chart has a line for each method, the Pareto front, and red crosses for wrong
+/// verdicts.
 ///
 /// # Errors
 /// If the chart cannot be drawn.

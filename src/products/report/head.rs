@@ -83,8 +83,8 @@ impl From<OutlineError> for ReportError {
     }
 }
 
-/// Converts a title to a part of a file name: lower-case ASCII letters, digits and `-`, at most 40 characters. Returns
-/// `scene` if no character of the title is left.
+/// Converts a title to a part of a file name: ASCII letters in lower case and digits, with `-` in place of other
+/// characters, at most 40 characters. Returns `scene` if the title has no ASCII letter and no digit.
 pub(super) fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {

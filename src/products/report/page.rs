@@ -68,7 +68,7 @@ pub struct Report {
 
 impl Piece {
     /// Writes the part of a report for one scene. `number` is the number of the scene, from 1. `stem` is the name of
-    /// the report file without its extension. The folder with the figures of a Markdown report is named after it.
+    /// the report file without its extension. The folder with the figures of a Markdown report is named after `stem`.
     ///
     /// # Errors
     /// If the text of a figure cannot be laid out.

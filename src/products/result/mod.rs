@@ -165,7 +165,8 @@ struct Tolerance {
     largest_move: Number,
 }
 
-/// Returns `least`: true if the total force is proved to be the least possible. serde then leaves out the key.
+/// Returns `least`, which is true if the total force is proved to be the least possible. If it is true, serde leaves
+/// out the key.
 fn is_least(least: &bool) -> bool {
     *least
 }

@@ -147,8 +147,8 @@ impl Snapshot {
         fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
     }
 
-    /// Writes the new contents next to the references, or in place of the references, as `acceptance` states. Deletes
-    /// `.new.*` and `.diff.png` files that are out of date.
+    /// Writes the new contents of references, as `acceptance` states: next to the references, with images of the
+    /// differences, or in place of the references. Deletes `.new.*` and `.diff.png` files that are out of date.
     ///
     /// # Errors
     /// The file that could not be written. In this case the references of this snapshot are unchanged.

@@ -277,7 +277,7 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
 }
 
 /// Solves the dual program, and then computes the unique forces on its optimal face. If the program has no solution,
-/// does the same for the program with the least adhesion. The analysis does the same, and adds proofs.
+/// does the same for the program with the least adhesion. The analysis uses the same method, and adds proofs.
 fn unique(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Unique);
     let hard = balance_in(program, settings);

@@ -86,8 +86,9 @@ impl Outcome {
         }
     }
 
-    /// Combines the outcomes of two independent parts of a frame. If their verdicts differ, the combined outcome is
-    /// that of the worse part, with the iterations of both parts.
+    /// Combines the outcomes of two independent parts of a frame. If their verdicts are equal, sums are added, and the
+    /// larger of two largest values is kept. If their verdicts differ, the combined outcome is that of the worse part,
+    /// with the iterations of both parts.
     pub(super) fn and(self, other: Outcome) -> Outcome {
         let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
             a.zip(b).map(|(a, b)| join(a, b))

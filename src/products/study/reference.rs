@@ -77,8 +77,8 @@ impl Reference {
                     ..unknown
                 },
                 true => unknown,
-                // No adhesion is needed, but step 1 found no certified optimum: the structure stands exactly at its
-                // limit.
+                // No adhesion is needed, but the program without adhesion has no certified optimum: the structure
+                // stands exactly at its limit.
                 false => Reference {
                     verdict: Verdict::Stable,
                     ..unknown

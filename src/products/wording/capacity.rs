@@ -82,7 +82,7 @@ const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
 ];
 
 /// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …, and any force down`.
-/// Returns `None` if the frame falls without a force.
+/// Returns `None` if the frame falls without this force.
 pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
     let (mut limited, mut unlimited) = (Vec::new(), Vec::new());
     for (direction, word) in NAMED_DIRECTIONS {

@@ -64,8 +64,8 @@ pub fn most_effective(
     list
 }
 
-/// Returns the length in metres by which the described changes move corners and loads. In the unit of the scene, it
-/// is 1, 2 or 5 times a power of ten.
+/// Returns the length, in metres, by which a described change moves a corner or a load. In the length unit of the
+/// scene, this length is 1, 2 or 5 times a power of ten.
 pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
     round_below_in(
         LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9),
@@ -101,8 +101,8 @@ pub fn visible(
 
 /// Returns the best move of each corner. Each entry has the index of the corner in [`EndSensitivity::corners`], the
 /// unit vector along which the interval grows most, and the growth per metre. The move is `None` if no known derivative
-/// enlarges the interval. Of corners that move together, only the first is listed. `outward` is 1 for the upper end and
-/// −1 for the lower end.
+/// enlarges the interval. Of corners that move together and lie at the same point, only the first is listed.
+/// `outward` is 1 for the upper end and −1 for the lower end.
 pub fn corner_moves(
     frame_analysis: &FrameAnalysis,
     end: &EndSensitivity,
@@ -128,8 +128,8 @@ pub fn corner_moves(
     list
 }
 
-/// Returns the best move of each corner as a change that is described in words. Of corners that move together, only
-/// the first is listed.
+/// Returns the best move of each corner as a change that is described in words. Of corners that move together and lie
+/// at the same point, only the first is listed.
 fn corners(
     scene: &Scene,
     frame_analysis: &FrameAnalysis,

@@ -42,8 +42,8 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
 /// verdict. The text is empty for all other frames.
 pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     if frame_analysis.verdict == Verdict::Undecided && !frame_analysis.doubts.is_empty() {
-        // The text has to fit in two lines, so it only has the first part of the doubt, which is the reason. The report
-        // and the terminal also show the remedies.
+        // The text must fit in two lines, so it contains only the first part of the doubt, which is the reason. The
+        // report and the terminal also show the remedies.
         let doubt = frame_analysis.doubt();
         return doubt.split("; ").next().unwrap_or_default().to_owned();
     }

@@ -33,8 +33,8 @@ pub(super) fn is_contact_list(text: &str) -> bool {
 ///
 /// # Errors
 /// Returns a problem for each row that is neither a body nor a contact, each contact with a body that does not exist,
-/// and each contact whose normal has a direction beyond ±7 rad (a full turn). If there are no such rows, returns one
-/// problem if there is no body or no contact.
+/// and each contact whose normal has a direction beyond ±7 rad (about a full turn). If there are no such rows, returns
+/// one problem if there is no body or no contact.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (rows, mut problems) = match text.trim_start().starts_with('{') {

@@ -13,8 +13,8 @@ pub(super) struct Names {
 }
 
 /// Returns a unique name for each body and robot. If a name is already used, a number is added to it. A block without a
-/// name gets its number as its name, and a robot without a name gets `r` and its number. The first part of the ground
-/// is `ground[0]`.
+/// name is named by its number, from 1. A robot without a name is named by `r` and its number, from 0. The first part
+/// of the ground is `ground[0]`.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
     // The name "ground" is reserved, because results use it for the ground.
     let mut taken = TakenNames::with("ground");

@@ -168,7 +168,7 @@ impl Rounding {
     fn new(step: f64) -> Rounding {
         let power = -libm::floor(libm::log10(step));
         // Round only with factors from 1 to 10^15. Larger factors would change nothing, because f64 has 16 digits.
-        // Smaller factors would round to more than a metre.
+        // Smaller factors would round to 10 m or more.
         let factor = if (0.0..=15.0).contains(&power) {
             libm::pow(10.0, power)
         } else {

@@ -139,7 +139,7 @@ impl Subpath {
     }
 
     /// Replaces curves by chords that are at most `tolerance` from them, and returns the corners. If the last corner is
-    /// at most `close` from the first, the two are merged. Returns `None` if the subpath is open and its ends are
+    /// at most `close` from the first, it is left out. Returns `None` if the subpath is open and its ends are
     /// farther apart than `close`.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
         let mut corners = vec![Corner {

@@ -37,7 +37,8 @@ const VERDICTS: [Verdict; 3] = [Verdict::Stable, Verdict::Unstable, Verdict::Und
 
 impl<'t> BatchProgress<'t> {
     /// Starts the clock. `every` is the interval between two reports in seconds; if it is `None`, a terminal gets a
-    /// report every 2 s. `all` is the size of the inputs in bytes, and `read` counts the bytes read so far.
+    /// report every 2 s, and any other output gets no reports. `all` is the size of the inputs in bytes, and `read`
+    /// counts the bytes read so far.
     pub fn begin(
         terminal: &'t Terminal,
         every: Option<f64>,

@@ -301,7 +301,8 @@ fn cut(path: &Path, bytes: u64) -> io::Result<File> {
     Ok(file)
 }
 
-/// True if the output file exists and is not empty. Returns an error if the path is not a regular file.
+/// True if the output file exists and is not empty. Returns an error if the path leads to something else than a regular
+/// file, such as a folder or a pipe.
 pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
     match fs::metadata(output) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

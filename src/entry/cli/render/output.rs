@@ -118,7 +118,8 @@ pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<Cl
     }
 }
 
-/// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`.
+/// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`. For a single frame, returns only
+/// its verdict.
 pub(super) fn summary(analysis: &Analysis) -> String {
     let count = |verdict| {
         analysis

@@ -47,7 +47,7 @@ pub(super) fn intersected(
         }
         let is_empty = capacity.shape() == CapacityShape::Empty;
         all.push(capacity);
-        // In this case no additional force can be carried, so the intersection over all cases is empty.
+        // If one case carries no additional force, the intersection over all cases is empty.
         if is_empty {
             break;
         }

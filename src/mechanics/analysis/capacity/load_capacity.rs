@@ -195,7 +195,7 @@ impl LoadCapacity {
         region::bounded_polygon(&corners, &self.rays, far)
     }
 
-    /// Returns the empty set for a block. `mechanism` is how the frame begins to fall whatever the force is.
+    /// Returns the empty set for a block. `mechanism` is the motion by which the frame falls under every force.
     pub(super) fn empty(block: BlockId, at: Vec<Point>, mechanism: Vec<Motion>) -> LoadCapacity {
         LoadCapacity {
             block,

@@ -85,8 +85,8 @@ impl Analysis {
     }
 }
 
-/// Computes the capacity of each frame if the options request it. If this fails, the frame gets a notice, unless the
-/// block is not placed in this frame.
+/// Computes the capacity of each frame if the options request it. Adds a notice if a point of the force lies outside
+/// the block. Also adds a notice if the computation fails, unless the block is not placed in this frame.
 pub(super) fn add_capacities(
     scene: &Scene,
     interfaces: &Interfaces,

@@ -262,9 +262,9 @@ impl Probe {
     }
 
     /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
-    /// slightly smaller forces in `direction`. If all fail, decides the component with a free force, and accepts the
-    /// resulting force if it is about as far in `direction` as the farthest force. Only this last step is used if the
-    /// force acts at two points.
+    /// forces slightly farther inside, opposite to `direction`. If all fail, decides the component with a free force,
+    /// and accepts the resulting force if it is about as far in `direction` as the farthest force. Only this last step
+    /// is used if the force acts at two points.
     fn carried_near(&self, farthest: Vector, direction: Vector) -> Option<CarriedForce> {
         let size = farthest.norm().max(self.heaviest());
         let under = |inside: f64| {

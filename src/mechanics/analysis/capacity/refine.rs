@@ -145,8 +145,8 @@ impl Search<'_> {
             .as_ref()
             .map_or(0.0, |half_plane| half_plane.beyond(force).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE_PER_TOLERANCE * self.tolerance) {
-            // The chord is an edge, because the new force is not farther out. The new sample contains the half-plane of
-            // this edge.
+            // The chord is an edge, because the new force is not farther out. Keep the new sample if it contains the
+            // half-plane of this edge.
             if next.half_plane.is_some() {
                 self.samples.push(next);
             }

@@ -94,8 +94,8 @@ impl Component<'_> {
 
     /// Converts forces to newtons, limits them to their admissible range, and sets forces to 0 that are only noise. A
     /// normal or robot force is noise below 1e-13 of the heaviest load or of the sum of all forces on the body; `noise`
-    /// selects which. Friction is noise only below 1e-10 of both N and μN. Setting noise to 0 changes the balance by at
-    /// most a tenth of the accepted imbalance.
+    /// selects which. With `Noise::None`, no force is noise. Friction is noise only below 1e-10 of both N and μN.
+    /// Setting noise to 0 changes the balance by at most a tenth of the accepted imbalance.
     fn in_newtons(&self, amounts: &Amounts, noise: Noise) -> Forces {
         let unit = self.scale.force;
         let demand = 0.1 * self.threshold.imbalance;

@@ -32,7 +32,7 @@ impl Component<'_> {
             return None;
         }
         // If the motion violates contacts, remove the solver's error. For a large component, first try a motion of a
-        // few rigid pieces, which is faster and more exact.
+        // few rigid pieces, which is faster and more accurate.
         if proof.excluded_force_sum().is_finite() {
             let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
             let in_pieces = || self.prove_motion_in_pieces(&motion, effort);

@@ -73,8 +73,8 @@ impl Component<'_> {
     }
 }
 
-/// Returns the index of the rigid piece that each body belongs to; `None` for bodies that rest together with the
-/// ground. Two bodies in contact belong to one piece if their velocities differ by at most `tolerance`.
+/// Returns the index of the rigid piece that each body belongs to; `None` for bodies at rest with the ground. Two bodies
+/// in contact belong to one piece if their velocities differ by at most `tolerance`.
 fn rigid_pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<Option<usize>> {
     let bodies = &assembly.bodies;
     let ground = bodies.len();

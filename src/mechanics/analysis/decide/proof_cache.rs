@@ -88,8 +88,8 @@ impl ProofCache {
 }
 
 impl CachedForces {
-    /// Returns forces that have the same resultant at each contact but act at the application points of `assembly`.
-    /// `None` if the resultant at some contact does not pass between these points.
+    /// Returns the cached forces, changed to act at the application points of `assembly`. The resultant at each contact
+    /// stays the same. `None` if the resultant at some contact does not pass between these points.
     fn transfer_to(&self, assembly: &Assembly) -> Option<Forces> {
         let mut forces = self.forces.clone();
         let contacts = assembly.contacts.iter().zip(&self.points);

@@ -53,8 +53,8 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     answer
 }
 
-/// Describes the proof of wedging in words: which blocks move if the contacts are springs without initial stress, and
-/// which self-stress a balance needs.
+/// Describes the proof of wedging in words: which blocks move if the contacts are springs without initial stress, which
+/// normal forces every balance needs at the wedged contacts, and how many cases were ruled out.
 fn describe<'n>(
     self_stress: &SelfStress,
     force: impl Fn(f64) -> String,

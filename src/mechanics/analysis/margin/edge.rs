@@ -88,7 +88,7 @@ impl Threshold {
     /// values at which the component stands.
     ///
     /// If a verdict is undecided during the bisection, the search ends, because it cannot find the threshold more
-    /// exactly.
+    /// accurately.
     pub fn search(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting) -> Interval {
         let (at_zero, motion) = trial.decide(&setting(0.0));
         let stands_at_zero = match (at_zero, self.stable_side) {
@@ -135,8 +135,9 @@ impl Threshold {
         self.interval(end)
     }
 
-    /// Returns an end moved inward if a mechanism proves a fall just inside it. The verdict there is stable only within
-    /// the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some loads are slight.
+    /// Moves an end inward if a mechanism proves a fall just inside it, and returns the end. The verdict there is
+    /// stable only within the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some
+    /// loads are slight.
     fn sharpened(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, end: End) -> End {
         let End::At {
             mut value,

@@ -95,7 +95,8 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         typical_large: unit * Scale::HEAVIEST,
         load_ratio: 0.0,
     };
-    // If the component stands, the limit in the scene is sufficient, and the search starts there.
+    // If the component stands, the limit in the scene is sufficient, and the search starts there. Otherwise the
+    // search starts at an infinite limit, if the component stands with it.
     let given = program.grips[grip].limits[component] * unit;
     if !stands {
         match trial.decide(&setting(f64::INFINITY)) {

@@ -151,7 +151,8 @@ impl Line<'_> {
         ]
     }
 
-    /// Returns `value`, limited to a large finite number, so that an inward search can start there.
+    /// Returns `value`, or a large finite number if `value` is even larger, such as infinity. A search for a lower end
+    /// can start at the result.
     pub fn finite_start(&self, value: f64) -> f64 {
         value.min(MAX_VALUE * self.typical_large)
     }

@@ -118,7 +118,7 @@ const SMALL: f64 = 0.1;
 const CLOSE: f64 = 0.1;
 
 /// Solves a program for an end again, from a value close to the first result `at`. Returns the end, the program and its
-/// result. `None` if the first result is exact enough, or if the second program has no result.
+/// result. `None` if the first result is accurate enough, or if the second program has no result.
 ///
 /// The accuracy of a program is relative to the loads at the value `from`, at which it begins. If these are a thousand
 /// times the loads at the end, three digits of the end are lost.

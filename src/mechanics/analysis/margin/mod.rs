@@ -234,8 +234,8 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
                        tilts too; this interval contains 0, or is the nearest one to 0 if the frame falls without tilt";
 
-/// Returns the intervals of the limits of all robots. The intervals of a robot are empty if another component falls,
-/// because this robot cannot hold that component.
+/// Returns the intervals of the limits of all robots. The intervals of a robot are empty if a component that it does
+/// not hold falls, because no limit of this robot prevents that fall.
 fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, intervals)) in components.iter().enumerate() {

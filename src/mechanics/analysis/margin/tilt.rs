@@ -208,7 +208,7 @@ impl TiltSearch<'_, '_> {
     /// Finds the first tilt at which the component ceases to stand, between the distances `from` and `to` from the
     /// start, in degrees. The component stands at both. `None` if it stands at all tilts between them.
     ///
-    /// The components of gravity at which the structure stands form a convex set. If the set contains both ends of an
+    /// The gravity vectors under which the component stands form a convex set. If the set contains both ends of an
     /// arc and the intersection of the tangents there, it contains the triangle of these points, and therefore the
     /// arc. If the set is a cone, it contains every arc of less than half a turn between two of its directions.
     /// Otherwise the arc is bisected.

@@ -184,8 +184,8 @@ impl<'a> Trial<'a> {
         Some(motion)
     }
 
-    /// Returns the error of the most accurate known forces that balance the changed component, relative to the forces on a
-    /// body or at a joint. `None` if no such forces are known.
+    /// Returns the error of the most accurate known forces that balance the changed component, relative to the forces
+    /// on a body or at a joint. `None` if no such forces are known.
     pub fn least_force_error(&self, setting: &Setting) -> Option<f64> {
         least_force_error(&self.changed(setting), &self.proofs)
     }

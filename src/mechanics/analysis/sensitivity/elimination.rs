@@ -87,7 +87,7 @@ fn largest_entry(rows: &[Vec<f64>], is_free: &[bool]) -> Option<(usize, usize, f
 }
 
 /// Makes one column of the table a unit vector: divides the pivot row by its entry in this column, and subtracts
-/// multiples of it from all other rows.
+/// multiples of the pivot row from all other rows.
 fn clear_column(table: &mut [Vec<f64>], pivot: usize, column: usize) {
     let pivot_value = table[pivot][column];
     for value in &mut table[pivot] {

@@ -120,7 +120,8 @@ impl<'s> Finder<'s> {
         (CORNER_REACH_PER_GAP * gap).max(ROUNDING_TOL * size)
     }
 
-    /// Returns the corner of a body that is nearest to a point. `None` if it is farther away than `reach`, metres.
+    /// Returns, of all corners of a body, the corner nearest to a point. `None` if it is farther away than `reach`, in
+    /// metres.
     fn corner_at(&self, body: BodyId, at: Point, reach: f64) -> Option<usize> {
         let near = self
             .corners_of(body)
@@ -131,8 +132,8 @@ impl<'s> Finder<'s> {
             .map(|(place, _)| place)
     }
 
-    /// Returns the two corners of the edge of a body that is nearest to a point. If `along` is given, the edge must
-    /// have about this direction.
+    /// Returns, of all edges of a body, the two corners of the edge nearest to a point. If `along` is given, only edges
+    /// with about this direction count; `None` if there are none.
     fn edge_at(&self, body: BodyId, at: Point, along: Option<Vector>) -> Option<[usize; 2]> {
         let edges = self.corners_of(body).filter_map(|place| {
             let next = self.all[place].neighbours[1];
@@ -159,7 +160,8 @@ impl<'s> Finder<'s> {
         }
     }
 
-    /// Finds the corners at the ends of an interface. Records which of them lie on an edge of the other body.
+    /// Finds the corners at the ends of an interface. Records which of them lie on an edge of the other body, and which
+    /// corners lie inside the joint.
     pub fn contact(&mut self, interface: &Interface) -> InterfaceCorners {
         let reach = self.reach(interface);
         let is_corner = interface.kind == ContactKind::Corner;

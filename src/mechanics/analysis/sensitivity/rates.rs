@@ -53,7 +53,7 @@ impl Rates {
             let motion = &state.motions[number];
             rates.weights[body.block.0] = changed.pull.dot(&motion.at(body.centroid));
         }
-        // For each body: the change of the power of its loads without `at`, per metre that its centroid moves.
+        // For each body: the change of the power of the loads at its centroid, per metre that the centroid moves.
         let mut follows = vec![Vector::zeros(); changed.bodies.len()];
         for (rate, load) in rates.loads.iter_mut().zip(scene.loads()) {
             let Some(body) = body_of_block[load.block.0] else {

@@ -42,8 +42,8 @@ impl Slope {
         }
     }
 
-    /// Returns the slope of the minimum of two functions that have the same value here, or of their maximum if
-    /// `outward` is negative. `self` and `other` are the slopes of the two functions.
+    /// Returns the slope of the minimum of two functions, or of their maximum if `outward` is negative. `self` and
+    /// `other` are the slopes of the two functions at a point where both have the same value.
     pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
         let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
             return Slope::AtKink;

@@ -277,7 +277,7 @@ impl Motions {
 /// Returns all extreme points of the set of possible motions. `None` if the set is unbounded, if there are too many
 /// combinations of conditions to test, or if too few points are found.
 ///
-/// A motion is first + Σ share · other. Forces between groups that are 0 must not do negative work. At an extreme
+/// A motion is first + Σ share · other. A force between groups that is 0 must not do negative work. At an extreme
 /// motion, as many of these conditions hold with equality as there are shares.
 fn extreme_motions(
     reduced: &Reduced,

@@ -165,7 +165,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 
     /// Reads a point or vector [x, y]. If the list has more than two numbers, reports the error and returns the first
-    /// two.
+    /// two. Reports any other invalid value and returns `None`.
     pub(super) fn pair(
         &mut self,
         node: &Node<'_>,
@@ -247,8 +247,8 @@ impl<'s, 't> Reader<'s, 't> {
         Some(Object { entries })
     }
 
-    /// Reads the value of an optional key with the function `read`. Returns `None` if the key is absent or its value is
-    /// `null`.
+    /// Reads the value of an optional key with the function `read`. Returns `None` if the key is absent, if its value
+    /// is `null`, or if `read` returns `None`.
     pub(super) fn optional<T>(
         &mut self,
         object: Object<'_, 't>,
@@ -279,8 +279,8 @@ impl<'s, 't> Reader<'s, 't> {
         None
     }
 
-    /// Reads the list that is the value of `key`, each entry with the function `read`. The result is empty if the key
-    /// is absent.
+    /// Reads the list that is the value of `key`. The function `read` reads each entry. The result is empty if the key
+    /// is absent, or if its value is not a list.
     pub(super) fn list<T: Default>(
         &mut self,
         object: Object<'_, 't>,
@@ -314,7 +314,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 
     /// Reads the object that is the value of `key` as a map from names to values. If a name occurs twice, only the
-    /// first entry counts. The map is empty if the key is absent.
+    /// first entry counts. The map is empty if the key is absent, or if its value is not an object.
     pub(super) fn map<T: Default>(
         &mut self,
         object: Object<'_, 't>,

@@ -1,4 +1,5 @@
-//! [`Closeness`]: the contact tolerance of a scene, and the result of healing.
+//! [`Closeness`]: the contact tolerance of a scene, and the result of healing, which moves corners so that bodies that
+//! nearly touch do touch.
 
 use super::Resolution;
 use crate::geometry::{Bounds, Polygon, Tolerance};

@@ -97,7 +97,7 @@ impl Entry {
         if self == Entry::One {
             candidates.truncate(1);
         }
-        // Go through the candidates in the order of decreasing gradient. Skip a column that acts on the same body as a
+        // Go through the candidates in the order of decreasing gradient. Skip a column that acts on the same block as a
         // column already chosen.
         let mut is_taken = vec![false; rows.div_ceil(3)];
         let mut chosen = Vec::new();

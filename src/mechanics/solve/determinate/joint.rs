@@ -63,12 +63,12 @@ impl Joint<'_> {
         ([first, second], along)
     }
 
-    /// Writes the body's velocities into `motion`. At the joint, the body moves with the body below, and in addition at
-    /// the speeds at which the joint opens and slides.
+    /// Writes the body's velocities into `motion`. At the joint, the velocity of the body is that of the body below,
+    /// plus the speeds at which the joint opens and slides.
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);
-        // Computes the velocity of the point at `arm` from the centroid of a rigid body.
+        // Computes the velocity of a point of a rigid body. `arm` leads from the centroid of the body to the point.
         let at = |[x, y, spin]: [f64; 3], arm: Vector| Vector::new(x, y) + quarter_turn(arm) * spin;
         let below = self.below.map_or([[0.0; 2].into(); 2], |(body, between)| {
             let velocity = [0, 1, 2].map(|row| motion[3 * body + row]);
@@ -87,8 +87,8 @@ impl Joint<'_> {
 
 /// Lists the joints in order from the ground outwards, one for each body.
 ///
-/// `None` if the contacts do not form a tree, because a body has several paths to the ground or no path. Also `None` if
-/// the program has grips or corner contacts, or if a contact is too short.
+/// `None` if the contacts do not form a tree: a body has several paths to the ground, or none. Also `None` if the
+/// program has grips or corner contacts, or if a contact is too short.
 pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     let one_each = program.contacts.len() == program.blocks && program.grips.is_empty();
     if !one_each || program.contacts.iter().any(|contact| contact.points != 2) {

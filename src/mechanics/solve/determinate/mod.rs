@@ -76,8 +76,8 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 /// Computes a collapse mechanism with few moving joints, and the least adhesion.
 ///
 /// On each path from the ground, only the first failing contact opens or slides; the blocks beyond it move as one body.
-/// `None` if the contacts do not form a tree (see `joints`), if the structure stands, or if a friction coefficient
-/// exceeds 1.
+/// `None` if the contacts do not form a tree (see `joints`), if the structure stands, if a friction coefficient exceeds
+/// 1, or if a result is not finite.
 pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     let joints = joints(program)?;
     let split = SplitForces::new(program, &joints)?;

@@ -280,8 +280,8 @@ struct Front<'a> {
 }
 
 impl Front<'_> {
-    /// Adds `gram`, the weighted Gram matrix of a group of columns with entries in `rows`. `local` maps each row of L
-    /// to its row in the front.
+    /// Adds `gram` to the front: the weighted Gram matrix of a group of columns, which have entries in `rows`. `local`
+    /// maps each row of L to its row in the front.
     fn assemble(&mut self, rows: &[u32], gram: &[f64], local: &[u32]) {
         for (i, column) in rows.iter().enumerate() {
             let mut column = self.column(local[*column as usize] as usize);

@@ -1,5 +1,5 @@
-//! Dense kernels of the factorization: the Cholesky factor of the columns of a supernode, and the update matrix of the
-//! supernode.
+//! Dense matrix routines of the factorization: the Cholesky factor of the columns of a supernode, and the update matrix
+//! of the supernode.
 //!
 //! The method is a right-looking blocked Cholesky factorization (Golub and Van Loan, Matrix Computations, section
 //! 4.2). Rows are packed in groups of four, so that a product of four by four numbers is sixteen independent sums,

@@ -1,4 +1,4 @@
-//! The solver, in addition to clarabel, for programs of many blocks: interior-point methods that solve the normal
+//! A second solver besides clarabel, for programs of many blocks: interior-point methods that solve the normal
 //! equations.
 //!
 //! The forces and the velocities of a structure are the optima of two linear programs that are dual to each other:

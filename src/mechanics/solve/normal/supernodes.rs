@@ -142,7 +142,7 @@ impl ColumnRange {
 fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnRange> {
     let n = parent.len();
     // A column belongs to the supernode of the previous column if it is the parent of that column in the elimination
-    // tree, has one row less, and has no other child.
+    // tree, has one row fewer, and has no other child.
     let mut children = vec![0; n];
     for p in parent.iter().flatten() {
         children[*p] += 1;

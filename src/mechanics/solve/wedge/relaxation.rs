@@ -197,7 +197,7 @@ impl VariableLayout {
         }
     }
 
-    /// Adds the limits of the robots. Without robots, adds a row instead: the loads do no negative work.
+    /// Adds the limits of the robots. Without robots, adds a row instead which says that the loads do no negative work.
     fn add_robots(&self, springs: &Springs, builder: &mut Builder) {
         let grips = springs.grips.iter().enumerate();
         for (k, grip) in grips.filter(|g| g.1.limit.is_finite()) {

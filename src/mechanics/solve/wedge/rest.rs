@@ -38,7 +38,7 @@ impl Springs<'_> {
     ///
     /// The iterative refinement corrects openings, slips and the displacements of the robots' springs, instead of the
     /// displacements of blocks. The forces on a light block are then accurate relative to its own load, even if heavy
-    /// blocks move far. A motion that the pattern does not resist keeps its value in `u`.
+    /// blocks move far. A motion that the pattern does not resist keeps the value that it has in `u`.
     pub(super) fn rest(&self, pattern: &Pattern, u: &[f64]) -> Option<Rest> {
         let stiffness = self.stiffness(pattern, 1e-11);
         let mut gap: Vec<f64> = self.points.iter().map(|p| p.column.dot(u)).collect();

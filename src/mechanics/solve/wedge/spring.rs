@@ -1,4 +1,5 @@
-//! [`Springs`]: the contacts of a program as springs that are unstressed before the loads act.
+//! [`Springs`]: the contacts and the robots of a program as springs. The springs of the contacts are unstressed before
+//! the loads act.
 //!
 //! The springs' law: at every application point, N = max(0, −g), where g is the opening. Along the face of every
 //! contact (the line along which the two bodies touch), T = −ρ s, where s is the slip; T is limited to ±μ(N1 + N2). If

@@ -1,4 +1,4 @@
-//! [`Assembly::merged`]: replaces groups of bodies that move together by one rigid body each.
+//! [`Assembly::merged`]: replaces each group of bodies that move together by one rigid body.
 
 use super::{Assembly, AssemblyBody, AssemblyContact, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
@@ -7,8 +7,8 @@ impl Assembly {
     /// Returns the assembly in which the bodies of each group are merged into one rigid body.
     ///
     /// `group` contains the number of the group of each body. A body without a group becomes part of the ground. The
-    /// centroid of a merged body is the mean of its members' centroids. Contacts within a group, and grips on bodies
-    /// that become ground, are omitted.
+    /// centroid of a merged body is the mean of its members' centroids. Contacts within a group or within the ground,
+    /// and grips on bodies that become ground, are omitted.
     pub fn merged(&self, group: &[Option<usize>]) -> Assembly {
         let count = group.iter().flatten().max().map_or(0, |last| last + 1);
         let mut members: Vec<Vec<&AssemblyBody>> = vec![Vec::new(); count];

@@ -210,8 +210,8 @@ impl Assembly {
         self
     }
 
-    /// Returns the largest load of a body in newtons. The load of a body is the largest of three numbers: its force,
-    /// its moment divided by L, and its weight under the current gravity.
+    /// Returns the load of the most heavily loaded body, in newtons. The load of a body is the largest of three
+    /// numbers: its force, its moment divided by L, and its weight under the current gravity.
     pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
         self.bodies

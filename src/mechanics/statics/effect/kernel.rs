@@ -1,5 +1,5 @@
-//! Safety kernel: each application point moves inward by the fraction kernel/2 of the interface's length. It adds no
-//! unknown.
+//! Safety kernel: each application point moves inward by the fraction kernel/2 of the interface's length. The effect
+//! adds no unknowns to the linear program.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.10.
 

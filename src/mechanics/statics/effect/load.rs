@@ -1,4 +1,4 @@
-//! Loads: forces and torques on blocks in addition to their weight. They add no unknown.
+//! Loads: forces and torques on blocks in addition to their weight. The effect adds no unknowns to the linear program.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
 use crate::assembly::{Assembly, load_about};

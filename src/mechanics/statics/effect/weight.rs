@@ -1,4 +1,4 @@
-//! Weight: gravity acts on each block at its centroid. It adds no unknown.
+//! Weight: gravity acts on each block at its centroid. The effect adds no unknowns to the linear program.
 //!
 //! Source: [Vallat23](crate::doc::references) §2.0.1.
 

@@ -62,8 +62,9 @@ impl CommonSegment {
         Vector::new(self.along.y, -self.along.x)
     }
 
-    /// Returns the signed distance, in metres, of the edge `e` at the coordinate `s` along the segment. It is measured
-    /// from the line through the start of the first edge in the mean direction, and is positive outside the first body.
+    /// Returns the signed distance, in metres, of the edge `e` at the coordinate `s` along the segment. The distance is
+    /// measured from the line through the start of the first edge in the mean direction of both edges. It is positive
+    /// outside the first body.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
         let (h0, h1) = (
@@ -74,7 +75,7 @@ impl CommonSegment {
         h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
     }
 
-    /// Returns the gap between the two edges at the coordinate `s`, in metres; negative if they overlap there.
+    /// Returns the gap between the two edges at the coordinate `s`, in metres; negative if the bodies overlap there.
     fn gap(&self, s: f64) -> f64 {
         self.height(self.b, s) - self.height(self.a, s)
     }
@@ -104,7 +105,7 @@ impl CommonSegment {
 }
 
 /// Returns the least common length, in metres, of two edges that form an interface. `edge` is the length of the shorter
-/// edge in metres. If the scene gives a tolerance that is large compared with the edge, the result is smaller than
+/// edge in metres. If the scene gives a tolerance that is large compared with the edge, the result can be smaller than
 /// [`Tolerance::min_contact_length`].
 pub(super) fn min_contact_length(scene: &Scene, tolerance: Tolerance, edge: f64) -> f64 {
     let min_length = tolerance.min_contact_length(edge);

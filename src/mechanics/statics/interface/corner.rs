@@ -150,7 +150,7 @@ fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
 }
 
 /// Returns the unit normal that points into the body of `tip`, if `tip` touches the corner of `other` or the interior
-/// of its side. `None` if they do not touch, or if two touching corners have no defined normal.
+/// of the side that begins there. `None` if they do not touch, or if two touching corners have no defined normal.
 fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
     if (other.side.from - tip.at).norm() <= tolerance {
         let between = tip.inward() - other.tip.inward();

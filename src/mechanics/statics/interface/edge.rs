@@ -57,9 +57,9 @@ struct Side {
 impl Side {
     /// Returns the bounding box of the edge in x, y and direction.
     ///
-    /// The range of directions is wide enough for each edge that may face this one within the smaller of both angle
-    /// tolerances. Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of others. With
-    /// the direction, the box overlaps only a few, because each joint has a different direction.
+    /// The range of directions is wide enough for each edge that may face this one within the smaller angle tolerance
+    /// of the two edges. Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of
+    /// others. With the direction, the box overlaps only a few, because each joint has a different direction.
     fn bounds(&self) -> Aabb<3> {
         let along = self.edge.vector();
         let angle =
@@ -274,7 +274,7 @@ impl Collection {
 }
 
 /// Returns the greatest length, in metres, of edges that may belong to the rounded outlines of two bodies. Longer edges
-/// are sides.
+/// count as straight sides.
 fn longest_outline_edge(scene: &Scene, bodies: [BodyId; 2]) -> f64 {
     let of_body = |body: &BodyId| match body {
         BodyId::Block(_) => LONG_SIDE_PER_SIZE * size(&scene.body(*body).polygon),

@@ -49,7 +49,7 @@ impl LatticeEdges {
     }
 
     /// Returns the interfaces along the given edges. Each edge comes with the body that owns it; only interfaces with
-    /// this body as the first one are returned.
+    /// this body as the first of the two bodies are returned.
     fn interfaces(
         &self,
         scene: &Scene,

@@ -110,7 +110,8 @@ pub(crate) struct PinnedGap {
 }
 
 impl PinnedGap {
-    /// True if `interface` lies in this gap. Such an interface does not exist while the stone is present.
+    /// True if `interface` lies in this gap. Such an interface does not exist while the stone that keeps the gap open
+    /// is present.
     fn contains(&self, interface: &Interface) -> bool {
         let offset = self.gap.at - interface.middle();
         interface.bodies == self.gap.bodies
@@ -137,8 +138,8 @@ pub struct Interfaces {
 }
 
 impl Interfaces {
-    /// Returns the contacts that a scene lists. If it lists none, finds all contacts: exactly if all bodies consist of
-    /// lattice cells, otherwise within the contact tolerance.
+    /// Returns the contacts that a scene lists. If it lists none, finds all contacts. The search is exact if all bodies
+    /// consist of lattice cells; otherwise it uses the contact tolerance.
     ///
     /// Two edges form an interface if they are collinear, face each other and overlap. Corner contacts are searched
     /// only if the scene requests them.
@@ -227,8 +228,8 @@ impl Interfaces {
     }
 }
 
-/// Returns the bodies of a scene whose outlines can touch, the parts of the ground first. Bodies with a schematic outline
-/// are left out, because they touch only at listed contacts.
+/// Returns the bodies of a scene whose outlines can touch: first the parts of the ground, then the blocks. Bodies with
+/// a schematic outline are left out, because they touch only at listed contacts.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
     let bodies = ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))));

@@ -21,7 +21,7 @@ pub struct Resultant {
 }
 
 /// Returns the resultant of the normal forces N1 and N2 at the application points (`normal`) and of the friction force
-/// along the tangent, all in newtons. `kernel` is the safety kernel, which determines the application points.
+/// along the tangent, all in newtons. `kernel` is the safety kernel (0 to 1), which determines the application points.
 ///
 /// Friction acts along the line of the interface, so it has the same moment at each point of this line. The resultant
 /// at Σ N_k p_k / Σ N_k therefore has the moment of all forces together.

@@ -80,7 +80,7 @@ fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> DrawingResult {
 }
 
 /// Returns the corners of the Pareto front as a step line. From each point, y stays constant up to the x of the next
-/// point, where it jumps.
+/// point. There it jumps to the y of the next point.
 fn stair(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut stair: Vec<(f64, f64)> = Vec::new();
     for (x, y) in front {

@@ -88,7 +88,8 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
         }
     }
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
-        // Write the table in version 3, which has no glyph names. The old names do not fit the new glyph indices.
+        // Write the table `post` in version 3, which has no glyph names. The old names do not fit the new glyph
+        // indices.
         let mut head = post
             .as_bytes()
             .get(..32)

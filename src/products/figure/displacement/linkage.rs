@@ -133,8 +133,8 @@ impl Linkage {
     }
 
     /// Returns the displacement of each block. `amplitude` is the displacement, in metres, of a point of speed 1. All
-    /// joints stay closed if Newton's method finds such positions. Otherwise every rigid body moves along its own
-    /// velocity.
+    /// joints stay closed if Newton's method finds such positions. Otherwise the displacement of every rigid body
+    /// follows from its own velocity and spin alone, and joints may open.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
         let start: Vec<Pose> = self
             .members

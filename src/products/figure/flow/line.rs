@@ -111,7 +111,7 @@ impl Search<'_> {
 }
 
 /// Returns the intersection of the line through `a` in the direction `along_a` and the line through `b` in the
-/// direction `along_b`. Returns `b` if they are the same line, and `None` if they are two parallel lines.
+/// direction `along_b`. Returns `b` if both lines are the same, and `None` if they are parallel but not the same.
 fn meeting(a: Point, along_a: Vector, b: Point, along_b: Vector) -> Option<Point> {
     let sine = cross(along_a, along_b);
     if sine.abs() <= PARALLEL_TOL * along_a.norm() * along_b.norm() {

@@ -23,8 +23,9 @@ impl Sheet<'_> {
     }
 
     /// Draws the verdict, the scale, the notes and the list of forces, downwards from the y coordinate `top` (pixels).
-    /// Draws nothing if the option `keys` is off. `nameless` is the number of names for which the picture has no space.
-    /// Also returns the y coordinate below the last line, in pixels.
+    /// If the diagram has coordinates, their values follow. Draws nothing if the option `keys` is off. `nameless` is
+    /// the number of names for which the picture has no space. Also returns the y coordinate below the last line, in
+    /// pixels.
     pub(super) fn values(&self, top: f64, nameless: usize) -> (Group, f64) {
         let theme = &self.options.theme;
         let mut group = Group::with_class("values");
@@ -111,8 +112,8 @@ impl Sheet<'_> {
         })
     }
 
-    /// Returns the notes below the picture. They say if lengths show no magnitudes, which arrows are longer than to
-    /// scale, how many forces and names are left out, and if the forces on the block do not balance.
+    /// Returns the notes below the picture. They say if lengths show no magnitudes, which small forces have enlarged
+    /// arrows, how many forces and names are left out, and if the forces on the block do not balance.
     fn notes(&self, nameless: usize) -> Vec<String> {
         let mut notes = Vec::new();
         if self.options.corners == Corners::All {

@@ -8,8 +8,8 @@ use crate::figure::option::Options;
 use crate::figure::words::letter;
 use crate::scene::BlockId;
 
-/// Returns the lines of the heading, each with its font and its font size in pixels. `width` is the width of the page
-/// in pixels.
+/// Returns the lines of the heading, each with its font and its font size in pixels. The list is empty if the options
+/// exclude titles. `width` is the width of the page in pixels.
 pub(super) fn heading(
     analysis: &Analysis,
     frame: usize,

@@ -221,14 +221,15 @@ pub(crate) fn is_limit(entry: &Entry) -> bool {
     matches!(entry, Entry::Symbol(_, _, words) if texts.contains(&words.as_str()))
 }
 
-/// Returns the legend entry for loads, with their number and magnitudes; `None` if no frame has a load.
+/// Returns the legend entry for loads, with their number and magnitudes. If all loads are torques, the entry is a note
+/// on the scale of torques. Returns `None` if no frame has a load.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let scene = &context.analysis.scene;
     let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
     let loads = scene.loads.iter().filter(|l| placed(l.block));
     let turns = loads.clone().any(|l| l.torque != 0.0);
     let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
-    // The frames of a comparison come from two scenes, whose loads are different loads in one list.
+    // In a comparison, the list of loads contains the loads of two scenes. Therefore count the loads of each frame.
     let in_frame = |frame: &Frame| {
         let loads = scene
             .loads
@@ -299,6 +300,7 @@ fn own_scale(context: &FigureContext<'_>) -> bool {
 }
 
 /// Returns the legend entries for the robots that hold or plan a block in at least one frame, and for planned blocks.
+/// If there are very many robots, the last of them are only counted.
 pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();

@@ -63,8 +63,9 @@ pub(crate) enum Entry {
 
 impl Entry {
     /// Returns the entry in a form that fits into `room` pixels, if possible. `column` is true on a page as narrow as a
-    /// column of print. If the names of blocks do not fit, the result shows only the colours of their arrows. A bar of
-    /// colours is shortened so that its text needs one line, unless the bar would be shorter than [`SHORTEST_BAR`].
+    /// column of print, where some entries are always shorter. If the names of blocks do not fit, the result shows only
+    /// the colours of their arrows. A bar of colours is shortened so that its text needs one line, unless the bar would
+    /// be shorter than [`SHORTEST_BAR`].
     pub(crate) fn fitted(self, room: f64, column: bool, theme: &Theme) -> Entry {
         let over = self.width(theme) - room;
         match self {
@@ -79,7 +80,8 @@ impl Entry {
     }
 
     /// True if a legend needs only one of the two entries. Two entries for missing forces, for planned blocks, or for
-    /// arrow colours without names always count as the same. Other entries of the same kind must have the same text.
+    /// arrow colours without names always count as the same. Two other entries must be of the same kind and have the
+    /// same text. For some kinds, the symbols must be the same too, such as the colours of two robots.
     pub(super) fn same(&self, other: &Entry) -> bool {
         match (self, other) {
             (Entry::Blocks(a), Entry::Blocks(b)) => a == b,

@@ -22,7 +22,7 @@ pub(crate) const ENTRY_GAP: f64 = 28.0;
 pub(crate) const NARROW_ENTRY_GAP: f64 = 16.0;
 
 /// Joins several legends into one without duplicate entries. If the legends have different entries for the colours of
-/// arrows, the result shows these colours without the names of blocks.
+/// arrows, the result shows all arrow colours of the theme without the names of blocks.
 pub(crate) fn joined(keys: Vec<Vec<Entry>>, theme: &Theme) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for entry in keys.into_iter().flatten() {

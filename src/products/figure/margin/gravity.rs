@@ -31,8 +31,8 @@ pub(super) struct Gravity {
 
 impl Gravity {
     /// Computes the arrows to the left of the structure: gravity at present, and gravity or the horizontal load at the
-    /// margin and, if it is known, at the other end of the interval. `edge` is the value of the parameter at the
-    /// margin. Returns `None` for the load factor, and for a frame without blocks.
+    /// margin. The other end of the interval also has an arrow if its value is known. `edge` is the value of the
+    /// parameter at the margin. Returns `None` for the load factor, and for a frame without blocks.
     pub fn new(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
         let scene = &analysis.scene;
         let blocks = scene.frames[frame].placed.iter();
@@ -122,7 +122,7 @@ impl Gravity {
 }
 
 /// Returns the end of the interval whose sign is opposite to that of `edge`, in the unit of the parameter. Returns
-/// `None` if this end has no known value, and for the load factor.
+/// `None` if there is no such end or its value is not known, and for the load factor.
 fn other_end(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<f64> {
     let intervals = &analysis.frames[frame].margins.as_ref()?.intervals;
     let interval = match toward {
@@ -145,8 +145,8 @@ pub(super) fn push_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     symbol(at.moved(4.0, -7.0), (18.0, 0.0), theme)
 }
 
-/// Draws a dashed vertical line for the direction of gravity, and an arrow along `vector` for the direction at the
-/// margin. Both begin at `from`. Lengths are in pixels.
+/// Draws a dashed vertical line for the direction of gravity, and an arrow along `vector` for the turned gravity or the
+/// horizontal load at the margin. Both begin at `from`. Lengths are in pixels.
 fn symbol(from: PagePoint, vector: (f64, f64), theme: &Theme) -> Vec<Item> {
     let now = Outline::line([from, from.moved(0.0, 14.0)]);
     let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);

@@ -1,5 +1,5 @@
-//! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or load
-//! factor) at which the structure begins to fall or would stand.
+//! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or
+//! load factor) at which the structure begins to fall or would stand.
 
 use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
 use crate::wording::margin::{Parameter, stands};

@@ -45,7 +45,8 @@ pub(super) fn reason(
     (how.to_owned(), verdict::reason(scene, frame_analysis))
 }
 
-/// True if the missing force acts on the structure from outside: from the ground or from a robot.
+/// True if a missing force acts on the structure from outside: from the ground or from a robot. False for a missing
+/// torque.
 fn is_outside(failure: &Failure) -> bool {
     match failure {
         Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {

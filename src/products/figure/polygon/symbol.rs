@@ -1,14 +1,15 @@
-//! Draws missing forces and repeated corners of a force polygon, in the polygon and in the legend.
+//! Draws missing forces, and lines between corners of a force polygon that are drawn twice, in the polygon and in the
+//! legend.
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{Colour, Item, Outline, PagePoint, Path, Stroke, Theme};
 
-/// Returns the stroke of the lines that connect two positions of a corner.
+/// Returns the stroke of a line that connects the two places at which the same corner of a force polygon is drawn.
 pub(super) fn join_stroke(theme: &Theme) -> Stroke {
     Stroke::new(theme.faint, 0.8).dashed([2.0, 2.0])
 }
 
-/// Width of the legend symbol of the lines that connect two positions of a corner, pixels.
+/// Width of the legend symbol of the lines that connect the two places of a corner, pixels.
 pub(super) const JOIN_SYMBOL: f64 = 26.0;
 
 pub(super) fn join_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {

@@ -60,8 +60,8 @@ pub(super) struct Numbered {
 }
 
 impl Plan {
-    /// Computes the arrows and the numbered changes of a frame. Returns `None` if the derivatives of its margin are not
-    /// known.
+    /// Computes the arrows and the numbered changes of a frame. Returns `None` if the derivatives of the frame's margin
+    /// are not known.
     pub fn new(analysis: &Analysis, frame: usize, options: &Options) -> Option<Plan> {
         let (scene, frame_analysis) = (&analysis.scene, analysis.frames.get(frame)?);
         let sensitivity = frame_analysis.sensitivity.as_ref()?;

@@ -29,7 +29,7 @@ const FLAT: f64 = 0.3;
 const MIN_PICTURE_SHARE: f64 = 0.55;
 
 /// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels. In a
-/// column of print, texts are smaller if they would need more space than the pictures.
+/// column of print, texts are smaller if the pictures would fill less than [`MIN_PICTURE_SHARE`] of the height.
 pub(crate) fn strip(
     analysis: &Analysis,
     content: &'static dyn PanelContent,
@@ -105,8 +105,8 @@ pub(crate) fn pages(
     steps_of(analysis, content, options, steps)
 }
 
-/// Like [`pages`], with a page for each pair of a frame and a fraction from 0 to 1. The blocks are displaced by this
-/// fraction of their paths.
+/// Like [`pages`], with a page for each pair of a frame and a fraction. The fraction, from 0 to 1, states how far the
+/// blocks have moved along their paths.
 pub(crate) fn steps_of(
     analysis: &Analysis,
     content: &'static dyn PanelContent,

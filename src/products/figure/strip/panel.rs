@@ -136,7 +136,7 @@ impl Strip<'_> {
     }
 
     /// Returns the legend entry for the scale of arrows of a panel. Returns `None` if all panels have the same scale,
-    /// if there is no legend, or if the panel shows no arrows.
+    /// if there is no legend, or if the panel shows no arrows, for example because they are too small.
     fn scale_of_panel(&self, frame: usize) -> Option<Entry> {
         let (context, options) = (self.context, self.context.options);
         let too_small = context.arrows_too_small(self.layout.scale);

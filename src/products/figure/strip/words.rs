@@ -76,8 +76,8 @@ impl Strip<'_> {
         )
     }
 
-    /// Returns the text next to the symbol of a verdict, and `None`. If this text is wider than the panel, it is
-    /// divided: the first part is only the verdict, and the second part is the rest.
+    /// Returns the text of a verdict in two parts; the first part is for the line of the symbol. If the whole text fits
+    /// in this line, the second part is `None`. Otherwise the first part is only the verdict, and the second the rest.
     pub(super) fn headline(&self, frame: usize) -> (String, Option<String>) {
         let size = self.context.options.theme.sizes.verdict;
         let frame_analysis = &self.context.analysis.frames[frame];

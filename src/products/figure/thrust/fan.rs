@@ -152,7 +152,7 @@ impl Fans {
         group
     }
 
-    /// Draws a scale bar for a round force below the force polygons.
+    /// Draws a scale bar for a round force below the force polygons. A bar that is wider than the page is left out.
     fn draw_scale(
         &self,
         camera: &Camera,

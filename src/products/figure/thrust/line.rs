@@ -29,8 +29,8 @@ pub(super) fn schematic_colour(theme: &Theme) -> Colour {
     theme.page.mixed(theme.motion, 0.45)
 }
 
-/// Returns the colour of the line in a frame that does not stand. It is paler than the colour of a line of thrust in
-/// equilibrium, but visible in print.
+/// Returns the colour of the line in a frame that does not stand: a grey that is visible in print. A line of thrust in
+/// equilibrium has the colour [`colour`].
 pub(super) fn carried_colour(theme: &Theme) -> Colour {
     theme.block.mixed(theme.faint, 0.7)
 }

@@ -37,8 +37,8 @@ fn thrust_states_of_frames<'c>(
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
-/// Returns the part of the legend text that states the horizontal thrust of the most central line. Returns `None` if
-/// no frame shows this line.
+/// Returns the part of the legend text that states the horizontal thrust of the most central line; it is empty if there
+/// are several frames. Returns `None` if no frame shows this line.
 pub(super) fn central_thrust_text(context: &FigureContext<'_>) -> Option<String> {
     let state = thrust_states_of_frames(context).find_map(|family| family.central.as_ref())?;
     Some(amount_in_words(context, state.thrust))
@@ -74,8 +74,8 @@ pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> O
 }
 
 /// Returns a note for the reader about a frame whose line of thrust is one of many possible lines. The caller uses it
-/// if the states of least and greatest thrust are not known. Returns `None` if there is only one line, or if the legend
-/// explains which line is shown.
+/// if the most central forces of the frame are not known. Returns `None` if there is only one line. Also returns `None`
+/// if the legend explains which line is shown and the frame has at most two supports.
 pub(super) fn uniqueness_note(context: &FigureContext<'_>, frame: usize) -> Option<&'static str> {
     let several_supports = context.thrust_states(frame).supports > 2;
     match (central_thrust_text(context), several_supports) {

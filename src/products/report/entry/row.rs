@@ -163,7 +163,8 @@ pub(super) fn file_name(name: &str) -> String {
     text::line(if stem == "-" { "standard input" } else { stem })
 }
 
-/// Draws a small picture of the given blocks and the ground. The picture is empty if there are no blocks.
+/// Draws a small picture of the given blocks and the ground. Of very many blocks, only some are drawn. The picture is
+/// empty if there are no blocks.
 pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     let polygon = |id: BlockId| &scene.blocks[id.0].body.polygon;
     let bounds = placed.iter().map(|id| polygon(*id).bounds());
@@ -196,8 +197,8 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     Thumbnail { blocks, ground }
 }
 
-/// Returns the SVG path data of an outline, rounded to 0.1 pixels. Points outside the thumbnail are moved to its
-/// border.
+/// Returns the SVG path data of an outline, rounded to 0.1 pixels. Curves become straight lines. Points outside the
+/// thumbnail are moved to its border.
 fn path_data(outline: &Outline) -> String {
     let (width, height) = THUMBNAIL_SIZE;
     let number = |x: f64| {

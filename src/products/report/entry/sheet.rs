@@ -37,8 +37,8 @@ pub(super) fn options(report_options: &ReportOptions) -> Options {
     }
 }
 
-/// Makes a section without parts for the step with index `number`. Its title is the title of the step. It has a letter
-/// only if there are several steps.
+/// Makes a section without parts for the step with index `number`. Its title is the title of the step. If there are
+/// several steps, the section also has a letter, and a step without a title is called `Step 1`, `Step 2`, ….
 pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);

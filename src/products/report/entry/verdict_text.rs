@@ -142,7 +142,7 @@ pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) 
 }
 
 /// Describes which change of one parameter would change the verdict, or states that none would. Returns `None` if the
-/// margin is undecided or there is no sentence for it.
+/// margin is undecided, or if there is no sentence for this parameter and verdict.
 fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
     if matches!(margin.interval, Interval::Undecided) {
         return None;

@@ -14,7 +14,8 @@ const INSET: f64 = 7.0;
 /// Draws a margin as a bar that covers the values at which the structure stands. An end is a stroke, which is dashed
 /// if the end is not confirmed, or an arrow if the structure stands at all values beyond. An end at the limit of the
 /// parameter's domain has no mark. The current value is a disc inside the bar, a cross outside it, or a ring if its
-/// position is unknown. The shapes differ, so that they are clear without colours.
+/// position is unknown. If there are several current values, the least and the largest are drawn. The shapes differ, so
+/// that they are clear without colours.
 pub(super) fn bar(bullet: &MarginBar) -> Markup {
     let (width, height) = BAR_SIZE;
     let at = |value: f64| {

@@ -206,7 +206,7 @@ fn chart(of: &Chart) -> Markup {
             figure.chart.study { div.paper.always { (PreEscaped(&of.svg)) } figcaption { (of.caption) } }
         };
     }
-    // Let the chart use the colours of the page, which may be light on dark.
+    // The page may have a dark background, so the chart uses the colours of the page.
     let svg = of
         .svg
         .replace(chart::INK, "currentColor")

@@ -164,8 +164,8 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
     boxes
 }
 
-/// Returns the member of a box that is nearest to the centre of the box. The palette thus has no colour twice,
-/// because no other box contains this colour.
+/// Returns the member of a box that is nearest to the centre of the box. No colour occurs twice in the
+/// palette, because no other box contains this colour.
 fn middle(members: &[[u8; 4]]) -> [u8; 4] {
     let mut centre = [0; 4];
     for (channel, value) in centre.iter_mut().enumerate() {

@@ -39,7 +39,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
     0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
 }
 
-/// Returns the up to eight neighbours of a pixel. The second value is true if the pixel lies at the border of the
+/// Returns the neighbours of a pixel, at most eight. The second value is true if the pixel lies at the border of the
 /// picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));

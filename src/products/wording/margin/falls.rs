@@ -44,8 +44,8 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
 }
 
 /// Describes the friction coefficient with which a falling frame would stand, or states that no coefficient would hold
-/// it. Returns `None` if the present friction is large enough, if the margin is undecided, or if there are no
-/// interfaces.
+/// it. Returns `None` if the smallest present coefficient is large enough, if the margin is undecided, or if there are
+/// no interfaces.
 fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
     let (least, most) = friction(frame_analysis)?;
     match interval {

@@ -111,7 +111,7 @@ impl Strategy {
     /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a result.
-    /// 4. Least force with full precision.
+    /// 4. Least force with full conditioning: equilibration and iterative refinement.
     /// 5. Least adhesion. Its optimum is the sum of the missing forces. It distinguishes best between a sum of 0 and a
     ///    sum of almost 0.
     ///
@@ -161,7 +161,7 @@ impl Strategy {
                         .map(Strategy::FirstLook),
                 );
             }
-            // Small components. Order: least force, any balance, least residual, least force with full precision.
+            // Small components. Order: least force, any balance, least residual, least force with full conditioning.
             LimitDistance::Unknown => {
                 let second = 1.min(strategies.len());
                 strategies.splice(second..second, residual);
@@ -172,7 +172,7 @@ impl Strategy {
                 strategies.splice(0..0, residual);
             }
         }
-        // The closed form is always tried first, and least adhesion last.
+        // The closed form always comes first. Attempts with least adhesion that are not yet in the list come last.
         strategies.insert(0, Strategy::Determinate);
         for settings in settings.iter().copied().map(Strategy::Adhesion) {
             if !strategies.contains(&settings) {

@@ -75,8 +75,8 @@ impl Line<'_> {
             .flat_map(|step| [step, -step])
             .map(|step| value + step * self.size(value));
         let mut last = Vec::new();
-        // If the range from `low` to `high` is as narrow as rounding, no value between them may be left. Try both ends
-        // too.
+        // If the range from `low` to `high` is hardly wider than rounding errors, it may contain none of the values to
+        // try. Therefore also try its ends if they are near.
         let is_near = |end: &f64| (end - value).abs() <= END_TOL * self.size(value);
         let ends = [low, high].into_iter().filter(is_near);
         let away = away.filter(|at| (low..=high).contains(at));

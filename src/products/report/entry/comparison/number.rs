@@ -7,8 +7,8 @@ use crate::report::entry::{Grid, bullet};
 use crate::scene::format::UnitsEntry;
 use crate::wording::number::{digits, tenths};
 
-/// Writes the change of a number relative to `before`, in percent, with its sign. Returns `none` if there is no change
-/// except for rounding, and `from nothing` if only `before` is 0.
+/// Writes the change of a number relative to `before`, in percent, with its sign. The text is `none` if there is no
+/// change except for rounding, and `from nothing` if `before` is 0 and `after` is not.
 pub(super) fn change(before: f64, after: f64) -> String {
     if (after - before).abs() <= 1e-9 * before.abs() {
         return "none".to_owned();
