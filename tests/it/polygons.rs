@@ -6,6 +6,8 @@ use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
 use drystone::scene::Scene;
 
+use serde_json::json;
+
 use crate::labels::{classes, texts};
 
 fn scene(text: &str) -> Scene {
@@ -67,6 +69,33 @@ fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
         "{inside}"
     );
     assert!(!inside.contains("closes only"), "{inside}");
+}
+
+/// A block of 2 m × 1 m that overhangs by half stands, but falls with any tilt or load to the right. To the left it
+/// stands up to the friction angle, atan 0.6 = 31°.
+#[test]
+fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
+    let file = json!({ "drystone": 1, "friction": 0.6,
+        "ground": [{ "polygon": [[-4, -1], [0, -1], [0, 0], [-4, 0]] }],
+        "blocks": [{ "id": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "weight": 1 }] });
+    let scene = crate::structure::scene(&file);
+    let analysis = Analysis::with(&scene, &AnalysisOptions::default().margins(true));
+    for (toward, expected) in [
+        (
+            Toward::Tilt,
+            "turned by 0.0° to the right, or by 31° to the left",
+        ),
+        (
+            Toward::HorizontalLoad,
+            "to the right, or by 60 % of each weight to the left",
+        ),
+    ] {
+        let options = Options::default().toward(toward);
+        let drawing = figure::draw(&analysis, Kind::Margin, &options);
+        let (words, _) = words_and_dashes(&drawing);
+        let words = words.replace('\u{a0}', " ");
+        assert!(words.contains(expected), "{words}");
+    }
 }
 
 #[test]
