@@ -1,5 +1,4 @@
-//! Writes an analysis as a table for people: a row for each frame, and below the row its failures, margins and other
-//! remarks in words.
+//! Writes an analysis as a table for people: a row for each frame, and below it failures, margins and other remarks.
 
 use std::fmt::Write;
 
@@ -98,8 +97,7 @@ pub(crate) fn explained(width: Option<usize>) -> Page {
 const MAX_LISTED_FAILURES: usize = 12;
 /// Titles of frames with more columns are shortened.
 const MAX_FRAME_TITLE: usize = 40;
-/// Titles of scenes with more columns are shortened: a terminal would break the line, and its rest would look like a
-/// row.
+/// Titles of scenes with more columns are shortened, because a terminal would break their line.
 const MAX_SCENE_TITLE: usize = 60;
 
 /// Names of bodies with more columns are shortened.
@@ -186,8 +184,7 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     (0..heads.len()).map(widest).collect()
 }
 
-/// Shortens the titles of frames and the names of bodies so that rows have at most `width` columns. Returns false if
-/// that is not possible.
+/// Shortens titles of frames and names of bodies so that rows have at most `width` columns; false if this is impossible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
     let least = [MIN_TITLE.max(seen(&heads[0])), seen(&heads[BODIES_COLUMN])];
     for (column, least) in [

@@ -1,5 +1,4 @@
-//! [`force_polygon`]: all forces that a grip without force limits can exert while every block stays balanced, as the
-//! corners and edges of a polygon.
+//! [`force_polygon`]: all forces that a grip without force limits can exert in equilibrium, as corners and edges.
 //!
 //! The polygon is the projection of all balances onto the force F of the grip. One interior-point solution gives the
 //! farthest force in a first direction n. Then the method walks around the polygon, from one basis of the simplex
@@ -44,8 +43,7 @@ pub struct PolygonCorner {
     pub forces: Amounts,
     /// The outward unit normal of the edge.
     pub normal: Vector,
-    /// The motion of the blocks if the force of the grip is beyond the edge: three velocities for each block. The grip
-    /// point has the velocity `normal`.
+    /// The motion of the blocks beyond the edge: three velocities for each block. The grip point moves by `normal`.
     pub motion: Vec<f64>,
 }
 
@@ -234,8 +232,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Moves every amount outside the basis to a bound (crossover to a vertex, [Megiddo91](crate::doc::references)).
-    /// `None` if the walk must end.
+    /// Moves amounts outside the basis to a bound (crossover, [Megiddo91](crate::doc::references)); `None` if it fails.
     fn reach_vertex(&mut self) -> Option<()> {
         for k in 0..self.forces.len() {
             let variable = &self.simplex.variables[k];
