@@ -57,7 +57,7 @@ impl Terminal {
         self.quiet
     }
 
-    /// True if progress bars are shown: standard error is a terminal, and `--quiet` is not given.
+    /// True if progress may be shown: standard error is a terminal, and `--quiet` is not given.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()
     }

@@ -51,9 +51,9 @@ impl Session {
         examine::written(self.analysis.clone(), &self.options)
     }
 
-    /// Draws a figure of the analysed frames as SVG. `options` are those of the function `figure`. Options of the
-    /// analysis have no effect, except `capacity` and `for_all` for the figure `capacity`, and `margin` for the figure
-    /// `sensitivity`.
+    /// Draws a figure of the scene as SVG. `options` are those of the function `figure`; `frame`, `broken`, `accuracy`,
+    /// `wedging`, `contact_tolerance` and `time_limit` have no effect. If the figure needs results that the session
+    /// lacks, the scene is analysed again with the default accuracy and without a time limit.
     ///
     /// # Errors
     /// Returns a message about an option that is not valid.

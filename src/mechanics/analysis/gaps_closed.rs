@@ -169,7 +169,8 @@ fn compare_verdicts(
     let Some((closing, other)) = closed.iter().find(differs).or(closed.first()).copied() else {
         return;
     };
-    // If bodies overlap, the frame keeps its verdict only if the verdict with closed overlaps is known and the same.
+    // If bodies overlap, the frame keeps its verdict only if the second analysis, in which these bodies only touch, is
+    // decided and gives the same verdict. If there are only gaps, an undecided second analysis changes nothing.
     let is_unsure = is_undecided(frame.verdict) || (is_undecided(other) && overlaps.is_empty());
     if frame.verdict != other && !is_unsure {
         frame.doubts = vec![gaps_reason(scene, [frame.verdict, other], places, closing)];

@@ -223,7 +223,7 @@ impl UnknownCounts {
         counts
     }
 
-    /// Returns the number of unknowns of an effect; 0 if the effect has no columns.
+    /// Returns the number of unknowns (columns) of an effect; 0 if it has none.
     pub fn get(&self, effect: EffectName) -> usize {
         let entry = self.counts.iter().find(|entry| entry.0 == effect);
         entry.map_or(0, |entry| entry.1)

@@ -27,7 +27,8 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// Returns the face that contains all balances of the loads: no column is excluded. All amounts are 0.
+    /// Returns the face of all forces that balance the loads: no column is excluded, and none is fixed at its limit. The
+    /// amounts are set to 0; they do not balance the loads yet.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
         Face {

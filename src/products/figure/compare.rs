@@ -72,7 +72,7 @@ impl PanelContent for Comparison {
         About {
             name: "compare",
             help: "Changes between consecutive frames, or between the last frames of two scenes",
-            title: "What changes in a dry-laid structure",
+            title: "Changes in a dry-laid structure",
             shares_arrow_scale: true,
             draws_forces: true,
             stretches_arrows: true,

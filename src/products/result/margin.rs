@@ -1,9 +1,9 @@
-//! Writes margins as JSON. A margin is the limit value of a parameter, or `"unbounded"` if the frame stands at every
-//! value. It is `null` if there is no value to state: the frame falls at every value, the margin does not apply to
-//! the scene, or no verdict confirms it.
+//! Writes margins as JSON. A margin is one end of the interval of values at which the frame stands, or `"unbounded"` if the
+//! interval has no end in this direction. It is `null` if there is no value to state: the frame stands at no value, the
+//! margin does not apply to the scene, or no verdict confirms it.
 //!
-//! A tilt of `null` means that the frame falls if gravity is not turned. It may stand if gravity is turned. A margin
-//! that no verdict confirms is also `null`; a notice of the frame then states the two values between which the margin
+//! A tilt or a horizontal load is also `null` if the frame falls without it, even if the frame stands at another value. If
+//! no verdict confirms a margin, a notice of the frame then states the two values between which the margin
 //! lies. Margins that were not requested are absent.
 //!
 //! `intervals` has both ends of the interval of each parameter. An end is `null` if the interval has no end there,

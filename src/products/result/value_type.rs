@@ -24,7 +24,7 @@ pub enum Type {
     /// A number, or `"unbounded"`.
     Bound,
     /// A number; `null` if there is no value, for example because the frame falls at every value; `"unbounded"` if the
-    /// frame stands at every value.
+    /// interval of values at which the frame stands has no end in this direction.
     Margin,
     /// An interval `[low, high]`, `null` if it is empty, or `"withheld"`. Each end is a number, `null` if there is no
     /// limit, or `"withheld"`.

@@ -242,8 +242,8 @@ impl SnapshotSearch {
         self.candidates.push((path, base));
     }
 
-    /// Returns the settings for a folder; `None` if the settings file cannot be read or is not valid. Adds the errors
-    /// of this file to `errors`.
+    /// Returns the settings of the nearest settings file of a folder, or the defaults if there is none; `None` if the file
+    /// cannot be read or is not valid. Adds the errors of this file to `errors`.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")

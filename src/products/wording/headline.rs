@@ -53,7 +53,7 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
             format!("It falls: it needs {} times its {load}", three_up(low))
         }
         (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
-        _ => format!("It falls under every multiple of its {load}"),
+        _ => format!("It falls under any multiple of its {load}"),
     }
 }
 
@@ -124,7 +124,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
             three_up(least)
         ),
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
-            "It falls with every friction coefficient".to_owned()
+            "It falls whatever the friction coefficient".to_owned()
         }
         _ => "It falls".to_owned(),
     }

@@ -264,8 +264,8 @@ pub fn toward(direction: Vector) -> String {
     }
 }
 
-/// Returns the name of the value at one end of a margin, such as `tilt`. Only for the load factor does the name depend on
-/// the end: `load factor` (upper) or `least load factor` (lower). [`end_name`] names the end itself.
+/// Returns the name of the quantity that a margin limits, such as `tilt`. Only the load factor has two names: `load
+/// factor` for the upper end of the interval, and `least load factor` for the lower. [`end_name`] names the end itself.
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     match (kind, is_high) {
         (MarginKind::Friction, _) => "least friction",

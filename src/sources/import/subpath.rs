@@ -230,8 +230,8 @@ fn inner_steps(n: f64) -> impl Iterator<Item = f64> {
     (1..n as u32).map(f64::from)
 }
 
-/// Returns sine and cosine, exact at multiples of 90°. The tolerance 1e-12 allows for rounding errors of angles from
-/// `atan2`.
+/// Returns the sine and the cosine of an angle in radians. They are exact if the angle is a multiple of 90° within 1e-12
+/// quarter turns, which allows for rounding errors of angles from `atan2`.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let quarters = angle / FRAC_PI_2;
     let whole = quarters.round();

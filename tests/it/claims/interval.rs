@@ -30,7 +30,11 @@ fn parameters(file: &Value) -> Vec<Parameter> {
         ("factor on the loads", "load_factor", 1.0),
         ("friction coefficient", "friction", own("friction", 0.7)),
         ("tilt of gravity", "tilt", 0.0),
-        ("horizontal share of the weights", "horizontal_load", 0.0),
+        (
+            "horizontal load, as a share of the weights",
+            "horizontal_load",
+            0.0,
+        ),
         ("safety kernel", "kernel", own("kernel", 0.0)),
     ]
     .into_iter()

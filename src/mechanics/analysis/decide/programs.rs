@@ -143,8 +143,8 @@ impl Component<'_> {
             RebalanceOutcome::Falls(part) => Some(Decision {
                 verdict: Verdict::Unstable,
                 amounts: part.amounts,
-                // If the missing adhesion of the falling bodies is unknown, `complete` computes the failures of the
-                // whole component.
+                // If the adhesion that the falling bodies need is not known, `complete` computes the failures of the
+                // whole component from the start.
                 only_some_fall: part.adhesion.is_some(),
                 adhesion: part.adhesion,
                 mechanism: part.mechanism,

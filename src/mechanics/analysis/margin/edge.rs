@@ -323,8 +323,8 @@ struct Bracket {
 }
 
 impl Bracket {
-    /// Decides the component at a value inside the bracket, and moves one end of the bracket to this value. The bracket
-    /// stays unchanged if the verdict is undecided.
+    /// Decides whether the component stands at a value inside the bracket, and moves the corresponding end of the bracket
+    /// to this value. The bracket stays unchanged if the verdict is undecided.
     fn test(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Verdict {
         let (verdict, motion) = trial.decide_at(&setting(value), LimitDistance::AtLimit);
         match verdict {

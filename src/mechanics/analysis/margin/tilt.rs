@@ -75,8 +75,8 @@ enum StableEnd {
 impl TiltSearch<'_, '_> {
     fn end(&mut self) -> End {
         let mut reached = 0.0;
-        // If the search does not start at tilt 0, the frame does not stand at tilt 0. The first step towards 0 then
-        // ends at 0.
+        // A search that does not start at tilt 0 belongs to a frame of which some component does not stand at tilt 0. If
+        // the search goes towards 0, its first step ends exactly at 0, so that it does not jump over tilts near 0.
         let to_zero = -self.outward * self.from;
         let mut next = if to_zero > 0.0 { to_zero } else { SEARCH_STEP };
         loop {

@@ -93,7 +93,7 @@ pub(super) fn outline_of(group: &usvg::Group) -> Option<Path> {
     pen.finish()
 }
 
-/// Converts the outline of a shape to the type of krilla. Returns `None` if it is empty.
+/// Converts the outline of a shape to a path of krilla. Returns `None` if it is empty.
 pub(super) fn outline(data: &resvg::tiny_skia::Path) -> Option<Path> {
     let mut pen = PathBuilder::new();
     put(&mut pen, data);

@@ -190,8 +190,8 @@ fn cross_arm(at: PagePoint, x: f64, y: f64) -> Outline {
     Outline::line([at.moved(-x, -y), at.moved(x, y)])
 }
 
-/// Returns a position near `place` at which a disc does not overlap the discs with the centres `taken`. Returns `place`
-/// if no such position is found.
+/// Returns a position next to `place`, at which a disc covers neither `place` nor a disc with its centre in `taken`.
+/// Returns `place` if there is no such position nearby.
 fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const DIRECTIONS: [(f64, f64); 8] = [
         (0.7, -0.7),

@@ -149,7 +149,7 @@ impl<'a> Plan<'a> {
         Some(plan)
     }
 
-    /// Returns a box around the polygon, the loaded point and the small pictures, in metres.
+    /// Returns a box around the polygon, the loaded point and the small pictures of mechanisms, in metres.
     pub fn bounds(&self) -> Option<Bounds> {
         let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
         let pictures = self.pictures.iter().map(SmallPicture::bounds_with_number);

@@ -62,19 +62,19 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// Returns the sum of the normal and the friction force on the block at this end of the interface, N. `normal` is
-    /// the unit normal into the block.
+    /// Returns the force on the block at this application point, N: the sum of normal force and friction. `normal` is the
+    /// unit normal into the block.
     pub(super) fn on_block(self, normal: Vector) -> Vector {
         normal * self.normal + quarter_turn(normal) * self.friction
     }
 }
 
-/// Returns the forces on the block at the two ends of an interface. The end to the left of the unit normal ŝ, which
+/// Returns the forces on the block at the two application points of an interface. The point to the left of the unit normal ŝ, which
 /// points into the block, comes first, as in figures 1 and 2 of the thesis.
 ///
 /// Only the sum of the two friction forces is known, because both act along the interface. The sum is divided in
-/// proportion to the normal forces, so that the forces of both ends together act at the resultant of the interface. If
-/// the two ends coincide, the first of them has the whole force and the second none.
+/// proportion to the normal forces, so that both forces together act at the resultant of the interface. If
+/// the two points coincide, the first of them has the whole force and the second none.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let own = contact.interface.bodies[0] == BodyId::Block(block);
     // Friction is positive along (−n_y, n_x) on the first body. On the second body, the tangent and the force both

@@ -73,7 +73,8 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
 pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let scene = &pen.context.analysis.scene;
     let size = name_size(pen, pen.unit());
-    // Names of robots have a slightly smaller font than names of blocks, but not below the least font size.
+    // Names of robots are slightly smaller than names of blocks, but not smaller than `MIN_SIZE`, unless names of blocks
+    // are so too.
     let size = (0.9 * size).max(size.min(MIN_SIZE));
     let named = |hold: &Hold| {
         let request = LabelRequest {

@@ -1,6 +1,6 @@
-//! [`RowPlaces`]: positions for the amounts of loads that act next to each other, such as the loads on a beam. The
-//! amounts stand at the tails of the arrows, in the order of the loads. If they are too wide for one line, some of them
-//! stand in further lines, with a leader.
+//! [`RowPlaces`]: positions for the amounts of loads that act next to each other, such as the loads on a beam. Each
+//! amount is placed at the tail of its arrow. If the amounts are too wide for one line, some are placed in further lines
+//! and joined to their arrows by leaders.
 
 use super::super::arrow::{ArrowKind, ForceArrow};
 use super::super::pen::Pen;

@@ -1,5 +1,5 @@
-//! [`Strip`]: a figure with one panel for each frame and one legend below all panels. Each panel has a caption and a
-//! verdict. [`PanelContent`] draws the picture of a panel.
+//! [`Strip`]: the panels of one scene, one for each frame. A panel has a picture, which [`PanelContent`] draws, a caption
+//! and a verdict. A page shows the panels of one or more strips, with one legend below them.
 //!
 //! This file decides which panels are on which page. `page` draws a page, `panel` a panel, and `words` has their texts.
 

@@ -162,7 +162,7 @@ fn title(scene: &Scene, frame_analysis: &FrameAnalysis, segment: &ThrustSegment)
     if segment.through {
         format!("Force on block {on} from {by}: {force}")
     } else {
-        format!("Schematic path through block {on} of the force from {by}: {force}")
+        format!("Schematic path of the force from {by} through block {on}: {force}")
     }
 }
 

@@ -77,7 +77,7 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
         ),
         stage(
             "solving and proving",
-            "all effects except margins and wedging are solved together, so these effects have no times of their own",
+            "all effects are solved together and have no times of their own, except margins and wedging",
             stages.solution,
         ),
     ]

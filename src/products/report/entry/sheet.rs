@@ -143,7 +143,8 @@ pub(super) fn others(
         .collect()
 }
 
-/// Returns a sentence with the verdict and its reasons. Forces and torques have the units of the report on this frame.
+/// Returns a sentence with the verdict and its reasons. Forces and torques have the unit and
+/// SI prefix that the report uses for this frame.
 fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let units = Units::new(scene, frame_analysis);
     let write = |value: f64, unit: Unit| units.words(value, unit);

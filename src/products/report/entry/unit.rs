@@ -109,7 +109,7 @@ impl Units {
         }
     }
 
-    /// Writes a quantity for a sentence, with three significant digits and its unit. `value` is in the SI unit.
+    /// Converts a quantity from the SI unit, and writes it for a sentence with three significant digits and the unit.
     pub fn words(self, value: f64, unit: Unit) -> String {
         let number = three(value * self.factor(unit));
         format!("{number} {}", self.symbol(unit))

@@ -32,7 +32,7 @@ fn whole_frame<'a>(
     position: Position,
 ) -> Vec<StatedMargin<'a>> {
     use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
-    let share = "horizontal share of the weights";
+    let share = "horizontal load, as a share of the weights";
     let all = [
         (
             LoadFactor,

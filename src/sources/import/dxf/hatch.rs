@@ -57,8 +57,8 @@ impl<'t> Groups<'_, 't> {
         Some(())
     }
 
-    /// Returns the value of the next group with this code, and skips the groups before it; `None` if there is no such
-    /// group.
+    /// Reads up to the next group with this code, including it, and returns its value. Returns `None`, and skips nothing,
+    /// if there is no such group.
     fn value_of(&mut self, code: i32) -> Option<&'t str> {
         self.skip_to(code)?;
         self.next().map(|(_, value)| value)
