@@ -248,8 +248,8 @@ fn objects(done: &[SceneResult], refused: &[RefusedFile], layout: Layout) -> Str
     objects.concat()
 }
 
-/// Returns how many scenes and frames have each verdict: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`. A
-/// scene counts with the worst verdict of its frames.
+/// Returns how many scenes and frames have each verdict: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`. The
+/// verdict of a scene is the worst verdict of its frames.
 fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
     let counts = |verdicts: &[Verdict]| {
         let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];

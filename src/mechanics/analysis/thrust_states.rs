@@ -84,14 +84,11 @@ impl Analysis {
         }
         // Without a horizontal load, the horizontal forces of the two supports are opposite and equal.
         let across = quarter_turn(self.scene.down());
-        let placed = &self.scene.frames[frame].placed;
-        let loads = self
-            .scene
-            .loads
-            .iter()
-            .filter(|l| placed.contains(&l.block));
+        let applied = self.scene.applied_forces();
+        let placed = self.scene.frames[frame].placed.iter();
+        let applied = placed.flat_map(|block| applied[block.0].iter().map(|applied| applied.force));
         let robots = found.robots.iter().map(|robot| robot.force);
-        let pushed: Vector = loads.map(|load| load.force).chain(robots).sum();
+        let pushed: Vector = applied.chain(robots).sum();
         if pushed.dot(&across).abs() > UNEQUAL_THRUST * found.weight {
             return none;
         }

@@ -51,11 +51,12 @@ const SMALL_FORCE_TOL: f64 = 1e-8;
 /// A residual up to this fraction of Σ |force| on the body counts as rounding and is always allowed.
 const ROUNDING_TOL: f64 = 64.0 * f64::EPSILON;
 
-/// A limit above this multiple of the loads of a level cannot be reached at that level, so the program of that level
-/// has no row for it.
+/// If a limit is above this multiple of the loads of a level, forces that balance these loads stay below the limit. The
+/// program of this level then has no row for the limit.
 const LOOSE_LIMIT: f64 = 1e6;
 
-/// A column whose limit is below this multiple of the loads of a level is kept fixed at that level.
+/// If the limit of a column is below this multiple of the loads of a level, the amount of the column does not change at
+/// this level.
 const NARROW_LIMIT: f64 = 1e-9;
 
 /// Returns the size of each body's load: the larger of its force and its moment/L.

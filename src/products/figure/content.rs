@@ -13,7 +13,7 @@ use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
 use super::load_arrows::{
-    lengthen_loads, load_scale, loads_alone, uncover_from_missing_forces, uncover_from_weights,
+    lengthen_loads, load_marks, load_scale, uncover_from_missing_forces, uncover_from_weights,
 };
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
@@ -86,7 +86,7 @@ pub(crate) trait PanelContent: Sync {
     /// Returns the arrows of a frame: by default its loads, because no figure may hide them. The arrow of a force of
     /// `newtons_per_unit` newtons is one unit length long.
     fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        loads_alone(of.analysis, of.frame, of.options, newtons_per_unit)
+        load_marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
     /// Returns the paths along which the blocks of a frame are displaced. Returns an empty course if no block is

@@ -28,9 +28,9 @@ pub(crate) const BUILD: Forces = Forces {
 };
 
 /// The note on missing forces in the legend.
-const INCLUDED: &str = "arrows and fills show the balance with the missing forces";
+const BALANCE_TEXT: &str = "arrows and fills show the balance with the missing forces";
 /// The same note for a figure in which the arrows of missing forces have a larger scale.
-const INCLUDED_LARGER: &str =
+const BALANCE_AND_SCALE_TEXT: &str =
     "arrows and fills show the balance with the missing forces, whose arrows have a larger scale";
 
 /// True if the arrows of missing forces are drawn at a larger scale than other arrows.
@@ -88,8 +88,8 @@ impl PanelContent for Forces {
                 (Some(missing), _) if context.options.is_column() => {
                     *missing = Entry::Missing(MissingWords::Included(own));
                 }
-                (_, true) => entries.push(Entry::Note(INCLUDED_LARGER.to_owned())),
-                (_, false) => entries.push(Entry::Note(INCLUDED.to_owned())),
+                (_, true) => entries.push(Entry::Note(BALANCE_AND_SCALE_TEXT.to_owned())),
+                (_, false) => entries.push(Entry::Note(BALANCE_TEXT.to_owned())),
             }
         }
         entries

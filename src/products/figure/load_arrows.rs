@@ -19,7 +19,7 @@ const TESTED_POINTS: u32 = 24;
 
 /// Returns only the arrows of the loads of a frame and of their torques. The tip of a straight arrow is at the point
 /// where the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
-pub(super) fn loads_alone(
+pub(super) fn load_marks(
     analysis: &Analysis,
     frame: usize,
     options: &Options,

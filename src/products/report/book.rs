@@ -27,7 +27,7 @@ use crate::output::svg;
 use crate::scene::{BlockId, Scene};
 use crate::text;
 
-/// The language of the code blocks that drystone draws: the first word after the opening fence.
+/// Code blocks whose opening fence is followed by this word contain a scene, and are replaced by its figure.
 const FENCE_WORD: &str = "drystone";
 
 /// All problems found in a book, one message each.

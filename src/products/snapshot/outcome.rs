@@ -191,11 +191,11 @@ impl CheckOutcome {
             let words = format!("an orphaned reference: {words}");
             (path.as_path(), words)
         });
-        orphans.chain(self.fault_words())
+        orphans.chain(self.fault_descriptions())
     }
 
     /// Iterates over the scenes on which the program failed, with a description of each failure.
-    pub(super) fn fault_words(&self) -> impl Iterator<Item = (&Path, String)> {
+    pub(super) fn fault_descriptions(&self) -> impl Iterator<Item = (&Path, String)> {
         self.faults.iter().map(|(path, fault)| {
             let of = |p: &Problem| format!("{}; {}", p.message, p.help);
             let words: Vec<String> = fault.list.iter().map(of).collect();

@@ -69,7 +69,7 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                     section {
                         h2 { "Scenes on which the program failed" }
                         ul {
-                            @for (path, words) in report.fault_words() {
+                            @for (path, words) in report.fault_descriptions() {
                                 li { code { (line(&shown(path))) } " " (line(&words)) }
                             }
                         }

@@ -158,11 +158,8 @@ fn name_clashes(files: &[PathBuf]) -> Vec<CliError> {
     let mut first: BTreeMap<(String, bool), &Path> = BTreeMap::new();
     let mut clashes = Vec::new();
     for file in files {
-        clashes.extend(
-            first
-                .insert((stem(file), is_whole(file)), file)
-                .zip(Some(file.as_path())),
-        );
+        let earlier = first.insert((stem(file), is_whole(file)), file);
+        clashes.extend(earlier.map(|earlier| (earlier, file.as_path())));
     }
     // The pictures of `a-0000001.json` and of line 1 of `a.ndjson` would have the same name, and so would the pictures
     // of `0000001.json` and of line 1 of standard input.

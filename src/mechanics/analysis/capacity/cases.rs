@@ -128,9 +128,9 @@ fn intersection(all: &[LoadCapacity]) -> Result<LoadCapacity, CapacityError> {
         })
         .collect();
     let lines: Vec<CapacityEdge> = all.iter().flat_map(|c| c.edges.clone()).collect();
-    let (forces, rays) = match without_corners(&planes, size) {
+    let (forces, rays) = match intersect_parallel(&planes, size) {
         Some(set) => set,
-        None => with_corners(&planes, centre, far).ok_or(CapacityError::Undecided)?,
+        None => intersect_to_polygon(&planes, centre, far).ok_or(CapacityError::Undecided)?,
     };
     let tolerance = 1e-7 * size;
     let vertices = corners(&forces, &rays, tolerance)
@@ -159,10 +159,9 @@ fn intersection(all: &[LoadCapacity]) -> Result<LoadCapacity, CapacityError> {
 
 /// Returns the intersection of half-planes whose boundaries are all parallel, as corners and rays: everything, a
 /// half-plane, a strip, a line or the empty set. `None` if two boundaries meet. `size` is the size of the sets, N.
-fn without_corners(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector>, Vec<Vector>)> {
+fn intersect_parallel(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector>, Vec<Vector>)> {
     let Some((normal, _)) = planes.first() else {
-        let all = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        return Some((Vec::new(), all.map(|(x, y)| Vector::new(x, y)).to_vec()));
+        return Some((Vec::new(), axes().to_vec()));
     };
     if planes
         .iter()
@@ -189,7 +188,7 @@ fn without_corners(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector>, 
 /// Returns the intersection of half-planes as forces and rays. The boundaries of at least two half-planes must meet.
 /// The forces include all corners; the list of forces is empty if the intersection is empty. `None` if the corners are
 /// so far from `centre`, compared with `far`, that they cannot be distinguished from rays.
-fn with_corners(
+fn intersect_to_polygon(
     planes: &[(Vector, f64)],
     centre: Vector,
     far: f64,
@@ -237,9 +236,7 @@ fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec
     }
     match bounded_polygon(corners, rays, far)[..] {
         [] => Vec::new(),
-        [point] => [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)]
-            .map(|(x, y)| side(point, Vector::new(x, y)))
-            .to_vec(),
+        [point] => axes().map(|axis| side(point, axis)).to_vec(),
         [a, b] => {
             let along = b - a;
             let across = quarter_turn(along);
@@ -257,4 +254,9 @@ fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec
             })
             .collect(),
     }
+}
+
+/// Returns the four unit vectors along the coordinate axes, anticlockwise from the right.
+fn axes() -> [Vector; 4] {
+    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Vector::new(x, y))
 }

@@ -43,8 +43,7 @@ const LONG_STEP: f64 = 0.8;
 /// If more than this fraction of the primal residual remains, a long step has made no progress.
 const STALLED_SHARE: f64 = 0.8;
 
-/// After this number of consecutive steps without progress the method stops, because probably no amounts balance the
-/// loads.
+/// The method stops after this number of steps without progress in succession: probably no amounts balance the loads.
 const MAX_IDLE_STEPS: usize = 3;
 
 /// Solves a least-squares program of forces whose amounts have lower bounds. `None` if the program has another form, or

@@ -60,8 +60,8 @@ pub(super) fn untangle(
     any_moved
 }
 
-/// Exchanges the positions of labels `i` and `j` if both have leader lines, each label fits at the position of the
-/// other, and the number of crossings decreases. Returns true if the positions were exchanged.
+/// Exchanges the positions of the labels `i` and `j` on three conditions: both have leader lines, each fits at the
+/// other's position, and the exchange reduces the number of crossings. Returns true if the positions were exchanged.
 fn exchange(
     placed: &mut [Option<Placed>],
     i: usize,

@@ -57,7 +57,8 @@ pub(super) struct Corner {
     pub at: Point,
     /// Normal force into the block, N.
     pub normal: f64,
-    /// Friction force on the block, N; positive to the left of the unit normal ŝ, which points into the block.
+    /// Friction force on the block, N. It is positive if it points to the left for a viewer who looks along the unit
+    /// normal ŝ into the block.
     pub friction: f64,
 }
 

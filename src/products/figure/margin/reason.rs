@@ -67,8 +67,8 @@ fn parameter(toward: Toward) -> &'static str {
 }
 
 /// Describes the margin of a frame that stands: the values at which it begins to fall. An end that does not exist or is
-/// not confirmed is left out. If no end is left (for the load factor: no upper end), the text says whether the frame
-/// never falls or its margin was not confirmed.
+/// not confirmed is left out. If no end remains (for the load factor: no upper end), the text says that the frame never
+/// falls, or that its margin was not confirmed.
 fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interval) -> String {
     // If the value is below 1, it is the least load factor, which does not limit how much the loads may grow.
     let is_upper = |edge: &f64| toward != Toward::LoadFactor || *edge >= 1.0;

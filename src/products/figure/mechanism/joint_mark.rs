@@ -1,5 +1,4 @@
-//! [`joint_marks`]: draws the symbols of a mechanism: a ring at each hinge, and two half-arrows at each joint that
-//! slides.
+//! [`joint_marks`] draws the symbols of a mechanism: a ring at each hinge, and two half-arrows at each sliding joint.
 
 use super::super::description;
 use super::super::joint::{Joint, joints};

@@ -1,9 +1,8 @@
 //! [`Entry`]: the content of a report on one scene: text, numbers and drawings without markup.
 //!
 //! An entry is made once from an analysis. Its main content is a list of [`Section`]s, which consist of [`SheetPart`]s.
-//! The writers for HTML, Markdown and PDF read only the entry, so their contents agree. Names and titles from scene
-//! files become one line without control characters here ([`text::line`]). Each writer then escapes them for its
-//! format.
+//! The writers for HTML, Markdown and PDF read only the entry, so their contents agree. In an entry, each name or title
+//! from a scene file is one line without control characters ([`text::line`]). Each writer escapes it for its format.
 
 mod balance;
 mod bullet;
@@ -146,7 +145,7 @@ impl Entry {
         }
     }
 
-    /// Adds the accuracy study of the scene: a section with its picture, and its numbers in the JSON result.
+    /// Adds an accuracy study to the report: a section with the picture of the study, and its numbers in the JSON.
     ///
     /// # Errors
     /// If the text of the picture cannot be laid out.

@@ -3,9 +3,9 @@
 //!
 //! `maud` escapes all text. Only figures, charts, the style sheet, the scripts and finished parts of the page are
 //! inserted without escaping. Scripts add sorting and filtering, marks that follow the mouse, and buttons that enlarge
-//! a figure or copy the scene file. The body of a scene is in a `noscript` element. With scripts, the body stays plain
-//! text until the reader opens the scene, so that a page with a thousand scenes opens at once. Without scripts, the
-//! browser shows the body.
+//! a figure or copy the scene file. The details of each scene are in a `noscript` element. A browser without scripts shows
+//! them at once. With scripts, they are only displayed when the reader opens the scene, so that a page with a thousand
+//! scenes opens quickly.
 
 mod bar;
 mod part;
