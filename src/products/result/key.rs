@@ -225,7 +225,7 @@ pub const KEYS: &[Key] = &[
     key("frames[].capacity.cases", Type::Count, "", "", "the number of extreme cases whose sets were intersected; 1 without `--for-all`"),
     key("frames[].only_by_wedging", Type::FlagOrOpen, "", "with `--wedging`, if the frame stands", "whether the frame stands only because blocks are wedged, which means that they press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason"),
     key("frames[].wedging", Type::Object, "", "with `--wedging`, if `only_by_wedging` is `true`", "the proof that the frame stands only by wedging"),
-    key("frames[].wedging.must_press", Type::Objects, "", "", "the interfaces that must carry a normal force in every balance although no load causes one"),
+    key("frames[].wedging.must_press", Type::Objects, "", "", "the interfaces that open or slide if the springs give way; in every balance, the sum of their normal forces is at least `normal_force_at_least`, if a bound was found"),
     key("frames[].wedging.must_press[].interface", Type::Count, "", "", "the index of the interface in `interfaces`, from 0"),
     key("frames[].wedging.must_press[].bodies", Type::Names, "", "", "the two bodies of the interface"),
     key("frames[].wedging.normal_force_at_least", Type::Number, "N", "if a bound was found", "a lower bound of the sum of the normal forces at the interfaces in `must_press`"),
