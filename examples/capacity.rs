@@ -23,21 +23,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene::builder()
         .friction(FRICTION)
         .ground(rectangle(-1.0, -1.0, right + width + 1.0, 0.0))
-        .block(
-            BlockEntry::new("left")
-                .polygon(rectangle(0.0, 0.0, width, height))
-                .weight(6.0),
-        )
-        .block(
-            BlockEntry::new("right")
-                .polygon(rectangle(right, 0.0, right + width, height))
-                .weight(6.0),
-        )
-        .block(
-            BlockEntry::new("lintel")
-                .polygon(rectangle(0.0, height, right + width, height + 1.0))
-                .weight(11.0),
-        )
+        .block(BlockEntry::new("left").polygon(rectangle(0.0, 0.0, width, height)).weight(6.0))
+        .block(BlockEntry::new("right").polygon(rectangle(right, 0.0, right + width, height)).weight(6.0))
+        .block(BlockEntry::new("lintel").polygon(rectangle(0.0, height, right + width, height + 1.0)).weight(11.0))
         .build()?;
     let lintel = scene.block_named("lintel").ok_or("there is no lintel")?;
 
@@ -54,29 +42,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  unbounded in the direction {:.3} {:.3}", ray.x, ray.y);
     }
     for (number, edge) in capacity.edges.iter().enumerate() {
-        let moving = edge
-            .mechanism
-            .iter()
-            .map(|m| scene.blocks()[m.block.0].id.as_str());
+        let moving = edge.mechanism.iter().map(|m| scene.blocks()[m.block.0].id.as_str());
         let moving: Vec<&str> = moving.collect();
-        println!(
-            "beyond edge {number}, these blocks move: {}",
-            moving.join(", ")
-        );
+        println!("beyond edge {number}, these blocks move: {}", moving.join(", "));
     }
-    println!(
-        "the largest force to the right is {:.3?} N",
-        capacity.reach([1.0, 0.0])
-    );
+    println!("the largest force to the right is {:.3?} N", capacity.reach([1.0, 0.0]));
 
     // The largest force to the right that the lintel carries at every tilt of up to 2° to either side, with every
     // friction coefficient from 0.5 to 0.7.
     let cases = Cases::default().tilt(-2.0, 2.0).friction(0.5, 0.7);
     let for_all = analysis.capacity(0, &request.cases(cases))?;
-    println!(
-        "for every tilt and friction: {:.3?} N",
-        for_all.reach([1.0, 0.0])
-    );
+    println!("for every tilt and friction: {:.3?} N", for_all.reach([1.0, 0.0]));
     Ok(())
 }
 

@@ -16,18 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let scene = Scene::from_slice(&fs::read(input)?)?;
     let analysis = Analysis::new(&scene);
-    println!(
-        "{:?}",
-        analysis
-            .frames
-            .iter()
-            .map(|frame| frame.verdict)
-            .collect::<Vec<_>>()
-    );
+    println!("{:?}", analysis.frames.iter().map(|frame| frame.verdict).collect::<Vec<_>>());
     let svg = output::svg::write(&figure::forces(&analysis, &figure::Options::default()));
-    fs::write(
-        picture,
-        output::png::render(&svg, output::png::Size::Width(1200))?,
-    )?;
+    fs::write(picture, output::png::render(&svg, output::png::Size::Width(1200))?)?;
     Ok(())
 }

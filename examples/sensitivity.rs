@@ -44,10 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     println!("The arch carries {:.4} times its load.", end.value);
     if let Some(friction) = end.friction_of_all.and_then(|slope| slope.unique()) {
-        println!(
-            "With 0.1 more friction: load factor {:.4}",
-            end.value + 0.1 * friction
-        );
+        println!("With 0.1 more friction: load factor {:.4}", end.value + 0.1 * friction);
     }
     // Print the corners with the largest gradients. Each printed move is in the direction in which the load factor
     // grows most.
@@ -56,10 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     corners.sort_by(|a, b| steepness(b.moves).total_cmp(&steepness(a.moves)));
     for corner in corners.iter().take(8) {
         let Some(slope) = corner.moves.gradient() else {
-            println!(
-                "The load factor has a kink at a corner of {}.",
-                scene.blocks()[corner.block.0].id
-            );
+            println!("The load factor has a kink at a corner of {}.", scene.blocks()[corner.block.0].id);
             continue;
         };
         let to = slope * (STEP / slope.norm());
@@ -81,18 +75,8 @@ fn arch() -> Result<Scene, SceneError> {
     let mut scene = Scene::builder()
         .friction(FRICTION)
         .density(2200.0)
-        .ground(vec![
-            [-outer, -0.3],
-            [-inner, -0.3],
-            [-inner, 0.0],
-            [-outer, 0.0],
-        ])
-        .ground(vec![
-            [inner, -0.3],
-            [outer, -0.3],
-            [outer, 0.0],
-            [inner, 0.0],
-        ]);
+        .ground(vec![[-outer, -0.3], [-inner, -0.3], [-inner, 0.0], [-outer, 0.0]])
+        .ground(vec![[inner, -0.3], [outer, -0.3], [outer, 0.0], [inner, 0.0]]);
     for k in 0..VOUSSOIRS {
         let [a, b, c, d] = [(k + 1, inner), (k, inner), (k, outer), (k + 1, outer)];
         let corners = [a, d, c, b].map(|(joint, radius)| point(joint, radius));
@@ -107,10 +91,6 @@ fn arch() -> Result<Scene, SceneError> {
 /// Returns the point of a joint at the given distance from the centre of the arch. Joint 0 is the left springing.
 fn point(joint: usize, radius: f64) -> Pair {
     let angle = PI * joint as f64 / VOUSSOIRS as f64;
-    let height = if joint == VOUSSOIRS {
-        0.0
-    } else {
-        radius * libm::sin(angle)
-    };
+    let height = if joint == VOUSSOIRS { 0.0 } else { radius * libm::sin(angle) };
     [-radius * libm::cos(angle), height]
 }

@@ -77,18 +77,9 @@
 //! | [`Analysis`] | verdict, forces, failures, motion and margins | a scene |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
-#![cfg_attr(
-    feature = "png",
-    doc = "| [`output::png::render`] | PNG bytes | SVG text |"
-)]
-#![cfg_attr(
-    feature = "pdf",
-    doc = "| [`output::pdf::write`] | a PDF page | a drawing |"
-)]
-#![cfg_attr(
-    feature = "report",
-    doc = "| [`study::study`] | times and errors of solvers and tolerances | scenes |"
-)]
+#![cfg_attr(feature = "png", doc = "| [`output::png::render`] | PNG bytes | SVG text |")]
+#![cfg_attr(feature = "pdf", doc = "| [`output::pdf::write`] | a PDF page | a drawing |")]
+#![cfg_attr(feature = "report", doc = "| [`study::study`] | times and errors of solvers and tolerances | scenes |")]
 //! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
 #![cfg_attr(

@@ -30,10 +30,7 @@ pub(crate) struct Aabb<const D: usize = 2> {
 impl Aabb {
     /// Returns the box extended by `margin` metres on each side.
     pub(crate) fn grown(self, margin: f64) -> Aabb {
-        Aabb {
-            min: self.min.map(|min| min - margin),
-            max: self.max.map(|max| max + margin),
-        }
+        Aabb { min: self.min.map(|min| min - margin), max: self.max.map(|max| max + margin) }
     }
 }
 
@@ -50,10 +47,7 @@ impl Aabb<4> {
 
 impl<const D: usize> Aabb<D> {
     /// The box that contains no point: the neutral element of [`Aabb::union`].
-    const EMPTY: Aabb<D> = Aabb {
-        min: [f64::INFINITY; D],
-        max: [f64::NEG_INFINITY; D],
-    };
+    const EMPTY: Aabb<D> = Aabb { min: [f64::INFINITY; D], max: [f64::NEG_INFINITY; D] };
 
     /// True if the two boxes share at least one point. Boxes that only touch share points.
     pub(crate) fn intersects(&self, other: &Aabb<D>) -> bool {
@@ -97,11 +91,7 @@ struct SortedEntry<T, const D: usize> {
 
 impl<T, const D: usize> SortedBoxes<T, D> {
     fn new(items: Vec<T>, bounds: impl Fn(&T) -> Aabb<D>) -> SortedBoxes<T, D> {
-        let entry = |item: T| SortedEntry {
-            bounds: bounds(&item),
-            max_right: 0.0,
-            item,
-        };
+        let entry = |item: T| SortedEntry { bounds: bounds(&item), max_right: 0.0, item };
         let mut entries: Vec<SortedEntry<T, D>> = items.into_iter().map(entry).collect();
         entries.sort_by(|a, b| a.bounds.min[0].total_cmp(&b.bounds.min[0]));
         let mut max_right = f64::NEG_INFINITY;
@@ -119,9 +109,7 @@ impl<T, const D: usize> SortedBoxes<T, D> {
         let begin = self.entries.partition_point(|entry| entry.max_right < left);
         let rest = self.entries[begin..].iter();
         let candidates = rest.take_while(move |entry| entry.bounds.min[0] <= query.max[0]);
-        candidates.filter_map(move |SortedEntry { bounds, item, .. }| {
-            bounds.intersects(&query).then_some(item)
-        })
+        candidates.filter_map(move |SortedEntry { bounds, item, .. }| bounds.intersects(&query).then_some(item))
     }
 }
 
@@ -150,13 +138,8 @@ impl<T, const D: usize> BoxTree<T, D> {
         let mut nodes = Vec::with_capacity(4 * order.len() / MAX_LEAF_ITEMS);
         build(&mut order, 0, &typical, &mut nodes);
         let mut items: Vec<Option<T>> = items.into_iter().map(Some).collect();
-        let entries = order
-            .into_iter()
-            .filter_map(|(bounds, number)| Some((bounds, items[number].take()?)));
-        BoxTree {
-            entries: entries.collect(),
-            nodes,
-        }
+        let entries = order.into_iter().filter_map(|(bounds, number)| Some((bounds, items[number].take()?)));
+        BoxTree { entries: entries.collect(), nodes }
     }
 
     fn intersecting(&self, query: Aabb<D>) -> impl Iterator<Item = &T> {
@@ -219,18 +202,9 @@ fn doubled_centre_range<const D: usize>(order: &[(Aabb<D>, usize)]) -> [f64; D] 
 /// the subtree to `nodes`.
 ///
 /// `begin` is the position of the first of these boxes in the list of all boxes.
-fn build<const D: usize>(
-    order: &mut [(Aabb<D>, usize)],
-    begin: usize,
-    typical: &[f64; D],
-    nodes: &mut Vec<Node<D>>,
-) {
+fn build<const D: usize>(order: &mut [(Aabb<D>, usize)], begin: usize, typical: &[f64; D], nodes: &mut Vec<Node<D>>) {
     let number = nodes.len();
-    nodes.push(Node {
-        bounds: Aabb::EMPTY,
-        skip_to: 0,
-        items: begin..begin,
-    });
+    nodes.push(Node { bounds: Aabb::EMPTY, skip_to: 0, items: begin..begin });
     if order.len() <= MAX_LEAF_ITEMS {
         nodes[number].bounds = order.iter().fold(Aabb::EMPTY, |all, b| all.union(&b.0));
         nodes[number].items.end += order.len();
@@ -241,9 +215,8 @@ fn build<const D: usize>(
         let split = (0..D).max_by(|a, b| relative(a).total_cmp(&relative(b)));
         let split = split.unwrap_or(0);
         let half = order.len() / 2;
-        order.select_nth_unstable_by(half, |(a, _), (b, _)| {
-            a.doubled_centre(split).total_cmp(&b.doubled_centre(split))
-        });
+        order
+            .select_nth_unstable_by(half, |(a, _), (b, _)| a.doubled_centre(split).total_cmp(&b.doubled_centre(split)));
         let (low, high) = order.split_at_mut(half);
         build(low, begin, typical, nodes);
         let second = nodes.len();
@@ -267,8 +240,7 @@ impl<T, const D: usize> BoxIndex<T, D> {
         let (sorted, tree) = self.variants();
         let sorted = sorted.into_iter().flat_map(|list| &list.entries);
         let tree = tree.into_iter().flat_map(|tree| &tree.entries);
-        (sorted.map(|entry| (&entry.bounds, &entry.item)))
-            .chain(tree.map(|(bounds, item)| (bounds, item)))
+        (sorted.map(|entry| (&entry.bounds, &entry.item))).chain(tree.map(|(bounds, item)| (bounds, item)))
     }
 
     /// Returns the items whose boxes intersect `query`. Callers must not rely on the order of the items.
@@ -318,15 +290,9 @@ mod tests {
         for side in [7_usize, 8, 12] {
             let at = |n: usize| [(n / side) as f64, (n % side) as f64];
             let things = BoxIndex::new((0..side * side).collect(), |n| point(at(*n)));
-            assert_eq!(
-                matches!(things, BoxIndex::Sorted(_)),
-                side * side <= MAX_SCANNED_ITEMS
-            );
+            assert_eq!(matches!(things, BoxIndex::Sorted(_)), side * side <= MAX_SCANNED_ITEMS);
             assert_eq!(things.all().count(), side * side);
-            let found = things.intersecting(Aabb {
-                min: [0.5, 1.0],
-                max: [2.0, 3.0],
-            });
+            let found = things.intersecting(Aabb { min: [0.5, 1.0], max: [2.0, 3.0] });
             let mut found: Vec<usize> = found.copied().collect();
             found.sort_unstable();
             let wanted = [1, 2].map(|x| [1, 2, 3].map(|y| x * side + y));
@@ -350,10 +316,7 @@ mod tests {
             let all: Vec<[i32; 4]> = (0..count).map(|_| any()).collect();
             let around = |b: [i32; 4]| {
                 let [x, y, right, high] = b.map(f64::from);
-                Aabb {
-                    min: [x, y],
-                    max: [right, high],
-                }
+                Aabb { min: [x, y], max: [right, high] }
             };
             let things = BoxIndex::new((0..count).collect(), |n| around(all[*n]));
             for _ in 0..60 {

@@ -69,29 +69,22 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
             edge,
         }));
     }
-    let index =
-        (sides.len() > MAX_SIDES_WITHOUT_INDEX).then(|| BoxIndex::new(sides.clone(), Side::bounds));
+    let index = (sides.len() > MAX_SIDES_WITHOUT_INDEX).then(|| BoxIndex::new(sides.clone(), Side::bounds));
     let mut found: Vec<Crossing> = Vec::new();
     for (number, a) in sides.iter().enumerate() {
         let before = found.len();
         let mut test = |b: &Side| {
             if let Some(at) = a.forbidden_contact(b) {
-                found.push(Crossing {
-                    rings: [a.ring, b.ring],
-                    corners: [a.corner, b.corner],
-                    at,
-                });
+                found.push(Crossing { rings: [a.ring, b.ring], corners: [a.corner, b.corner], at });
             }
         };
         // Test each pair only once: skip the sides that come before `a` in the list.
         let bounds = a.bounds();
         match &index {
-            None => (sides[number + 1..].iter())
-                .filter(|b| bounds.intersects(&b.bounds()))
-                .for_each(test),
-            Some(index) => (index.intersecting(bounds))
-                .filter(|b| (a.ring, a.corner) < (b.ring, b.corner))
-                .for_each(&mut test),
+            None => (sides[number + 1..].iter()).filter(|b| bounds.intersects(&b.bounds())).for_each(test),
+            Some(index) => {
+                (index.intersecting(bounds)).filter(|b| (a.ring, a.corner) < (b.ring, b.corner)).for_each(&mut test)
+            }
         }
         // The index returns candidates in no particular order. Sort the crossings, so that the result does not depend
         // on it.
@@ -118,12 +111,7 @@ fn intersection(a: Edge, b: Edge) -> Option<Point> {
     // An end of one segment lies on the other segment if it is collinear with the other segment and between the two
     // ends of the other segment.
     let is_between = |e: Edge, p: Point| (p - e.from).dot(&(p - e.to)) <= 0.0;
-    for (turn, edge, point) in [
-        (a_from, b, a.from),
-        (a_to, b, a.to),
-        (b_from, a, b.from),
-        (b_to, a, b.to),
-    ] {
+    for (turn, edge, point) in [(a_from, b, a.from), (a_to, b, a.to), (b_from, a, b.from), (b_to, a, b.to)] {
         if turn == 0.0 && is_between(edge, point) {
             return Some(point);
         }

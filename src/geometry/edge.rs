@@ -38,10 +38,7 @@ impl Edge {
     /// Returns the smallest axis-parallel box around the edge.
     pub(crate) fn bounds(&self) -> Aabb {
         let (a, b) = (self.from, self.to);
-        Aabb {
-            min: [a.x.min(b.x), a.y.min(b.y)],
-            max: [a.x.max(b.x), a.y.max(b.y)],
-        }
+        Aabb { min: [a.x.min(b.x), a.y.min(b.y)], max: [a.x.max(b.x), a.y.max(b.y)] }
     }
 }
 
@@ -50,10 +47,7 @@ pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
     // A comparison is faster than the remainder `(i + 1) % ring.len()`, and this loop takes much of the time for
     // reading a scene.
     let next = |i: usize| if i + 1 == ring.len() { 0 } else { i + 1 };
-    (0..ring.len()).map(move |i| Edge {
-        from: ring[i],
-        to: ring[next(i)],
-    })
+    (0..ring.len()).map(move |i| Edge { from: ring[i], to: ring[next(i)] })
 }
 
 /// Returns a positive number if the path a → b → c turns left, a negative number if it turns right, and 0 if the three

@@ -59,25 +59,13 @@ impl Cell {
 
     /// Returns the cell moved by `by`, in lattice steps.
     pub fn moved(self, by: (i64, i64)) -> Cell {
-        Cell {
-            x: self.x + by.0,
-            y: self.y + by.1,
-            shape: self.shape,
-        }
+        Cell { x: self.x + by.0, y: self.y + by.1, shape: self.shape }
     }
 
     /// Returns the cell rotated anticlockwise about node (0, 0) by `steps` times 60° (triangles) or 90° (squares).
     pub fn turned(self, steps: i64) -> Cell {
-        let kind = if self.shape == CellShape::Square {
-            LatticeKind::Square
-        } else {
-            LatticeKind::Triangular
-        };
-        let corners: Vec<Node> = self
-            .corners()
-            .into_iter()
-            .map(|c| turned(kind, c, steps))
-            .collect();
+        let kind = if self.shape == CellShape::Square { LatticeKind::Square } else { LatticeKind::Triangular };
+        let corners: Vec<Node> = self.corners().into_iter().map(|c| turned(kind, c, steps)).collect();
         Cell::from_corners(&corners)
     }
 
@@ -85,27 +73,15 @@ impl Cell {
         if corners.len() == 4 {
             let x = corners.iter().map(|c| c.0).min().unwrap_or(0);
             let y = corners.iter().map(|c| c.1).min().unwrap_or(0);
-            return Cell {
-                x,
-                y,
-                shape: CellShape::Square,
-            };
+            return Cell { x, y, shape: CellShape::Square };
         }
         // Two corners of a triangle have the same y: they are the ends of its horizontal edge. The third corner lies
         // above or below this edge.
         for i in 0..3 {
             let (a, b, c) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
             if a.1 == b.1 {
-                let shape = if c.1 > a.1 {
-                    CellShape::Up
-                } else {
-                    CellShape::Down
-                };
-                return Cell {
-                    x: a.0.min(b.0),
-                    y: a.1,
-                    shape,
-                };
+                let shape = if c.1 > a.1 { CellShape::Up } else { CellShape::Down };
+                return Cell { x: a.0.min(b.0), y: a.1, shape };
             }
         }
         unreachable!("a lattice triangle has a horizontal edge")
@@ -160,10 +136,7 @@ impl Lattice {
         match self.kind {
             // 2x + y is exact for every node, so nodes on one vertical line get exactly the same x coordinate in
             // metres.
-            LatticeKind::Triangular => Point::new(
-                (2.0 * x + y) * (self.side / 2.0),
-                y * (self.side * HALF_SQRT_3),
-            ),
+            LatticeKind::Triangular => Point::new((2.0 * x + y) * (self.side / 2.0), y * (self.side * HALF_SQRT_3)),
             LatticeKind::Square => Point::new(x * self.side, y * self.side),
         }
     }
@@ -185,9 +158,7 @@ impl Lattice {
     /// Returns the centroid of one cell, in metres.
     pub fn cell_centre(&self, cell: Cell) -> Point {
         let corners = cell.corners();
-        let sum = corners
-            .iter()
-            .fold(Vector::zeros(), |s, c| s + self.node(*c).coords);
+        let sum = corners.iter().fold(Vector::zeros(), |s, c| s + self.node(*c).coords);
         Point::from(sum / corners.len() as f64)
     }
 
@@ -196,12 +167,7 @@ impl Lattice {
     /// `None` if there are no cells, or if they are not all connected by common edges.
     pub fn polygon(&self, cells: &[Cell]) -> Option<Polygon> {
         let rings = trace(cells)?;
-        Some(Polygon::from_valid_rings(
-            rings
-                .iter()
-                .map(|ring| ring.iter().map(|n| self.node(*n)).collect())
-                .collect(),
-        ))
+        Some(Polygon::from_valid_rings(rings.iter().map(|ring| ring.iter().map(|n| self.node(*n)).collect()).collect()))
     }
 }
 
@@ -272,9 +238,7 @@ fn without_collinear_nodes(ring: &[Node]) -> Vec<Node> {
 /// Returns twice the area of a ring in lattice coordinates, positive if the ring runs anticlockwise.
 fn doubled_area(ring: &[Node]) -> i64 {
     let n = ring.len();
-    (0..n)
-        .map(|i| ring[i].0 * ring[(i + 1) % n].1 - ring[i].1 * ring[(i + 1) % n].0)
-        .sum()
+    (0..n).map(|i| ring[i].0 * ring[(i + 1) % n].1 - ring[i].1 * ring[(i + 1) % n].0).sum()
 }
 
 /// True if every two cells are connected by a path that leads from cell to cell through common edges. False if there

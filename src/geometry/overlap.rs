@@ -63,12 +63,7 @@ impl<'p> Piece<'p> {
             }
         }
         let across = quarter_turn(longest);
-        Some(Piece {
-            bounds,
-            across,
-            extent: extent(&corners, across),
-            corners,
-        })
+        Some(Piece { bounds, across, extent: extent(&corners, across), corners })
     }
 
     /// True if a line parallel to the longest side of this piece separates the two pieces. They then have no common
@@ -81,12 +76,10 @@ impl<'p> Piece<'p> {
 
 /// Returns the smallest and the largest dot product of the vector `along` with the coordinates of the points.
 fn extent(points: &[Point], along: Vector) -> [f64; 2] {
-    points
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], p| {
-            let at = along.dot(&p.coords);
-            [min.min(at), max.max(at)]
-        })
+    points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], p| {
+        let at = along.dot(&p.coords);
+        [min.min(at), max.max(at)]
+    })
 }
 
 /// The intersection of two polygons.
@@ -103,12 +96,7 @@ pub struct Overlap {
 impl<'p> ConvexPieces<'p> {
     /// Prepares a polygon for [`overlap`].
     pub fn new(polygon: &'p Polygon) -> ConvexPieces<'p> {
-        ConvexPieces {
-            polygon,
-            bounds: polygon.bounds(),
-            pieces: OnceLock::new(),
-            hull: OnceLock::new(),
-        }
+        ConvexPieces { polygon, bounds: polygon.bounds(), pieces: OnceLock::new(), hull: OnceLock::new() }
     }
 
     fn hull(&self) -> &[Point] {
@@ -217,11 +205,7 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     // Compute the area and the centroid of the intersection relative to a corner of `a`, so that few digits are lost.
     let base = a.pieces().first()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
-    (area > 0.0).then(|| Overlap {
-        area,
-        at: base + moment / area,
-        depth,
-    })
+    (area > 0.0).then(|| Overlap { area, at: base + moment / area, depth })
 }
 
 /// Two convex pieces that overlap.
@@ -257,10 +241,7 @@ fn penetration(a: &[Point], b: &[Point]) -> f64 {
         let along = to - from;
         let length = along.norm();
         let outward = Vector::new(along.y, -along.x) / length;
-        let deepest = b
-            .iter()
-            .map(|p| outward.dot(&(p - from)))
-            .fold(f64::INFINITY, f64::min);
+        let deepest = b.iter().map(|p| outward.dot(&(p - from))).fold(f64::INFINITY, f64::min);
         depth = depth.min(-deepest);
         if depth <= 0.0 {
             return depth;

@@ -133,22 +133,12 @@ impl Polygon {
     /// Returns the smallest axis-parallel rectangle around the outline.
     pub fn bounds(&self) -> Bounds {
         let first = self.rings[0][0];
-        self.rings[0].iter().fold(
-            Bounds {
-                min: first,
-                max: first,
-            },
-            |b, p| b.union(Bounds { min: *p, max: *p }),
-        )
+        self.rings[0].iter().fold(Bounds { min: first, max: first }, |b, p| b.union(Bounds { min: *p, max: *p }))
     }
 
     /// True if a point lies inside the outline and outside all holes. A point exactly on a side may give either result.
     pub fn contains(&self, point: Point) -> bool {
-        self.rings
-            .iter()
-            .filter(|ring| ring_contains(ring, point))
-            .count()
-            == 1
+        self.rings.iter().filter(|ring| ring_contains(ring, point)).count() == 1
     }
 
     /// Returns the distance of a point from the polygon in metres; 0 for a point inside.
@@ -165,11 +155,7 @@ impl Polygon {
         let ring = &self.rings[0];
         self.rings.len() == 1
             && (0..ring.len()).all(|i| {
-                let (a, b, c) = (
-                    ring[i],
-                    ring[(i + 1) % ring.len()],
-                    ring[(i + 2) % ring.len()],
-                );
+                let (a, b, c) = (ring[i], ring[(i + 1) % ring.len()], ring[(i + 2) % ring.len()]);
                 orientation(a, b, c) >= 0.0
             })
     }
@@ -216,10 +202,7 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
     for (ring, points) in rings.iter_mut().enumerate() {
         checked.dropped.drop_repeated(points, ring);
         if points.len() < 3 {
-            errors.push(PolygonError::TooFewCorners {
-                ring,
-                corners: points.len(),
-            });
+            errors.push(PolygonError::TooFewCorners { ring, corners: points.len() });
             continue;
         }
         let area = signed_area(points);
@@ -235,11 +218,7 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
             }
         }
     }
-    if errors.is_empty() {
-        Ok(checked)
-    } else {
-        Err(errors)
-    }
+    if errors.is_empty() { Ok(checked) } else { Err(errors) }
 }
 
 /// Returns an error for each pair of sides that [`crossings`] finds: pairs that cross or touch. If there is no such
@@ -248,23 +227,14 @@ fn check_rings(rings: &mut [Vec<Point>]) -> Result<CheckedRings, Vec<PolygonErro
 /// If two sides cross, the areas of the two loops can cancel. Then only the crossing is reported, not the zero area.
 fn check_crossings(rings: &[Vec<Point>], checked: CheckedRings) -> Result<(), Vec<PolygonError>> {
     let error = |crossing: Crossing| {
-        let listed =
-            |side: usize| (checked.dropped).listed(crossing.rings[side], crossing.corners[side]);
-        PolygonError::Crossing {
-            rings: crossing.rings,
-            corners: [listed(0), listed(1)],
-            at: crossing.at,
-        }
+        let listed = |side: usize| (checked.dropped).listed(crossing.rings[side], crossing.corners[side]);
+        PolygonError::Crossing { rings: crossing.rings, corners: [listed(0), listed(1)], at: crossing.at }
     };
     let mut errors: Vec<PolygonError> = crossings(rings).into_iter().map(error).collect();
     if errors.is_empty() {
         errors = checked.without_area;
     }
-    if errors.is_empty() {
-        Ok(())
-    } else {
-        Err(errors)
-    }
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
 /// Returns an error for each hole outside the outline or inside another hole. The rings do not cross, so it is enough
@@ -278,11 +248,7 @@ fn check_holes(rings: &[Vec<Point>]) -> Result<(), Vec<PolygonError>> {
             errors.push(PolygonError::HoleOutside { ring });
         }
     }
-    if errors.is_empty() {
-        Ok(())
-    } else {
-        Err(errors)
-    }
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
 /// The repeated corners that were dropped, each as (ring, index in the caller's list), in ascending order.
@@ -320,10 +286,7 @@ impl DroppedCorners {
 /// Returns the area of a ring in square metres by the shoelace formula, positive if the ring runs anticlockwise.
 fn signed_area(ring: &[Point]) -> f64 {
     let base = ring[0];
-    ring_edges(ring)
-        .map(|e| cross(e.from - base, e.to - base))
-        .sum::<f64>()
-        / 2.0
+    ring_edges(ring).map(|e| cross(e.from - base, e.to - base)).sum::<f64>() / 2.0
 }
 
 /// True if a point lies inside a ring: a ray from the point to the right crosses the ring an odd number of times.

@@ -60,27 +60,17 @@ impl Tolerance {
     /// Returns this tolerance, adapted to coordinates with errors of up to `rounding` metres. Only the shortest contact
     /// length changes.
     pub fn with_rounding(self, rounding: f64) -> Tolerance {
-        Tolerance {
-            rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length),
-            ..self
-        }
+        Tolerance { rounding: (Self::LENGTH_PER_GAP * rounding).min(self.min_length), ..self }
     }
 
     /// Returns the length, in metres, by which two edges must overlap to form an interface. `edge` is the length of the
     /// shorter edge, in metres.
     pub fn min_contact_length(&self, edge: f64) -> f64 {
-        self.min_length
-            .min(Self::LENGTH_PER_EDGE * edge)
-            .max(self.rounding)
+        self.min_length.min(Self::LENGTH_PER_EDGE * edge).max(self.rounding)
     }
 
     /// Exact comparison, for scenes on a lattice.
-    pub const EXACT: Tolerance = Tolerance {
-        gap: 0.0,
-        min_length: 0.0,
-        rounding: 0.0,
-        angle: 0.0,
-    };
+    pub const EXACT: Tolerance = Tolerance { gap: 0.0, min_length: 0.0, rounding: 0.0, angle: 0.0 };
 }
 
 #[cfg(test)]
@@ -109,15 +99,9 @@ mod tests {
         assert_eq!((known.gap, known.angle), (written.gap, written.angle));
         assert!(close(known.min_contact_length(3.0), 0.001), "a long edge");
         assert!(close(known.min_contact_length(0.1), 1e-4), "a short edge");
-        assert!(
-            close(known.min_contact_length(1e-3), 5e-6),
-            "the rounding of coordinates"
-        );
+        assert!(close(known.min_contact_length(1e-3), 5e-6), "the rounding of coordinates");
         // A large rounding error does not raise the minimum above a quarter of the gap.
-        assert!(close(
-            written.with_rounding(1.0).min_contact_length(3.0),
-            0.001
-        ));
+        assert!(close(written.with_rounding(1.0).min_contact_length(3.0), 0.001));
         assert_eq!(Tolerance::EXACT.min_contact_length(1.0), 0.0);
     }
 }

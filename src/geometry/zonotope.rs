@@ -102,10 +102,7 @@ pub fn zonotope_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
             *sum += v * part / determinant;
         }
     }
-    let max = generators
-        .iter()
-        .map(|g| dot(g.map(|v| v / longest), y).abs())
-        .fold(0.0, f64::max);
+    let max = generators.iter().map(|g| dot(g.map(|v| v / longest), y).abs()).fold(0.0, f64::max);
     // The factor covers the loss of digits in the division by a small determinant.
     Some(max * (1.0 + 1e-5))
 }
@@ -133,11 +130,7 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
     }
     // The scaled Gram matrix has ones on its diagonal and p, q, r off the diagonal.
     let [a, b, c] = squares.map(f64::sqrt);
-    let [p, q, r] = [
-        products[0] / (b * c),
-        products[1] / (c * a),
-        products[2] / (a * b),
-    ];
+    let [p, q, r] = [products[0] / (b * c), products[1] / (c * a), products[2] / (a * b)];
     let determinant = 1.0 + 2.0 * p * q * r - p * p - q * q - r * r;
     // The determinant lies between 0 and 1. If it is below 10⁻³, the generators are so close to a plane that rounding
     // matters.
@@ -151,17 +144,13 @@ pub fn quick_gauge_bound(generators: &[Vec3], point: Vec3) -> Option<f64> {
         ((p * q - r) * x + (1.0 - q * q) * y + (q * r - p) * z) / (determinant * b),
         ((r * p - q) * x + (q * r - p) * y + (1.0 - r * r) * z) / (determinant * c),
     ];
-    let max = generators
-        .iter()
-        .map(|g| dot(*g, solution).abs())
-        .fold(0.0, f64::max);
+    let max = generators.iter().map(|g| dot(*g, solution).abs()).fold(0.0, f64::max);
     // `zonotope_gauge` subtracts rounding from each width of the zonotope. No width is less than the square root of the
     // Gram matrix's smallest eigenvalue. With ones on the diagonal, this eigenvalue is at least 4/9 of the determinant.
     let min_width = (determinant * 4.0 / 9.0).sqrt() * a.min(b).min(c);
     let rounding = 2.0 * ROUNDING_TOL * lengths / min_width;
     let bound = max * (1.0 + 1e-4 + 2.0 * rounding) + ROUNDING_TOL * norm(point) / min_width;
-    let is_reliable =
-        rounding < 0.25 && solution.iter().all(|v| v.is_finite()) && bound.is_finite();
+    let is_reliable = rounding < 0.25 && solution.iter().all(|v| v.is_finite()) && bound.is_finite();
     is_reliable.then_some(bound)
 }
 
@@ -234,11 +223,7 @@ fn ratio(generators: &[Vec3], point: Vec3, normal: Vec3, rounding: Rounding) -> 
     }
     let width: f64 = generators.iter().map(|g| dot(normal, *g).abs()).sum();
     let certain_width = width - rounding.width;
-    if certain_width > 0.0 {
-        distance / certain_width
-    } else {
-        f64::INFINITY
-    }
+    if certain_width > 0.0 { distance / certain_width } else { f64::INFINITY }
 }
 
 /// Returns at most [`MAX_GENERATORS`] generators. Their zonotope lies within the zonotope of the generators passed in.
@@ -250,11 +235,7 @@ fn reduce(generators: impl ExactSizeIterator<Item = Vec3>) -> Vec<Vec3> {
     // ones.
     let use_cells = generators.len() > MAX_PAIRED_GENERATORS;
     let mut reduced: Vec<Vec3> = Vec::with_capacity(generators.len().min(MAX_PAIRED_GENERATORS));
-    let cells = if use_cells {
-        3 * CELLS_PER_SIDE * CELLS_PER_SIDE
-    } else {
-        0
-    };
+    let cells = if use_cells { 3 * CELLS_PER_SIDE * CELLS_PER_SIDE } else { 0 };
     let mut cell_sums: Vec<Vec3> = vec![[0.0; 3]; cells];
     for g in generators.filter(|g| norm(*g) > 0.0) {
         if use_cells {
@@ -297,9 +278,7 @@ const CELLS_PER_SIDE: usize = 6;
 /// Returns the index of the cell, on a face of a cube, to which the vector `g` points. Opposite faces share their
 /// cells, so opposite vectors belong to the same cell.
 fn direction_cell(g: Vec3) -> usize {
-    let axis = (0..3)
-        .max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs()))
-        .unwrap_or(0);
+    let axis = (0..3).max_by(|i, j| g[*i].abs().total_cmp(&g[*j].abs())).unwrap_or(0);
     let place = |k: usize| {
         let share = 0.5 * (g[(axis + k) % 3] / g[axis] + 1.0);
         ((share * CELLS_PER_SIDE as f64) as usize).min(CELLS_PER_SIDE - 1)
@@ -318,11 +297,7 @@ fn dot(a: Vec3, b: Vec3) -> f64 {
 }
 
 fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn norm(a: Vec3) -> f64 {

@@ -21,9 +21,7 @@ pub const HIDDEN: char = '\u{fffd}';
 /// assert_eq!(hash(b"a"), 0xaf63_dc4c_8601_ec8c);
 /// ```
 pub fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// Returns the text on one line. Line breaks and tabs become spaces. Other control characters, and characters that
@@ -47,11 +45,7 @@ pub fn heading(text: &str, max_chars: usize) -> String {
     if words.chars().count() <= max_chars {
         return words;
     }
-    words
-        .chars()
-        .take(max_chars.saturating_sub(1))
-        .chain(['…'])
-        .collect()
+    words.chars().take(max_chars.saturating_sub(1)).chain(['…']).collect()
 }
 
 /// Returns a space for a line break or tab, [`HIDDEN`] for another control character or a character that changes the
@@ -133,9 +127,7 @@ fn backslash_escaped(text: &str, is_special: impl Fn(usize, char) -> bool) -> St
 /// Quotes text for a cell of a CSV file. An apostrophe is added if a spreadsheet would read the text as a formula.
 pub fn csv(text: &str) -> String {
     let line = line(text);
-    let is_formula = line
-        .trim_start()
-        .starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
+    let is_formula = line.trim_start().starts_with(['=', '+', '-', '@', '＝', '＋', '－', '＠']);
     let mark = if is_formula { "'" } else { "" };
     format!("\"{mark}{}\"", line.replace('"', "\"\""))
 }
@@ -209,10 +201,7 @@ mod tests {
     #[test]
     fn a_line_keeps_its_length_but_no_control_characters() {
         let hostile = "a\u{1b}[31m\tb\r\n\u{9b}c\u{202e}d\u{2028}e\u{0}";
-        assert_eq!(
-            line(hostile),
-            "a\u{fffd}[31m b  \u{fffd}c\u{fffd}d e\u{fffd}"
-        );
+        assert_eq!(line(hostile), "a\u{fffd}[31m b  \u{fffd}c\u{fffd}d e\u{fffd}");
         assert_eq!(line("עברית‏ ü 石"), "עברית‏ ü 石", "other scripts stay");
         assert_eq!(heading("a \n\n   b", 9), "a b");
         assert_eq!(heading("abcdef", 4), "abc…");
@@ -220,10 +209,7 @@ mod tests {
 
     #[test]
     fn xml_escapes_markup_and_drops_forbidden_code_points() {
-        assert_eq!(
-            xml("<a b='\"'>&\u{fffe}\u{1ffff}\n"),
-            "&lt;a b=&#39;&quot;&#39;&gt;&amp; "
-        );
+        assert_eq!(xml("<a b='\"'>&\u{fffe}\u{1ffff}\n"), "&lt;a b=&#39;&quot;&#39;&gt;&amp; ");
     }
 
     #[test]

@@ -80,9 +80,7 @@ impl Rows {
             let (mut left, mut least) = (i + 1, i + 1);
             for (j, y) in b.iter().enumerate() {
                 let change = usize::from(x != y);
-                let mut here = (self.last[j + 1] + 1)
-                    .min(left + 1)
-                    .min(self.last[j] + change);
+                let mut here = (self.last[j + 1] + 1).min(left + 1).min(self.last[j] + change);
                 if i > 0 && j > 0 && *x == b[j - 1] && a[i - 1] == *y {
                     here = here.min(self.before[j - 1] + 1);
                 }
@@ -119,11 +117,7 @@ mod tests {
         ] {
             assert_eq!(nearest(typed, keys), meant, "{typed}");
         }
-        assert_eq!(
-            nearest("b", ["a", "c"]),
-            None,
-            "one letter is not like another"
-        );
+        assert_eq!(nearest("b", ["a", "c"]), None, "one letter is not like another");
     }
 
     /// The edit distance of two names from the complete table, as in the definition.
@@ -134,9 +128,7 @@ mod tests {
                 let mut least = if i == 0 || j == 0 { i + j } else { usize::MAX };
                 if i > 0 && j > 0 {
                     let change = usize::from(a[i - 1] != b[j - 1]);
-                    least = (table[i - 1][j] + 1)
-                        .min(table[i][j - 1] + 1)
-                        .min(table[i - 1][j - 1] + change);
+                    least = (table[i - 1][j] + 1).min(table[i][j - 1] + 1).min(table[i - 1][j - 1] + change);
                 }
                 if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                     least = least.min(table[i - 2][j - 2] + 1);

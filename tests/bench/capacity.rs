@@ -4,10 +4,7 @@
 //! `cargo bench --bench capacity` prints the medians. The goal for a block of an arch of 100 blocks is at most the
 //! time of 20 checks.
 
-#![allow(
-    clippy::print_stdout,
-    reason = "a benchmark reports on standard output"
-)]
+#![allow(clippy::print_stdout, reason = "a benchmark reports on standard output")]
 
 use std::time::Instant;
 
@@ -22,19 +19,12 @@ fn main() {
     println!("| structure | one check, ms | capacity of a block, ms | checks | corners |");
     println!("|---|---|---|---|---|");
     for blocks in [11, 25, 51, 99] {
-        let arch = Arch {
-            voussoirs: blocks,
-            ..Arch::default()
-        };
+        let arch = Arch { voussoirs: blocks, ..Arch::default() };
         let scene = Scene::new(arch.scene()).expect("sound");
         measure(&format!("arch {blocks}"), &scene, blocks / 2);
     }
     for (courses, bricks) in [(6, 5), (10, 10)] {
-        let wall = Wall {
-            courses,
-            bricks,
-            ..Wall::default()
-        };
+        let wall = Wall { courses, bricks, ..Wall::default() };
         let scene = Scene::new(wall.scene()).expect("sound");
         let count = scene.blocks().len();
         measure(&format!("wall {count}"), &scene, count / 2);
@@ -48,9 +38,7 @@ fn measure(name: &str, scene: &Scene, block: usize) {
     let check = median(|| drop(Analysis::new(scene)));
     let mut corners = 0;
     let capacity = median(|| {
-        let found = analysis
-            .capacity(0, &request)
-            .expect("the capacity is found");
+        let found = analysis.capacity(0, &request).expect("the capacity is found");
         corners = found.vertices.len();
     });
     let times = capacity / check;

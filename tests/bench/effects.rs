@@ -22,11 +22,7 @@ use turn::Turns;
 use turn::structure::{scene, wall};
 
 /// The number of measurements of each wall.
-const TURNS: Turns = Turns {
-    least: 15,
-    most: 15,
-    seconds: 0.0,
-};
+const TURNS: Turns = Turns { least: 15, most: 15, seconds: 0.0 };
 
 fn main() {
     let plain = Options::default();
@@ -46,18 +42,10 @@ fn main() {
         ("+ robots", with(&[("robots", robots)]), plain),
         ("+ robot torque", with(&[("robots", with_torque)]), plain),
         ("+ loads", with(&[("loads", loads)]), plain),
-        (
-            "+ corner contacts",
-            with(&[("corner_contacts", json!(true))]),
-            plain,
-        ),
+        ("+ corner contacts", with(&[("corner_contacts", json!(true))]), plain),
         ("+ margins", smooth(), margins),
         ("+ wedging", smooth(), wedging),
-        (
-            "friction + margins",
-            with(&[("friction", json!(0.7))]),
-            margins,
-        ),
+        ("friction + margins", with(&[("friction", json!(0.7))]), margins),
         (
             "friction, falling: + sticking, mechanism",
             with(&[("friction", json!(0.7)), ("gravity", turned(40.0))]),
@@ -71,10 +59,7 @@ fn main() {
         }
     });
     let times = TURNS.medians(&work.collect::<Vec<_>>());
-    println!(
-        "| wall of {} bricks with | verdict | unknowns | ms | ratio |",
-        scenes[0].blocks().len()
-    );
+    println!("| wall of {} bricks with | verdict | unknowns | ms | ratio |", scenes[0].blocks().len());
     println!("|---|---|---|---|---|");
     for ((case, scene), time) in cases.iter().zip(&scenes).zip(&times) {
         let analysis = Analysis::with(scene, &case.2);

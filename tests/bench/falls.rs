@@ -29,20 +29,14 @@ use turn::Turns;
 use turn::structure::{arch, block, on_floor, rectangle, scene, wall};
 
 /// The number of measurements of a row, and the time after which no further round begins.
-const TURNS: Turns = Turns {
-    least: 1,
-    most: 7,
-    seconds: 3.0,
-};
+const TURNS: Turns = Turns { least: 1, most: 7, seconds: 3.0 };
 
 /// Angles by which gravity is rotated, degrees.
 const ANGLES: [f64; 4] = [26.0, 30.0, 40.0, 60.0];
 
 fn main() {
     let most: usize = std::env::var("BLOCKS").map_or(2_100, |text| text.parse().unwrap());
-    let filters = std::env::args()
-        .skip(1)
-        .filter(|argument| !argument.starts_with('-'));
+    let filters = std::env::args().skip(1).filter(|argument| !argument.starts_with('-'));
     let filters: Vec<String> = filters.collect();
     println!(
         "| structure | upright, ms | solver, ms | turned by | verdict | failures | programs | iterations | ms | ratio | verdict only, ms | ratio | solver, ms | says |"
@@ -64,11 +58,7 @@ fn print_row(name: &str, blocks: usize, file: &Value, angle: f64) {
     let [stands, falls] = [scene(file), scene(&turned(file, angle))];
     let verdict_only = Options::default().verdict_only(true);
     let upright = Analysis::new(&stands);
-    assert_eq!(
-        upright.verdict(),
-        Verdict::Stable,
-        "{name} {blocks} upright"
-    );
+    assert_eq!(upright.verdict(), Verdict::Stable, "{name} {blocks} upright");
     let hard = [program(&stands), program(&falls)].map(|program| hard(&program));
     let analysis = Analysis::new(&falls);
     let frame = &analysis.frames[0];
@@ -115,11 +105,7 @@ fn solve_alone(program: &QuadraticProgram) {
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext {
-        scene,
-        frame,
-        interfaces: &found.in_frame(scene, frame),
-    });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(scene, frame) });
     let component = assembly.components().remove(0);
     Program::new(&component, Scale::from_assembly(&component))
 }
@@ -161,15 +147,7 @@ fn structures() -> Vec<(String, usize, Value)> {
     for blocks in [11, 101, 1001, 2001, 10_001] {
         all.push(("arch".to_string(), blocks, arch(blocks, 0.3, 0.7)));
     }
-    for (columns, rows) in [
-        (3, 3),
-        (10, 10),
-        (20, 20),
-        (30, 30),
-        (45, 45),
-        (64, 64),
-        (100, 100),
-    ] {
+    for (columns, rows) in [(3, 3), (10, 10), (20, 20), (30, 30), (45, 45), (64, 64), (100, 100)] {
         let file = wall(columns, rows);
         let blocks = file["blocks"].as_array().unwrap().len();
         all.push(("wall".to_string(), blocks, file));

@@ -91,18 +91,13 @@ fn g_draw_as_svg(bencher: Bencher, case: Case) {
     let scene = scene(case);
     let analysis = Analysis::new(&scene);
     let options = figure::Options::default();
-    bencher
-        .bench_local(|| output::svg::write(&figure::forces(black_box(&analysis), &options)).len());
+    bencher.bench_local(|| output::svg::write(&figure::forces(black_box(&analysis), &options)).len());
 }
 
 fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
     let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
-    let (assembly, _) = assemble(&FrameContext {
-        scene,
-        frame,
-        interfaces: &interfaces,
-    });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &interfaces });
     let parts = assembly.components();
     (assembly, parts)
 }
@@ -115,18 +110,12 @@ fn programs(parts: &[Assembly]) -> Vec<Program> {
 /// The forces that an analysis found, in the form that a proof needs.
 fn forces(analysis: &Analysis) -> Forces {
     let frame = &analysis.frames[0];
-    let contacts = frame.contacts.iter().map(|contact| ContactForces {
-        normal: contact.normal_forces,
-        friction: contact.friction_force,
-    });
-    let grips = frame.robots.iter().map(|robot| GripForces {
-        force: robot.force,
-        torque: robot.torque,
-    });
-    Forces {
-        contacts: contacts.collect(),
-        grips: grips.collect(),
-    }
+    let contacts = frame
+        .contacts
+        .iter()
+        .map(|contact| ContactForces { normal: contact.normal_forces, friction: contact.friction_force });
+    let grips = frame.robots.iter().map(|robot| GripForces { force: robot.force, torque: robot.torque });
+    Forces { contacts: contacts.collect(), grips: grips.collect() }
 }
 
 fn scene(case: Case) -> Scene {
@@ -139,9 +128,7 @@ fn file(case: Case) -> SceneFile {
         Case("arch", blocks) => arch(blocks),
         Case(_, blocks) => towers(blocks),
     };
-    let floor = Scene::builder()
-        .ground(rectangle(-1e5, -1.0, 2e5, 1.0))
-        .contact_tolerance(1e-6);
+    let floor = Scene::builder().ground(rectangle(-1e5, -1.0, 2e5, 1.0)).contact_tolerance(1e-6);
     polygons.into_iter().fold(floor, SceneFile::block)
 }
 
@@ -167,11 +154,7 @@ fn arch(blocks: usize) -> Vec<Vec<Pair>> {
     let radius = blocks as f64 / 10.0;
     let at = |share: f64, k: usize| -> Pair {
         let angle = std::f64::consts::PI * k as f64 / blocks as f64;
-        let y = if k == 0 || k == blocks {
-            0.0
-        } else {
-            libm::sin(angle)
-        };
+        let y = if k == 0 || k == blocks { 0.0 } else { libm::sin(angle) };
         [-radius * share * libm::cos(angle), radius * share * y]
     };
     let stone = |k: usize| vec![at(0.9, k), at(0.9, k + 1), at(1.1, k + 1), at(1.1, k)];
@@ -179,22 +162,10 @@ fn arch(blocks: usize) -> Vec<Vec<Pair>> {
 }
 
 fn towers(blocks: usize) -> Vec<Vec<Pair>> {
-    let brick = |k: usize| {
-        rectangle(
-            2.0 * (k / 10) as f64 + 0.03 * (k % 10) as f64,
-            0.5 * (k % 10) as f64,
-            1.0,
-            0.5,
-        )
-    };
+    let brick = |k: usize| rectangle(2.0 * (k / 10) as f64 + 0.03 * (k % 10) as f64, 0.5 * (k % 10) as f64, 1.0, 0.5);
     (0..blocks).map(brick).collect()
 }
 
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Pair> {
-    vec![
-        [x, y],
-        [x + width, y],
-        [x + width, y + height],
-        [x, y + height],
-    ]
+    vec![[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
 }

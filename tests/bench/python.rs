@@ -5,10 +5,7 @@
 //! optimisation. The measurements of Rust and Python alternate. The time of a round is the median of its calls, and
 //! the table has the medians of the rounds, in microseconds.
 
-#![allow(
-    clippy::print_stdout,
-    reason = "a benchmark reports on standard output"
-)]
+#![allow(clippy::print_stdout, reason = "a benchmark reports on standard output")]
 
 use std::hint::black_box;
 use std::io::{BufRead, BufReader, Write};
@@ -58,10 +55,7 @@ fn main() {
     for (number, name) in names.iter().enumerate() {
         let of = |rounds: &[Vec<f64>]| median(rounds.iter().map(|round| round[number]).collect());
         let (rust, python) = (of(&rust), of(&package));
-        println!(
-            "| {name} | {rust:.1} | {python:.1} | {:.1} |",
-            python - rust
-        );
+        println!("| {name} | {rust:.1} | {python:.1} | {:.1} |", python - rust);
     }
 }
 
@@ -89,9 +83,7 @@ fn round() -> Vec<(&'static str, f64)> {
 
     let built = || {
         let scene = Scene::builder().friction(0.6).ground(FLOOR);
-        scene
-            .block(brick("a", 0.0, 0.0))
-            .block(brick("b", 1.0, 1.0))
+        scene.block(brick("a", 0.0, 0.0)).block(brick("b", 1.0, 1.0))
     };
     let file = built();
     let check = |file| Analysis::new(Scene::new(file).expect("sound"));
@@ -104,12 +96,7 @@ fn round() -> Vec<(&'static str, f64)> {
 
 const FLOOR: [[f64; 2]; 4] = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
 
-fn steps(
-    rows: &mut Vec<(&'static str, f64)>,
-    kind: &str,
-    session: &mut Session,
-    block: impl Fn() -> BlockEntry,
-) {
+fn steps(rows: &mut Vec<(&'static str, f64)>, kind: &str, session: &mut Session, block: impl Fn() -> BlockEntry) {
     let mut times: [Vec<f64>; 4] = Default::default();
     for _ in 0..CALLS {
         times[0].push(timed(|| session.place(block()).expect("free")));
@@ -118,18 +105,8 @@ fn steps(
         times[3].push(timed(|| session.remove("c").expect("placed")));
     }
     let names = match kind {
-        "cells" => [
-            "place, cells",
-            "hold, cells",
-            "release, cells",
-            "remove, cells",
-        ],
-        _ => [
-            "place, outlines",
-            "hold, outlines",
-            "release, outlines",
-            "remove, outlines",
-        ],
+        "cells" => ["place, cells", "hold, cells", "release, cells", "remove, cells"],
+        _ => ["place, outlines", "hold, outlines", "release, outlines", "remove, outlines"],
     };
     rows.extend(names.into_iter().zip(times.map(median)));
 }

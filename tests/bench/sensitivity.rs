@@ -16,11 +16,7 @@ use turn::Turns;
 use turn::structure::{arch, scene};
 
 /// The number of measurements of each case.
-const TURNS: Turns = Turns {
-    least: 5,
-    most: 15,
-    seconds: 20.0,
-};
+const TURNS: Turns = Turns { least: 5, most: 15, seconds: 20.0 };
 
 fn main() {
     let mut file = arch(100, 0.2, 0.7);
@@ -33,10 +29,7 @@ fn main() {
         ("a check", plain),
         ("with the load factor", one),
         ("with all margins", plain.margins(true)),
-        (
-            "with the load factor and its derivatives",
-            plain.sensitivity(kind),
-        ),
+        ("with the load factor and its derivatives", plain.sensitivity(kind)),
     ];
     let work = cases.map(|(_, options)| {
         let scene = &scene;
@@ -52,8 +45,5 @@ fn main() {
         println!("| {name} | {time:.1} | {:.2} |", time / whole);
     }
     let derivatives = times[3] - times[1];
-    println!(
-        "| the derivatives alone | {derivatives:.1} | {:.2} |",
-        derivatives / whole
-    );
+    println!("| the derivatives alone | {derivatives:.1} | {:.2} |", derivatives / whole);
 }

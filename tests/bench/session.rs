@@ -4,17 +4,12 @@
 //! "From scratch" means that a scene of the same blocks is built in memory and analysed, without a warm start.
 //! `BLOCKS=20 cargo bench --bench session` uses only walls of 20 blocks.
 
-#![allow(
-    clippy::print_stdout,
-    reason = "a benchmark reports on standard output"
-)]
+#![allow(clippy::print_stdout, reason = "a benchmark reports on standard output")]
 
 use std::time::Instant;
 
 use drystone::analysis::{Options, Source, Verdict, verdicts};
-use drystone::scene::format::{
-    BlockEntry, CellEntry, GridKind, GroundEntry, RobotEntry, SceneFile,
-};
+use drystone::scene::format::{BlockEntry, CellEntry, GridKind, GroundEntry, RobotEntry, SceneFile};
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 
@@ -86,40 +81,26 @@ fn lay(blocks: usize, steps: &mut Steps) {
     let mut session = Session::new(empty(blocks)).expect("sound");
     for k in 0..blocks {
         let brick = brick(k, blocks);
-        let verdict = steps.take("place a brick", &mut session, |s| {
-            s.place(brick).expect("free")
-        });
+        let verdict = steps.take("place a brick", &mut session, |s| s.place(brick).expect("free"));
         assert_eq!(verdict, Verdict::Stable);
     }
     let top = blocks.to_string();
-    let verdict = steps.take("hold the last brick", &mut session, |s| {
-        s.hold("r0", &top, None).expect("there")
-    });
+    let verdict = steps.take("hold the last brick", &mut session, |s| s.hold("r0", &top, None).expect("there"));
     assert_eq!(verdict, Verdict::Stable);
-    let verdict = steps.take("release it", &mut session, |s| {
-        s.release("r0").expect("held")
-    });
+    let verdict = steps.take("release it", &mut session, |s| s.release("r0").expect("held"));
     assert_eq!(verdict, Verdict::Stable);
     let in_the_air = || cells(-40, 3);
-    let verdict = steps.take("place a brick in the air", &mut session, |s| {
-        s.place(in_the_air()).expect("free")
-    });
+    let verdict = steps.take("place a brick in the air", &mut session, |s| s.place(in_the_air()).expect("free"));
     assert_eq!(verdict, Verdict::Unstable);
     for k in 0..3 {
         let more = cells(-30 + 4 * k, 0);
-        let verdict = steps.take("place another while it falls", &mut session, |s| {
-            s.place(more).expect("free")
-        });
+        let verdict = steps.take("place another while it falls", &mut session, |s| s.place(more).expect("free"));
         assert_eq!(verdict, Verdict::Unstable);
     }
     let name = (blocks + 1).to_string();
-    let verdict = steps.take("remove the falling brick", &mut session, |s| {
-        s.remove(&name).expect("there")
-    });
+    let verdict = steps.take("remove the falling brick", &mut session, |s| s.remove(&name).expect("there"));
     assert_eq!(verdict, Verdict::Stable);
-    let verdict = steps.take("remove the last brick", &mut session, |s| {
-        s.remove(&top).expect("there")
-    });
+    let verdict = steps.take("remove the last brick", &mut session, |s| s.remove(&top).expect("there"));
     assert_eq!(verdict, Verdict::Stable);
 }
 

@@ -17,22 +17,15 @@ use std::hint::black_box;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, QuadraticProgram, Scale, adhesion_columns, columns, kinematic_dual,
-    least_residual_dual,
+    Column, Program, QuadraticProgram, Scale, adhesion_columns, columns, kinematic_dual, least_residual_dual,
 };
-use drystone::internals::solve::{
-    Conditioning, MAX_ITERATIONS, SolverSettings, Status, by_clarabel, solve_within,
-};
+use drystone::internals::solve::{Conditioning, MAX_ITERATIONS, SolverSettings, Status, by_clarabel, solve_within};
 use serde_json::{Value, json};
 
 use turn::Turns;
 use turn::structure::{scene, wall};
 
-const TURNS: Turns = Turns {
-    least: 1,
-    most: 5,
-    seconds: 5.0,
-};
+const TURNS: Turns = Turns { least: 1, most: 5, seconds: 5.0 };
 
 fn main() {
     let most: usize = std::env::var("BLOCKS").map_or(2_100, |text| text.parse().unwrap());
@@ -56,23 +49,10 @@ fn main() {
 
 fn print_row(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
     let settings = SolverSettings::from(Conditioning::Plain);
-    let [ours, theirs] =
-        [solve_within, by_clarabel].map(|solver| solver(problem, settings, MAX_ITERATIONS));
+    let [ours, theirs] = [solve_within, by_clarabel].map(|solver| solver(problem, settings, MAX_ITERATIONS));
     let times = TURNS.medians::<&dyn Fn()>(&[
-        &|| {
-            drop(black_box(solve_within(
-                black_box(problem),
-                settings,
-                MAX_ITERATIONS,
-            )))
-        },
-        &|| {
-            drop(black_box(by_clarabel(
-                black_box(problem),
-                settings,
-                MAX_ITERATIONS,
-            )))
-        },
+        &|| drop(black_box(solve_within(black_box(problem), settings, MAX_ITERATIONS))),
+        &|| drop(black_box(by_clarabel(black_box(problem), settings, MAX_ITERATIONS))),
     ]);
     println!(
         "| {blocks} | {angle}° | {name} | {} | {} | {} | {:.0} | {} | {} | {:.0} | {:.1} |",
@@ -104,15 +84,9 @@ fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     let with_adhesion: Vec<Column> = [all.clone(), adhesion_columns(program)].concat();
     let sticks = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     [
-        (
-            "least force",
-            kinematic_dual(&program.loads, &all, |c| c.cost).0,
-        ),
+        ("least force", kinematic_dual(&program.loads, &all, |c| c.cost).0),
         ("least residual", least_residual_dual(&loads, &all).0),
-        (
-            "least sticking",
-            kinematic_dual(&loads, &with_adhesion, sticks).0,
-        ),
+        ("least sticking", kinematic_dual(&loads, &with_adhesion, sticks).0),
     ]
 }
 
@@ -124,10 +98,6 @@ fn program(file: &Value, degrees: f64) -> Program {
     let scene = scene(&file);
     let found = Interfaces::new(&scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext {
-        scene: &scene,
-        frame,
-        interfaces: &found.in_frame(&scene, frame),
-    });
+    let (assembly, _) = assemble(&FrameContext { scene: &scene, frame, interfaces: &found.in_frame(&scene, frame) });
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }

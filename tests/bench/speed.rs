@@ -44,13 +44,7 @@ fn our_program(bencher: Bencher, blocks: usize) {
 #[divan::bench(args = WALLS)]
 fn the_sources_soft_program(bencher: Bencher, blocks: usize) {
     let program = program(&wall(blocks));
-    bencher.bench_local(|| {
-        solve(
-            &vallat_program(black_box(&program), BETA),
-            TOLERANCE,
-            Conditioning::Full,
-        )
-    });
+    bencher.bench_local(|| solve(&vallat_program(black_box(&program), BETA), TOLERANCE, Conditioning::Full));
 }
 
 #[divan::bench(args = [10, 100, 1000, 10_050])]
@@ -63,12 +57,7 @@ fn read_a_file(bencher: Bencher, blocks: usize) {
 fn figure_4_as_svg(bencher: Bencher) {
     let scene = Scene::from_json(FIGURE_4).expect("sound");
     let analysis = Analysis::new(&scene);
-    bencher.bench_local(|| {
-        output::svg::write(&figure::forces(
-            black_box(&analysis),
-            &figure::Options::default(),
-        ))
-    });
+    bencher.bench_local(|| output::svg::write(&figure::forces(black_box(&analysis), &figure::Options::default())));
 }
 
 #[divan::bench]
@@ -88,12 +77,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
     fs::write(&scene, FIGURE_4).expect("writable");
     bencher.bench_local(|| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
-        command
-            .arg("--quiet")
-            .arg("render")
-            .arg(&scene)
-            .arg("-o")
-            .arg(&picture);
+        command.arg("--quiet").arg("render").arg(&scene).arg("-o").arg(&picture);
         assert!(command.status().expect("starts").success());
     });
 }
@@ -103,11 +87,7 @@ fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
     let interfaces = found.in_frame(scene, frame);
-    let (assembly, _) = assemble(&FrameContext {
-        scene,
-        frame,
-        interfaces: &interfaces,
-    });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &interfaces });
     let components = assembly.components();
     assert_eq!(components.len(), 1, "a wall is one component");
     Program::new(&components[0], Scale::from_assembly(&components[0]))
@@ -127,12 +107,6 @@ fn wall_file(blocks: usize) -> SceneFile {
         1000 => (16, 62),
         _ => (100, 100),
     };
-    let wall = Wall {
-        courses: rows,
-        bricks,
-        length: 2.0,
-        height: 1.0,
-        ..Wall::default()
-    };
+    let wall = Wall { courses: rows, bricks, length: 2.0, height: 1.0, ..Wall::default() };
     wall.scene()
 }

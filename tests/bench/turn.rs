@@ -1,11 +1,7 @@
 //! Alternating measurements, for the benchmarks that print a table. They alternate so that other load on the machine
 //! affects all values of a row in the same way. The values are medians.
 
-#![allow(
-    clippy::panic,
-    clippy::unwrap_used,
-    reason = "an invalid scene is a bug in the benchmark"
-)]
+#![allow(clippy::panic, clippy::unwrap_used, reason = "an invalid scene is a bug in the benchmark")]
 
 #[allow(dead_code, reason = "the tests use the other functions")]
 #[path = "../it/structure.rs"]

@@ -25,10 +25,7 @@ fn case(file: &Value) -> Case {
 
 fn near(found: Option<f64>, expected: f64) {
     let found = found.expect("certified");
-    assert!(
-        (found - expected).abs() <= 1e-14 * expected,
-        "{found:e} instead of {expected:e}"
-    );
+    assert!((found - expected).abs() <= 1e-14 * expected, "{found:e} instead of {expected:e}");
 }
 
 /// The scenes in `assets/study`, by name.
@@ -42,10 +39,7 @@ fn scenes() -> Vec<(&'static str, Value)> {
     robot["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "force": 8.0 } }]);
     let mountain = |x: f64| {
         let big = block("mountain", rectangle(0.0, 0.0, 2.0, 1.0), 6e8);
-        on_floor(
-            0.5,
-            vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)],
-        )
+        on_floor(0.5, vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)])
     };
     let slope = on_slope(30.0, 4.0, 0.5, libm::tan(30f64.to_radians()), 0.0);
     vec![
@@ -127,14 +121,8 @@ fn the_reference_agrees_with_sums_by_hand() {
 
 #[test]
 fn every_scene_of_the_study_has_a_certified_truth_as_its_name_says() {
-    for (name, file) in scenes()
-        .into_iter()
-        .filter(|s| !s.0.contains("181") && !s.0.contains("00"))
-    {
-        let truth = study(&[scene(&file)], &[], &mut |_| {})
-            .cases
-            .remove(0)
-            .truth;
+    for (name, file) in scenes().into_iter().filter(|s| !s.0.contains("181") && !s.0.contains("00")) {
+        let truth = study(&[scene(&file)], &[], &mut |_| {}).cases.remove(0).truth;
         // Friction exactly at tan θ: the last bit of a rounded tangent decides, and this cannot be certified.
         if name == "slope-exact" {
             continue;
@@ -158,19 +146,14 @@ fn a_penalty_smaller_than_the_thrust_is_flagged() {
     for run in &case.runs {
         match run.method {
             Method::Source(6) => {
-                assert_eq!(
-                    (run.mark, run.outcome.verdict),
-                    (Mark::Wrong, Verdict::Unstable)
-                );
+                assert_eq!((run.mark, run.outcome.verdict), (Mark::Wrong, Verdict::Unstable));
             }
             Method::Level(_) | Method::Unique => assert_eq!(run.mark, Mark::Right, "{run:?}"),
             _ => {}
         }
     }
     let study = Study { cases: vec![case] };
-    let wrong = summary(&study)
-        .into_iter()
-        .find(|l| l.method == Method::Source(6));
+    let wrong = summary(&study).into_iter().find(|l| l.method == Method::Source(6));
     assert_eq!(wrong.map(|l| l.wrong), Some(1));
     let picture = svg(&study).expect("drawn");
     assert!(picture.contains("wrong verdicts") && picture.to_uppercase().contains("#D7141E"));
@@ -190,10 +173,7 @@ fn every_output_format_lists_all_runs_and_escapes_names() {
     assert_eq!(study.cases[0].runs.len(), runs);
     assert_eq!(csv(&study).lines().count(), 1 + runs);
     let parsed: Value = serde_json::from_str(&accuracy_json(&study)).expect("JSON");
-    assert_eq!(
-        parsed["frames"][0]["runs"].as_array().map(Vec::len),
-        Some(runs)
-    );
+    assert_eq!(parsed["frames"][0]["runs"].as_array().map(Vec::len), Some(runs));
     assert_eq!(parsed["frames"][0]["verdict"], "stable");
     let page = page(&study).expect("drawn");
     assert!(page.contains("&lt;b&gt;") && !page.contains("<b> "));
@@ -210,10 +190,7 @@ fn the_same_study_is_the_same_picture() {
     let first = svg(&study).expect("drawn");
     assert_eq!(first, svg(&study).expect("drawn"));
     assert!(first.contains("viewBox") && first.contains("10⁻") && first.contains("Inter"));
-    assert_eq!(
-        page(&study).expect("drawn"),
-        page(&study.clone()).expect("drawn")
-    );
+    assert_eq!(page(&study).expect("drawn"), page(&study.clone()).expect("drawn"));
 }
 
 fn at(file: &Value, accuracy: Accuracy) -> (Verdict, Proof, String) {
@@ -234,13 +211,8 @@ fn proved_answers_only_with_a_better_proof() {
         let (found, proof, doubt) = at(&file, Accuracy::Proved);
         assert_eq!(found, expected, "{proof:?} {doubt}");
         match proof {
-            Proof::Forces {
-                worst_imbalance, ..
-            } => assert!(worst_imbalance <= 1e-9),
-            Proof::Mechanism {
-                power,
-                worst_violation,
-            } => assert!(power >= 1e10 * worst_violation),
+            Proof::Forces { worst_imbalance, .. } => assert!(worst_imbalance <= 1e-9),
+            Proof::Mechanism { power, worst_violation } => assert!(power >= 1e10 * worst_violation),
         }
     }
     // The tolerance lets the load and the forces that carry it be moved by a billionth of the block's radius, √5/4 m:

@@ -23,9 +23,7 @@ fn scenes(folder: &TempDir) -> Vec<Value> {
     std::fs::create_dir(folder.path().join("in")).expect("made");
     let files = (0..).map(|number| random::scene(7_000 + number).1);
     let sound = files.filter(|file| Scene::from_json(&file.to_string()).is_ok());
-    let files: Vec<Value> = sound
-        .take(number_of("DRYSTONE_AGREEMENT", SCENES) as usize)
-        .collect();
+    let files: Vec<Value> = sound.take(number_of("DRYSTONE_AGREEMENT", SCENES) as usize).collect();
     for (number, file) in files.iter().enumerate() {
         let path = folder.path().join(format!("in/{number:04}.json"));
         std::fs::write(path, file.to_string()).expect("writable");
@@ -36,24 +34,14 @@ fn scenes(folder: &TempDir) -> Vec<Value> {
 /// The output of a command.
 fn run(folder: &TempDir, line: &str) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
-    command
-        .args(line.split_whitespace())
-        .current_dir(folder.path());
+    command.args(line.split_whitespace()).current_dir(folder.path());
     let output = command.output().expect("starts");
-    assert!(
-        output
-            .status
-            .code()
-            .is_some_and(|code| code != 2 && code != 4),
-        "{line}"
-    );
+    assert!(output.status.code().is_some_and(|code| code != 2 && code != 4), "{line}");
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
 fn lines(text: &str) -> Vec<Value> {
-    text.lines()
-        .map(|line| serde_json::from_str(line).expect("JSON"))
-        .collect()
+    text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
 }
 
 #[test]
@@ -70,10 +58,7 @@ fn all_ways_to_get_a_result_agree() {
     for (number, file) in files.iter().enumerate() {
         let (check, mut line) = (&checked[number], batch[number].clone());
         let keys = line.as_object_mut().expect("an object");
-        assert_eq!(
-            keys.remove("verdict"),
-            Some(check["frames"][0]["verdict"].clone())
-        );
+        assert_eq!(keys.remove("verdict"), Some(check["frames"][0]["verdict"].clone()));
         assert_eq!(&line, check, "scene {number}");
 
         let scene: SceneFile = serde_json::from_value(file.clone()).expect("a scene file");
@@ -84,14 +69,9 @@ fn all_ways_to_get_a_result_agree() {
         let written: Value = serde_json::from_str(&written).expect("JSON");
         assert_eq!(written["frames"], check["frames"], "scene {number}");
         let margins = session.margins(MarginKinds::ALL).expect("one frame");
-        let margins: Value =
-            serde_json::from_str(&margins_json(session.scene(), &margins)).expect("JSON");
+        let margins: Value = serde_json::from_str(&margins_json(session.scene(), &margins)).expect("JSON");
         assert_eq!(margins, check["frames"][0]["margins"], "scene {number}");
-        assert_eq!(
-            session.verdict().word(),
-            check["frames"][0]["verdict"],
-            "scene {number}"
-        );
+        assert_eq!(session.verdict().word(), check["frames"][0]["verdict"], "scene {number}");
 
         let analysis = Analysis::new(Scene::from_json(&file.to_string()).expect("sound"));
         assert_facts(&Facts::new(&analysis, DIGITS).text(), &check["frames"][0]);
@@ -108,9 +88,7 @@ fn all_ways_to_get_a_result_agree() {
 /// The value of a number as written in facts, and half a unit of its last digit.
 fn written(word: &str) -> (f64, f64) {
     let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
-    let decimals = mantissa
-        .split_once('.')
-        .map_or(0, |(_, part)| part.len() as i32);
+    let decimals = mantissa.split_once('.').map_or(0, |(_, part)| part.len() as i32);
     let exponent: i32 = exponent.parse().expect("a power of ten");
     let value: f64 = word.parse().unwrap_or_else(|_| panic!("a number: {word}"));
     (value, 0.5 * libm::pow(10.0, f64::from(exponent - decimals)))
@@ -125,9 +103,7 @@ fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
         (first.is_ascii_digit() || first == '-').then_some(rest)
     });
     let part = part.unwrap_or_else(|| panic!("{name}: {line}"));
-    let numbers = part
-        .split(' ')
-        .take_while(|word| word.parse::<f64>().is_ok());
+    let numbers = part.split(' ').take_while(|word| word.parse::<f64>().is_ok());
     numbers.collect()
 }
 
@@ -137,10 +113,7 @@ fn assert_facts(text: &str, frame: &Value) {
     let near = |word: &str, exact: f64| {
         let (value, half) = written(word);
         // A value close to the middle of two roundings may be rounded either way.
-        assert!(
-            (value - exact).abs() <= 1.01 * half,
-            "{word} {exact}: {text}"
-        );
+        assert!((value - exact).abs() <= 1.01 * half, "{word} {exact}: {text}");
     };
     let number = |value: &Value| value.as_f64().expect("a number");
     let verdict = frame["verdict"].as_str().expect("a word");
@@ -148,10 +121,7 @@ fn assert_facts(text: &str, frame: &Value) {
         let lines = text.lines().map(str::trim);
         lines.filter(|line| line.starts_with(kind)).collect()
     };
-    assert!(
-        of_kind("frame 1")[0].ends_with(&format!(": {verdict}")),
-        "{text}"
-    );
+    assert!(of_kind("frame 1")[0].ends_with(&format!(": {verdict}")), "{text}");
     let sums = of_kind("sums")[0];
     near(values(sums, "weight")[0], number(&frame["weight"]));
     let interfaces = frame["interfaces"].as_array().expect("a list");
@@ -160,29 +130,17 @@ fn assert_facts(text: &str, frame: &Value) {
     if verdict == "undecided" {
         return;
     }
-    near(
-        values(sums, "total force")[0],
-        number(&frame["total_force"]),
-    );
-    near(
-        values(sums, "total sticking")[0],
-        number(&frame["total_sticking"]),
-    );
+    near(values(sums, "total force")[0], number(&frame["total_force"]));
+    near(values(sums, "total sticking")[0], number(&frame["total_sticking"]));
     for (line, interface) in listed.iter().zip(interfaces) {
         let normal = &interface["normal_forces"];
-        near(
-            values(line, "N")[0],
-            number(&normal[0]) + number(&normal[1]),
-        );
+        near(values(line, "N")[0], number(&normal[0]) + number(&normal[1]));
         near(values(line, "T")[0], number(&interface["friction_force"]));
         near(values(line, "μ")[0], number(&interface["mu"]));
     }
     let robots = frame["robots"].as_array().expect("a list");
     for (line, robot) in of_kind("robot").iter().zip(robots) {
-        for (word, exact) in values(line, "force")
-            .iter()
-            .zip(robot["force"].as_array().expect("x, y"))
-        {
+        for (word, exact) in values(line, "force").iter().zip(robot["force"].as_array().expect("x, y")) {
             near(word, number(exact));
         }
         near(values(line, "torque")[0], number(&robot["torque"]));

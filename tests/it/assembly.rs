@@ -52,11 +52,7 @@ fn scenes() -> Vec<(String, Value)> {
 fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
     let found = Interfaces::new(scene);
     let interfaces = found.in_frame(scene, frame);
-    let situation = FrameContext {
-        scene,
-        frame,
-        interfaces: &interfaces,
-    };
+    let situation = FrameContext { scene, frame, interfaces: &interfaces };
     let kinds = interfaces.iter().map(|i| i.kind).collect();
     (assemble(&situation).0, kinds)
 }
@@ -109,10 +105,7 @@ fn centroids_and_load_vectors_are_those_of_the_outlines() {
                     moment -= m * (sense * a.signum());
                 }
                 let centroid = Point::from(moment / area);
-                assert!(
-                    (centroid - body.centroid).norm() < 1e-9,
-                    "{name}: {centroid}"
-                );
+                assert!((centroid - body.centroid).norm() < 1e-9, "{name}: {centroid}");
                 // The loads are summed in components, with the moment about the origin.
                 let g = scene.gravity();
                 let pull = if g.norm() > 0.0 { g / g.norm() } else { g };
@@ -123,8 +116,8 @@ fn centroids_and_load_vectors_are_those_of_the_outlines() {
                     fy += load.force.y;
                     m += load.at.x * load.force.y - load.at.y * load.force.x + load.torque;
                 }
-                let own = body.load.moment
-                    + (body.centroid.x * body.load.force.y - body.centroid.y * body.load.force.x);
+                let own =
+                    body.load.moment + (body.centroid.x * body.load.force.y - body.centroid.y * body.load.force.x);
                 let size = 1.0 + block.weight.abs();
                 assert!((body.load.force.x - fx).abs() < 1e-9 * size, "{name}");
                 assert!((body.load.force.y - fy).abs() < 1e-9 * size, "{name}");
@@ -157,11 +150,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
                 let side = Vector::new(-along.y, along.x).normalize() * HAIR;
                 for step in 0..SAMPLES {
                     let at = a + along * ((step as f64 + 0.5) / SAMPLES as f64);
-                    let out = if contains(&scene, me, at + side) {
-                        at - side
-                    } else {
-                        at + side
-                    };
+                    let out = if contains(&scene, me, at + side) { at - side } else { at + side };
                     for (other, sum) in bodies.iter().zip(&mut touching) {
                         if *other != me && contains(&scene, *other, out) {
                             *sum += along.norm() / SAMPLES as f64;
@@ -170,16 +159,13 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
                 }
             }
             for (other, measured) in bodies.iter().zip(&touching) {
-                let between = assembly.contacts.iter().filter(|c| {
-                    c.kind == ContactKind::Edge
-                        && (c.bodies == [me, *other] || c.bodies == [*other, me])
-                });
-                let found: f64 = between.map(|c| (c.ends[1] - c.ends[0]).norm()).sum();
-                let perimeter: f64 = outline
+                let between = assembly
+                    .contacts
                     .iter()
-                    .enumerate()
-                    .map(|(k, a)| (outline[(k + 1) % outline.len()] - a).norm())
-                    .sum();
+                    .filter(|c| c.kind == ContactKind::Edge && (c.bodies == [me, *other] || c.bodies == [*other, me]));
+                let found: f64 = between.map(|c| (c.ends[1] - c.ends[0]).norm()).sum();
+                let perimeter: f64 =
+                    outline.iter().enumerate().map(|(k, a)| (outline[(k + 1) % outline.len()] - a).norm()).sum();
                 let coarse = 2.0 * perimeter / SAMPLES as f64 + 4.0 * HAIR;
                 assert!(
                     (found - measured).abs() <= coarse,
@@ -188,11 +174,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
                 sampled += usize::from(*measured > 0.0);
             }
         }
-        for contact in assembly
-            .contacts
-            .iter()
-            .filter(|c| c.kind == ContactKind::Edge)
-        {
+        for contact in assembly.contacts.iter().filter(|c| c.kind == ContactKind::Edge) {
             let [on, from] = contact.bodies;
             for share in [0.05, 0.35, 0.65, 0.95] {
                 let at = contact.ends[0] + (contact.ends[1] - contact.ends[0]) * share;
@@ -201,10 +183,7 @@ fn contacts_lie_where_sampled_points_say_that_two_bodies_touch() {
             }
             let inward = (contact.points[0] - contact.ends[0]).norm();
             let length = (contact.ends[1] - contact.ends[0]).norm();
-            assert!(
-                (inward - scene.kernel() / 2.0 * length).abs() < 1e-12,
-                "{name}"
-            );
+            assert!((inward - scene.kernel() / 2.0 * length).abs() < 1e-12, "{name}");
         }
         assert_eq!(assembly.contacts.len(), kinds.len(), "{name}");
     }
@@ -221,11 +200,7 @@ fn components_contain_every_body_contact_and_grip_once_and_effects_count_all_unk
             let parts = assembly.components();
             let count = |of: fn(&Assembly) -> usize| parts.iter().map(of).sum::<usize>();
             assert_eq!(count(|p| p.bodies.len()), assembly.bodies.len(), "{name}");
-            assert_eq!(
-                count(|p| p.contacts.len()),
-                assembly.contacts.len(),
-                "{name}"
-            );
+            assert_eq!(count(|p| p.contacts.len()), assembly.contacts.len(), "{name}");
             assert_eq!(count(|p| p.grips.len()), assembly.grips.len(), "{name}");
             let mut unknowns = 0;
             for part in &parts {
@@ -285,8 +260,7 @@ fn sequence(seed: u64) -> Value {
         let height = 0.25 * (1 + random(4)) as f64;
         let left = 1.7 * column as f64 + 0.05 * random(6) as f64;
         let id = format!("b{number}");
-        blocks
-            .push(json!({ "id": id, "polygon": rectangle(left, heights[column], width, height) }));
+        blocks.push(json!({ "id": id, "polygon": rectangle(left, heights[column], width, height) }));
         heights[column] += height;
         let mut step = json!({ "title": id, "place": [id] });
         match (held.take(), random(3)) {
@@ -317,11 +291,7 @@ fn a_frame_has_the_result_of_a_scene_with_only_its_blocks() {
             // frame.
             let mut alone = file.clone();
             alone.as_object_mut().expect("an object").remove("steps");
-            let placed: Vec<&str> = frame
-                .placed
-                .iter()
-                .map(|b| scene.blocks()[b.0].id.as_str())
-                .collect();
+            let placed: Vec<&str> = frame.placed.iter().map(|b| scene.blocks()[b.0].id.as_str()).collect();
             alone["blocks"]
                 .as_array_mut()
                 .expect("blocks")
@@ -348,10 +318,7 @@ fn a_frame_has_the_result_of_a_scene_with_only_its_blocks() {
             falling += usize::from(result.verdict == Verdict::Unstable);
         }
     }
-    assert!(
-        frames > 300 && falling > 20,
-        "{falling} of {frames} frames fall"
-    );
+    assert!(frames > 300 && falling > 20, "{falling} of {frames} frames fall");
 }
 
 /// A box of 4 m by 3 m on the ground with a load and a robot. Lengths are divided by L = 4 m, the length of the
@@ -378,10 +345,7 @@ fn a_program_scales_lengths_by_l_and_forces_by_the_heaviest_load() {
     }
     // The application points lie 1 m to either side of the centroid and 1.5 m below it, ordered from left to right.
     let arms = [Vector::new(0.25, -0.375), Vector::new(-0.25, -0.375)];
-    assert_eq!(
-        (program.contacts[0].on, program.contacts[0].from),
-        ((0, arms), None)
-    );
+    assert_eq!((program.contacts[0].on, program.contacts[0].from), ((0, arms), None));
     assert_eq!(program.grips[0].arm, Vector::new(-0.5, 0.375));
     let limits = program.grips[0].limits;
     assert!((limits[0] * scale.force - 20.0).abs() < 1e-9);

@@ -17,8 +17,7 @@ fn input(chapter: &str, below: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
     let context = json!({ "root": root, "renderer": "html", "mdbook_version": "0.5.1",
         "config": { "book": { "src": "assets/thesis" } } });
-    json!([context, { "items": [chapter_of("outer", chapter, json!([inner])), "Separator"] }])
-        .to_string()
+    json!([context, { "items": [chapter_of("outer", chapter, json!([inner])), "Separator"] }]).to_string()
 }
 
 fn contents(book: &str) -> [String; 2] {
@@ -31,23 +30,14 @@ fn contents(book: &str) -> [String; 2] {
 
 #[test]
 fn scenes_become_figures_with_captions_and_the_rest_of_a_chapter_is_unchanged() {
-    let chapter = format!(
-        "# One\n\n```drystone\n{SCENE}\n```\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"
-    );
+    let chapter = format!("# One\n\n```drystone\n{SCENE}\n```\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n");
     let below = "A list:\n\n- item\n\n```drystone file=figure-8-right.json kind=mechanism theme=dark\n```\n";
     let [outer, inner] = contents(&illustrate(&input(&chapter, below)).expect("drawn"));
-    assert!(
-        outer.starts_with("# One\n\n<figure class=\"drystone\""),
-        "{outer}"
-    );
+    assert!(outer.starts_with("# One\n\n<figure class=\"drystone\""), "{outer}");
     assert!(outer.contains("<svg xmlns") && outer.contains("<title id="));
     assert!(outer.contains("<figcaption>An overhang. It falls: block plank would have to stick"));
-    assert!(
-        outer.ends_with("\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"),
-        "{outer}"
-    );
-    let figure =
-        &outer[outer.find("<figure").expect("there")..outer.find("</figure>").expect("there")];
+    assert!(outer.ends_with("\n\nAfter it.\n\n```rust\nlet drystone = 1;\n```\n"), "{outer}");
+    let figure = &outer[outer.find("<figure").expect("there")..outer.find("</figure>").expect("there")];
     assert!(!figure.contains("\n\n"), "an empty line would end the HTML");
     assert!(inner.contains("<figcaption>Figure 8, right: a bridge of five blocks. It falls"));
     assert!(inner.contains("#15181d"), "the dark page");
@@ -61,13 +51,7 @@ fn a_figure_stays_inside_its_list_and_its_quotation() {
     for (content, margin) in drawn.iter().zip(["  ", "> "]) {
         let figure = content.find("<figure").expect("a figure");
         let end = content.find("</figure>").expect("its end");
-        assert!(
-            content[figure..end]
-                .lines()
-                .skip(1)
-                .all(|l| l.starts_with(margin)),
-            "{content}"
-        );
+        assert!(content[figure..end].lines().skip(1).all(|l| l.starts_with(margin)), "{content}");
     }
     assert!(drawn[0].ends_with("\n\n- next\n") && drawn[1].ends_with("> more\n"));
 }
@@ -76,9 +60,7 @@ fn a_figure_stays_inside_its_list_and_its_quotation() {
 fn every_broken_scene_is_reported_with_its_chapter_and_line() {
     let chapter = "one\ntwo\n\n```drystone\n{ \"drystone\": 1, \"blocks\": [{}] }\n```\n";
     let below = "```drystone file=nowhere.json\n```\n\n```drystone kind=spiral file=figure-1.json\n```\n\n```drystone colour=red\n```\n";
-    let problems = illustrate(&input(chapter, below))
-        .expect_err("all are broken")
-        .to_string();
+    let problems = illustrate(&input(chapter, below)).expect_err("all are broken").to_string();
     for message in [
         "outer.md, line 4: the scene is not valid",
         "inner.md, line 1: cannot read",
@@ -90,9 +72,6 @@ fn every_broken_scene_is_reported_with_its_chapter_and_line() {
     }
     for no_book in ["", "{}", "[1, 2]", "[{}, {}]"] {
         let problems = illustrate(no_book).expect_err("no book").to_string();
-        assert!(
-            problems.contains("mdbook runs the command itself"),
-            "{problems}"
-        );
+        assert!(problems.contains("mdbook runs the command itself"), "{problems}");
     }
 }

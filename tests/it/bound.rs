@@ -34,10 +34,7 @@ fn run(name: &str, text: &str, arguments: &str) -> Ran {
         .env("RAYON_NUM_THREADS", "2")
         .output()
         .expect("starts");
-    Ran {
-        code: ran.status.code(),
-        messages: String::from_utf8_lossy(&ran.stderr).into_owned(),
-    }
+    Ran { code: ran.status.code(), messages: String::from_utf8_lossy(&ran.stderr).into_owned() }
 }
 
 #[track_caller]
@@ -70,51 +67,23 @@ fn copies_of_copies() {
         );
     }
     body += r##"</defs><use href="#a17"/>"##;
-    refused(
-        "bomb.svg",
-        &svg(&body),
-        "import bomb.svg",
-        "outlines, copies included; the limit is",
-    );
+    refused("bomb.svg", &svg(&body), "import bomb.svg", "outlines, copies included; the limit is");
 }
 
 #[test]
 fn equal_outlines() {
     let rects = r#"<rect width="4" height="4"/>"#.repeat(19_000);
-    refused(
-        "rects.svg",
-        &svg(&rects),
-        "import rects.svg",
-        "pairs of its 19000 outlines overlap",
-    );
+    refused("rects.svg", &svg(&rects), "import rects.svg", "pairs of its 19000 outlines overlap");
     let path = format!(r#"<path d="{}"/>"#, "M0 0h4v4h-4z".repeat(4_000));
     let ran = run("path.svg", &svg(&path), "import path.svg -o scene.json");
     assert!(matches!(ran.code, Some(0 | 2)), "{}", ran.messages);
-    let path = format!(
-        r#"<path fill-rule="evenodd" d="{}"/>"#,
-        "M0 0h4v4h-4z".repeat(80_000)
-    );
-    refused(
-        "paths.svg",
-        &svg(&path),
-        "import paths.svg",
-        "80000 outlines are too many to find the holes",
-    );
+    let path = format!(r#"<path fill-rule="evenodd" d="{}"/>"#, "M0 0h4v4h-4z".repeat(80_000));
+    refused("paths.svg", &svg(&path), "import paths.svg", "80000 outlines are too many to find the holes");
     let rings = vec![json!([[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]); 16_000];
     let text = json!({ "type": "MultiPolygon", "coordinates": rings }).to_string();
-    refused(
-        "same.geojson",
-        &text,
-        "import same.geojson",
-        "pairs of its 16000 outlines overlap",
-    );
+    refused("same.geojson", &text, "import same.geojson", "pairs of its 16000 outlines overlap");
     let text = "POLYGON((0 0,1 0,1 1,0 1,0 0))\n".repeat(20_000);
-    refused(
-        "same.wkt",
-        &text,
-        "import same.wkt",
-        "pairs of its 20000 outlines overlap",
-    );
+    refused("same.wkt", &text, "import same.wkt", "pairs of its 20000 outlines overlap");
 }
 
 #[test]
@@ -131,54 +100,30 @@ fn one_id_for_all_elements_and_very_many_classes() {
     }
     body += "</style>";
     for i in 0..14_000 {
-        let _ = write!(
-            body,
-            r#"<rect class="c{i}" x="{}" width="4" height="4"/>"#,
-            5 * i
-        );
+        let _ = write!(body, r#"<rect class="c{i}" x="{}" width="4" height="4"/>"#, 5 * i);
     }
-    refused(
-        "classes.svg",
-        &svg(&body),
-        "import classes.svg",
-        "14000 style rules and 14002 elements",
-    );
+    refused("classes.svg", &svg(&body), "import classes.svg", "14000 style rules and 14002 elements");
 }
 
 #[test]
 fn unknown_names_and_keys() {
-    let blocks: Vec<_> = (0..7_000)
-        .map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) }))
-        .collect();
+    let blocks: Vec<_> =
+        (0..7_000).map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) })).collect();
     let names: Vec<String> = (0..16_000).map(|i| format!("zz{i}x")).collect();
-    let text =
-        json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
-    refused(
-        "names.json",
-        &text,
-        "check names.json",
-        "and 1971 more in names.json",
-    );
+    let text = json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
+    refused("names.json", &text, "check names.json", "and 1971 more in names.json");
     // Names of 80 letters take longest to compare.
     let long = |first: char, i: usize| format!("{first}{i:05}{}", "ab".repeat(37));
-    let blocks: Vec<_> = (0..2_000)
-        .map(|i| json!({ "id": long('b', i), "polygon": square(2.0 * i as f64) }))
-        .collect();
+    let blocks: Vec<_> = (0..2_000).map(|i| json!({ "id": long('b', i), "polygon": square(2.0 * i as f64) })).collect();
     let names: Vec<String> = (0..7_000).map(|i| long('z', i)).collect();
-    let text =
-        json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
+    let text = json!({ "drystone": 1, "blocks": blocks, "steps": [{ "place": names }] }).to_string();
     refused("long.json", &text, "check long.json", "unknown block");
     let mut text = String::from("{\"drystone\": 1");
     for i in 0..60_000 {
         let _ = write!(text, ",\"k{i}\":1");
     }
     text += ",\"blocks\": []}";
-    refused(
-        "keys.json",
-        &text,
-        "check keys.json",
-        "there are more problems than the 2000 in this list",
-    );
+    refused("keys.json", &text, "check keys.json", "there are more problems than the 2000 in this list");
 }
 
 #[test]
@@ -212,32 +157,20 @@ fn a_joint_of_many_edges() {
 fn a_picture_that_is_too_large() {
     let mut steps = vec![json!({ "place": ["a"] })];
     steps.extend((0..499).map(|i| json!({ "title": format!("step {i}") })));
-    let text =
-        json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+    let text = json!({ "drystone": 1, "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
         "blocks": [{ "id": "a", "polygon": square(2.0) }], "steps": steps })
-        .to_string();
-    refused(
-        "steps.json",
-        &text,
-        "render steps.json -o a.png",
-        "out of range",
-    );
+    .to_string();
+    refused("steps.json", &text, "render steps.json -o a.png", "out of range");
 }
 
 #[test]
 fn very_many_steps() {
-    let blocks: Vec<_> = (0..500)
-        .map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) }))
-        .collect();
+    let blocks: Vec<_> =
+        (0..500).map(|i| json!({ "id": format!("b{i}"), "polygon": square(f64::from(2 * i)) })).collect();
     let mut steps = vec![json!({ "place": (0..500).map(|i| format!("b{i}")).collect::<Vec<_>>() })];
     steps.extend(vec![json!({}); 250_000]);
     let text = json!({ "drystone": 1, "blocks": blocks, "steps": steps }).to_string();
-    refused(
-        "steps.json",
-        &text,
-        "check steps.json",
-        "the frames of 250001 steps contain",
-    );
+    refused("steps.json", &text, "check steps.json", "the frames of 250001 steps contain");
 }
 
 /// A wall in running bond. With 40 rows and 30 columns, a check takes longer than a hundredth of a second.
@@ -270,32 +203,15 @@ fn a_time_limit_leaves_a_large_wall_undecided() {
             .current_dir(folder.path())
             .output()
             .expect("starts");
-        (
-            ran.status.code(),
-            String::from_utf8_lossy(&ran.stdout).into_owned(),
-        )
+        (ran.status.code(), String::from_utf8_lossy(&ran.stdout).into_owned())
     };
     let (code, table) = outcome(&["check", "--time-limit", "0", "large.json"]);
-    assert!(
-        code == Some(3) && table.contains("the time limit was reached"),
-        "{table}"
-    );
-    let (code, _) = outcome(&[
-        "render",
-        "--strict",
-        "--time-limit",
-        "0",
-        "large.json",
-        "-o",
-        "a.svg",
-    ]);
+    assert!(code == Some(3) && table.contains("the time limit was reached"), "{table}");
+    let (code, _) = outcome(&["render", "--strict", "--time-limit", "0", "large.json", "-o", "a.svg"]);
     assert_eq!(code, Some(3));
     let free = outcome(&["check", "--no-timing", "wall.json"]);
     assert_eq!(free.0, Some(0), "{}", free.1);
-    assert_eq!(
-        outcome(&["check", "--no-timing", "--time-limit", "1000", "wall.json"]),
-        free
-    );
+    assert_eq!(outcome(&["check", "--no-timing", "--time-limit", "1000", "wall.json"]), free);
 }
 
 /// A closed form decides two separate blocks on a floor even with a time limit of 0. If the blocks overlap, the

@@ -3,8 +3,8 @@
 
 use drystone::analysis::Analysis;
 use drystone::scene::format::{
-    BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, LimitsEntry, LoadEntry, MaterialEntry,
-    RobotEntry, SceneFile, ShapeEntry, StepEntry,
+    BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, LimitsEntry, LoadEntry, MaterialEntry, RobotEntry,
+    SceneFile, ShapeEntry, StepEntry,
 };
 use drystone::scene::{Code, NoteCode, Problem, Scene};
 use serde_json::json;
@@ -32,11 +32,7 @@ fn every_key_has_a_builder_method() {
                   { "title": "three", "plan": { "s": "2" } }],
         "silence": ["friction_high"] });
     let square = |x: f64, y: f64| [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
-    let limits = LimitsEntry::default()
-        .fx(1.0)
-        .fy(2.0)
-        .torque(3.0)
-        .force(4.0);
+    let limits = LimitsEntry::default().fx(1.0).fy(2.0).torque(3.0).force(4.0);
     let frame = ShapeEntry::from([[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]);
     let made = Scene::builder()
         .title("all")
@@ -50,13 +46,7 @@ fn every_key_has_a_builder_method() {
         .thickness(0.5)
         .contact_tolerance(1e-6)
         .corner_contacts(true)
-        .material(
-            "oak",
-            MaterialEntry::default()
-                .density(700.0)
-                .friction(0.5)
-                .fill("#8b6b3d"),
-        )
+        .material("oak", MaterialEntry::default().density(700.0).friction(0.5).fill("#8b6b3d"))
         .material("slate", MaterialEntry::default())
         .friction_pair("oak", "slate", 0.3)
         .shape("frame", frame.hole(square(1.0, 1.0)))
@@ -70,57 +60,20 @@ fn every_key_has_a_builder_method() {
                 .friction(0.4)
                 .fill("#abc"),
         )
-        .block(
-            BlockEntry::new("a")
-                .shape("frame")
-                .at([0.0, 0.0])
-                .angle(0.0)
-                .material("oak")
-                .weight(6.0)
-                .fill("#fff"),
-        )
+        .block(BlockEntry::new("a").shape("frame").at([0.0, 0.0]).angle(0.0).material("oak").weight(6.0).fill("#fff"))
         .block(square(5.0, 0.0))
-        .block(
-            BlockEntry::new("c")
-                .polygon(square(0.0, 3.0))
-                .mass(3.0)
-                .density(4.0)
-                .friction(0.2),
-        )
-        .robot(
-            RobotEntry::new("r")
-                .holds("a")
-                .at([1.0, 0.5])
-                .limits(limits),
-        )
+        .block(BlockEntry::new("c").polygon(square(0.0, 3.0)).mass(3.0).density(4.0).friction(0.2))
+        .robot(RobotEntry::new("r").holds("a").at([1.0, 0.5]).limits(limits))
         .robot(RobotEntry::new("s"))
-        .load(
-            LoadEntry::on("a")
-                .force([1.0, 0.0])
-                .at([0.0, 0.5])
-                .torque(0.25),
-        )
-        .step(
-            StepEntry::new("one")
-                .place(["a", "2"])
-                .hold("r", "a")
-                .hold_at("s", "2", [5.5, 1.0]),
-        )
-        .step(
-            StepEntry::new("two")
-                .release(["r", "s"])
-                .remove(["2"])
-                .place(["c"]),
-        )
+        .load(LoadEntry::on("a").force([1.0, 0.0]).at([0.0, 0.5]).torque(0.25))
+        .step(StepEntry::new("one").place(["a", "2"]).hold("r", "a").hold_at("s", "2", [5.5, 1.0]))
+        .step(StepEntry::new("two").release(["r", "s"]).remove(["2"]).place(["c"]))
         .step(StepEntry::new("three").plan("s", "2"))
         .silence(NoteCode::FrictionHigh);
     let file: SceneFile = serde_json::from_value(read.clone()).expect("a scene file");
     assert_eq!(made, file);
     let same = |scene: &Scene| format!("{:?}", Analysis::new(scene).frames[2].contacts);
-    let (built, read) = (
-        made.build().expect("sound"),
-        Scene::from_json(&read.to_string()).expect("sound"),
-    );
+    let (built, read) = (made.build().expect("sound"), Scene::from_json(&read.to_string()).expect("sound"));
     assert_eq!(built.frames().len(), 3);
     assert_eq!(same(&built), same(&read));
 }
@@ -133,18 +86,14 @@ fn cells_and_their_grid_equal_those_of_a_file() {
         .block(BlockEntry::new("d").shape("down").at([0.0, 0.0]));
     let text = r#"{ "drystone": 1, "grid": { "kind": "triangular", "side": 2 }, "ground": [{ "cells": [[0, -1, "up"]] }],
         "blocks": [{ "id": "d", "shape": "down", "at": [0, 0] }] }"#;
-    assert_eq!(
-        Some(&made),
-        serde_json::from_str::<SceneFile>(text).ok().as_ref()
-    );
+    assert_eq!(Some(&made), serde_json::from_str::<SceneFile>(text).ok().as_ref());
     assert!(made.build().expect("sound").exact());
 }
 
 /// The path, code, message and help of each problem, without line and column, in alphabetical order.
 fn messages(problems: &[Problem]) -> Vec<String> {
-    let mut messages: Vec<String> = (problems.iter())
-        .map(|p| format!("{} {} {} {}", p.path, p.code, p.message, p.help))
-        .collect();
+    let mut messages: Vec<String> =
+        (problems.iter()).map(|p| format!("{} {} {} {}", p.path, p.code, p.message, p.help)).collect();
     messages.sort();
     messages
 }
@@ -181,23 +130,11 @@ fn a_name_used_twice_in_code_is_reported_as_a_key_used_twice_in_a_file() {
         .block(BlockEntry::new("a").polygon(triangle))
         .block(BlockEntry::new("b").polygon([[5.0, 0.0], [6.0, 0.0], [5.0, 1.0]]))
         .robot(RobotEntry::new("r"))
-        .step(
-            StepEntry::new("one")
-                .place(["a"])
-                .hold("r", "a")
-                .hold("r", "a"),
-        )
+        .step(StepEntry::new("one").place(["a"]).hold("r", "a").hold("r", "a"))
         .step(StepEntry::new("two").plan("r", "b").plan("r", "b"))
         .build()
         .expect_err("refused");
-    let found: Vec<(Code, &str)> = (problems.list.iter())
-        .map(|p| (p.code, p.path.as_str()))
-        .collect();
-    let at = [
-        "materials.oak",
-        "shapes.s",
-        "steps[0].hold.r",
-        "steps[1].plan.r",
-    ];
+    let found: Vec<(Code, &str)> = (problems.list.iter()).map(|p| (p.code, p.path.as_str())).collect();
+    let at = ["materials.oak", "shapes.s", "steps[0].hold.r", "steps[1].plan.r"];
     assert_eq!(found, at.map(|path| (Code::DuplicateKey, path)));
 }

@@ -14,11 +14,7 @@ mod random;
 mod unbounded;
 
 fn capacity(file: &Value, name: &str, at: ForceAt) -> LoadCapacity {
-    of(
-        &scene(file),
-        CapacityRequest::of_block(named(file, name)).at(at),
-    )
-    .expect("a capacity")
+    of(&scene(file), CapacityRequest::of_block(named(file, name)).at(at)).expect("a capacity")
 }
 
 fn named(file: &Value, name: &str) -> drystone::scene::BlockId {
@@ -35,19 +31,11 @@ fn semicircle() -> Value {
         let (sin, cos) = libm::sincos(std::f64::consts::PI * (1.0 - k as f64 / 20.0));
         [radius * cos, radius * sin]
     };
-    let polygon = |k: usize| {
-        [
-            corner(5.0, k),
-            corner(5.0, k + 1),
-            corner(6.0, k + 1),
-            corner(6.0, k),
-        ]
-    };
+    let polygon = |k: usize| [corner(5.0, k), corner(5.0, k + 1), corner(6.0, k + 1), corner(6.0, k)];
     // ½ (6² − 5²) sin 9°: the area between two chords.
     let area = 0.5 * 11.0 * libm::sin(std::f64::consts::PI / 20.0);
-    let blocks: Vec<Value> = (1..20)
-        .map(|k| json!({ "id": k.to_string(), "polygon": polygon(k), "weight": area }))
-        .collect();
+    let blocks: Vec<Value> =
+        (1..20).map(|k| json!({ "id": k.to_string(), "polygon": polygon(k), "weight": area })).collect();
     json!({ "drystone": 1, "friction": 0.7, "ground": [{ "polygon": polygon(0) }], "blocks": blocks })
 }
 
@@ -60,30 +48,17 @@ fn an_arch_is_held_by_a_force_at_its_last_face() {
     let found = capacity(&file, "19", ForceAt::Contact(ends));
     assert_eq!(found.shape(), CapacityShape::Polygon);
     assert!(found.gap < 1e-6, "{}", found.gap);
-    for (direction, expected) in [
-        ([-1.0, 0.0], 5.037283),
-        ([1.0, 0.0], -2.780423),
-        ([0.0, -1.0], -8.105449),
-        ([0.0, 1.0], 9.102342),
-    ] {
+    for (direction, expected) in
+        [([-1.0, 0.0], 5.037283), ([1.0, 0.0], -2.780423), ([0.0, -1.0], -8.105449), ([0.0, 1.0], 9.102342)]
+    {
         let most = found.most(direction).expect("it is bounded");
         assert!((most - expected).abs() < 1e-6, "{direction:?}: {most}");
     }
     // A force at the single point in the middle of the face has no torque about it, so fewer forces hold the arch.
     let fewer = capacity(&file, "19", ForceAt::Point(Point::new(5.5, 0.0)));
-    assert!(
-        fewer
-            .vertices
-            .iter()
-            .all(|v| found.contains(v.force) && v.proof.is_some_and(|p| p.holds()))
-    );
+    assert!(fewer.vertices.iter().all(|v| found.contains(v.force) && v.proof.is_some_and(|p| p.holds())));
     assert!(fewer.most([1.0, 0.0]) < found.most([1.0, 0.0]));
-    assert!(
-        fewer
-            .edges
-            .iter()
-            .all(|e| e.proof.holds() && !e.mechanism.is_empty())
-    );
+    assert!(fewer.edges.iter().all(|e| e.proof.holds() && !e.mechanism.is_empty()));
 }
 
 /// A block of 4 m × 2 m and 6 N on a floor with friction 0.5.
@@ -95,10 +70,7 @@ fn on_floor() -> Value {
 
 fn near(found: impl Into<Option<f64>>, expected: f64) {
     let found = found.into().expect("it is bounded");
-    assert!(
-        (found - expected).abs() < 1e-5,
-        "{found} instead of {expected}"
-    );
+    assert!((found - expected).abs() < 1e-5, "{found} instead of {expected}");
 }
 
 #[test]
@@ -162,11 +134,7 @@ fn every_shape_occurs() {
     assert!(tool.robot.is_some());
     // If another block falls, the set is empty.
     let mut other = on_floor();
-    other["blocks"].as_array_mut().expect("a list").push(block(
-        "b",
-        rectangle(1.0, 5.0, 1.0, 1.0),
-        1.0,
-    ));
+    other["blocks"].as_array_mut().expect("a list").push(block("b", rectangle(1.0, 5.0, 1.0, 1.0), 1.0));
     let none = capacity(&other, "a", ForceAt::Default);
     assert_eq!(none.shape(), CapacityShape::Empty);
     assert_eq!(none.mechanism.len(), 1);
@@ -214,10 +182,7 @@ fn a_force_carried_in_all_cases_is_carried_in_each_case() {
     let (sin, cos) = libm::sincos(2.0_f64.to_radians());
     let exact = 3.0 * cos - 6.0 * sin;
     let found = tilted.reach([1.0, 0.0]).expect("it stands");
-    assert!(
-        found <= exact + 1e-6 && found > exact - 3e-4,
-        "{found} {exact}"
-    );
+    assert!(found <= exact + 1e-6 && found > exact - 3e-4, "{found} {exact}");
     // Each single case carries at least as much.
     for tilt in [-2.0, -1.3, 0.0, 0.7, 2.0] {
         let alone = every(Cases::default().tilt(tilt, tilt));
@@ -243,10 +208,7 @@ fn last_capacity(file: &Value) -> Option<(Scene, LoadCapacity)> {
         return None;
     }
     let last = drystone::scene::BlockId(scene.blocks().len() - 1);
-    let found = of(
-        &scene,
-        CapacityRequest::of_block(last).at(ForceAt::Point(scene.blocks()[last.0].centroid)),
-    );
+    let found = of(&scene, CapacityRequest::of_block(last).at(ForceAt::Point(scene.blocks()[last.0].centroid)));
     Some((scene, found.ok()?))
 }
 
@@ -275,13 +237,11 @@ fn just_beyond_an_edge_it_falls_and_at_a_vertex_it_stands() {
             continue;
         }
         let forces: Vec<_> = found.vertices.iter().map(|v| v.force).collect();
-        let middle =
-            forces.iter().sum::<drystone::internals::geometry::Vector>() / forces.len() as f64;
+        let middle = forces.iter().sum::<drystone::internals::geometry::Vector>() / forces.len() as f64;
         let size = forces.iter().map(|f| f.norm()).fold(weight, f64::max);
         for edge in &found.edges {
             let ends: Vec<_> = edge.ends.iter().flatten().map(|k| forces[*k]).collect();
-            let on = ends.iter().sum::<drystone::internals::geometry::Vector>()
-                / ends.len().max(1) as f64;
+            let on = ends.iter().sum::<drystone::internals::geometry::Vector>() / ends.len().max(1) as f64;
             let on = if ends.is_empty() { forces[0] } else { on };
             let beyond = on + edge.normal * (1e-4 * size);
             let verdict = with_load(&file, &scene, &found, [beyond.x, beyond.y]);
@@ -313,11 +273,9 @@ fn the_forces_of_a_vertex_balance_every_block() {
             assert!(pressed.normal.iter().all(|n| *n >= 0.0));
             let most = interface.friction * (pressed.normal[0] + pressed.normal[1]);
             assert!(pressed.friction.abs() <= most * (1.0 + 1e-9));
-            let force = interface.normal * (pressed.normal[0] + pressed.normal[1])
-                + interface.tangent() * pressed.friction;
-            let grounds = interface
-                .bodies
-                .map(|b| matches!(b, drystone::scene::BodyId::Ground(_)));
+            let force =
+                interface.normal * (pressed.normal[0] + pressed.normal[1]) + interface.tangent() * pressed.friction;
+            let grounds = interface.bodies.map(|b| matches!(b, drystone::scene::BodyId::Ground(_)));
             match grounds {
                 [false, true] => sum += force,
                 [true, false] => sum -= force,
@@ -339,34 +297,17 @@ fn the_json_contains_the_capacity_that_was_found() {
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let capacity = &json["frames"][0]["capacity"];
-    assert_eq!(
-        (&capacity["block"], &capacity["shape"]),
-        (&json!("19"), &json!("polygon"))
-    );
+    assert_eq!((&capacity["block"], &capacity["shape"]), (&json!("19"), &json!("polygon")));
     assert_eq!(capacity["at"], json!([[5.5, 0.0]]));
     assert_eq!(capacity["stands_without"], json!(false));
-    let forces: Vec<[f64; 2]> = found
-        .vertices
-        .iter()
-        .map(|v| [v.force.x, v.force.y])
-        .collect();
+    let forces: Vec<[f64; 2]> = found.vertices.iter().map(|v| [v.force.x, v.force.y]).collect();
     assert_eq!(capacity["vertices"], json!(forces));
-    assert_eq!(
-        capacity["edges"].as_array().map(Vec::len),
-        Some(found.edges.len())
-    );
-    assert_eq!(
-        capacity["balances"].as_array().map(Vec::len),
-        Some(forces.len())
-    );
+    assert_eq!(capacity["edges"].as_array().map(Vec::len), Some(found.edges.len()));
+    assert_eq!(capacity["balances"].as_array().map(Vec::len), Some(forces.len()));
     assert_eq!(capacity["cases"], json!(1));
     let limits: Vec<f64> = found.edges.iter().map(|e| e.limit).collect();
-    let written: Vec<f64> = capacity["edges"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .map(|e| e["limit"].as_f64().expect("a number"))
-        .collect();
+    let written: Vec<f64> =
+        capacity["edges"].as_array().expect("a list").iter().map(|e| e["limit"].as_f64().expect("a number")).collect();
     assert_eq!(written, limits);
     // The capacity is written only if it was requested.
     let plain = to_json(&Analysis::new(&scene), Timing::LeftOut, Layout::OneLine);
@@ -397,10 +338,7 @@ fn far_vertices_before_an_unbounded_edge_are_found() {
     let scene = Scene::from_json(text).expect("valid");
     let stone = scene.block_named("16-1").expect("the block exists");
     let found = of(&scene, CapacityRequest::of_block(stone)).expect("a capacity");
-    let far = found
-        .vertices
-        .iter()
-        .map(|v| libm::hypot(v.force[0], v.force[1]));
+    let far = found.vertices.iter().map(|v| libm::hypot(v.force[0], v.force[1]));
     let near = far.clone().fold(f64::INFINITY, f64::min);
     let far = far.fold(0.0, f64::max);
     assert!(far > 10.0 * near, "{near} N to {far} N");

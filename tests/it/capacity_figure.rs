@@ -17,12 +17,7 @@ fn analysed(scene: &Scene, block: &str, at: ForceAt) -> Analysis {
 }
 
 /// Adds to `found` the groups of a class, each with the camera of its picture.
-fn of_class<'a>(
-    items: &'a [Item],
-    class: &str,
-    camera: Option<Camera>,
-    found: &mut Vec<(Option<Camera>, &'a Group)>,
-) {
+fn of_class<'a>(items: &'a [Item], class: &str, camera: Option<Camera>, found: &mut Vec<(Option<Camera>, &'a Group)>) {
     for item in items {
         if let Item::Group(group) = item {
             let camera = group.camera.or(camera);
@@ -68,15 +63,12 @@ fn drawn(drawing: &Drawing, capacity: &LoadCapacity) -> (Vec<PagePoint>, Option<
 /// The scale in pixels per newton and the position of the force 0 for which every force of the set is a corner of the
 /// area.
 fn scale(corners: &[PagePoint], forces: &[Vector], zero: Option<PagePoint>) -> (f64, PagePoint) {
-    let place = |force: Vector, scale: f64, zero: PagePoint| {
-        PagePoint::new(zero.x + scale * force.x, zero.y - scale * force.y)
-    };
+    let place =
+        |force: Vector, scale: f64, zero: PagePoint| PagePoint::new(zero.x + scale * force.x, zero.y - scale * force.y);
     let are_corners = |scale: f64, zero: PagePoint| {
         forces.iter().all(|force| {
             let at = place(*force, scale, zero);
-            corners
-                .iter()
-                .any(|corner| shown(*corner, at).norm() < 1e-6)
+            corners.iter().any(|corner| shown(*corner, at).norm() < 1e-6)
         })
     };
     let found = corners.iter().find_map(|corner| match zero {
@@ -106,10 +98,7 @@ fn held() -> Scene {
 #[test]
 fn the_area_is_the_set_of_the_result_in_one_scale() {
     let thick = scene(&arch(9, 0.4, 0.7));
-    for (scene, name, at) in [
-        (&thick, "v4", ForceAt::Default),
-        (&held(), "a", ForceAt::Point(Point::new(0.5, 0.5))),
-    ] {
+    for (scene, name, at) in [(&thick, "v4", ForceAt::Default), (&held(), "a", ForceAt::Point(Point::new(0.5, 0.5)))] {
         let analysis = analysed(scene, name, at);
         let found = analysis.frames[0].capacity.as_ref().expect("requested");
         let drawing = figure::draw(&analysis, Kind::Capacity, &Options::default());
@@ -148,9 +137,6 @@ fn small_pictures_belong_to_the_longest_edges() {
         let tail = PagePoint::new(0.5 * (p[0].x + p[6].x), 0.5 * (p[0].y + p[6].y));
         let direction = shown(tail, p[3]).normalize();
         let normal = found.edges[*edge].normal;
-        assert!(
-            (direction - normal).norm() < 1e-9,
-            "{direction:?} instead of {normal:?}"
-        );
+        assert!((direction - normal).norm() < 1e-9, "{direction:?} instead of {normal:?}");
     }
 }

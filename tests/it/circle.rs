@@ -26,9 +26,7 @@ fn uses_within(root: &Path, folder: &Path) -> BTreeMap<String, BTreeSet<String>>
     let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for file in &files {
         let own = module(file);
-        let is_test = file
-            .iter()
-            .any(|part| part == "tests" || part == "tests.rs");
+        let is_test = file.iter().any(|part| part == "tests" || part == "tests.rs");
         if matches!(own.as_str(), "mod" | "lib" | "main") || is_test {
             continue;
         }
@@ -84,9 +82,7 @@ fn cycle(uses: &BTreeMap<String, BTreeSet<String>>) -> Option<Vec<String>> {
     }
     let mut chain = vec![left.keys().next()?.clone()];
     loop {
-        let next = left[&chain[chain.len() - 1]]
-            .iter()
-            .find(|u| left.contains_key(*u))?;
+        let next = left[&chain[chain.len() - 1]].iter().find(|u| left.contains_key(*u))?;
         if let Some(at) = chain.iter().position(|name| name == next) {
             return Some(chain.split_off(at));
         }
@@ -103,16 +99,9 @@ fn no_files_of_a_folder_import_each_other() {
     for folder in &all {
         let name = folder.strip_prefix(&root).expect("below src");
         let name = name.to_string_lossy().replace('\\', "/");
-        match (
-            cycle(&uses_within(&root, folder)),
-            KNOWN_CYCLES.contains(&&name[..]),
-        ) {
-            (Some(chain), false) => {
-                faults.push(format!("{name}: {} import each other", chain.join(" → ")))
-            }
-            (None, true) => faults.push(format!(
-                "{name} has no cycle any more: remove it from KNOWN_CYCLES"
-            )),
+        match (cycle(&uses_within(&root, folder)), KNOWN_CYCLES.contains(&&name[..])) {
+            (Some(chain), false) => faults.push(format!("{name}: {} import each other", chain.join(" → "))),
+            (None, true) => faults.push(format!("{name} has no cycle any more: remove it from KNOWN_CYCLES")),
             _ => {}
         }
     }
@@ -125,9 +114,7 @@ fn files_that_import_each_other_through_a_third_are_caught() {
     let mut uses = uses_within(&root, &root.join("geometry"));
     assert!(uses["polygon"].contains("crossing") && uses["crossing"].contains("edge"));
     assert_eq!(cycle(&uses), None);
-    uses.entry("edge".into())
-        .or_default()
-        .insert("polygon".into());
+    uses.entry("edge".into()).or_default().insert("polygon".into());
     assert!(cycle(&uses).is_some_and(|chain| chain.len() == 2 || chain.len() == 3));
 }
 

@@ -37,11 +37,7 @@ fn check_with(file: &Value, options: &Options) -> Checked {
     let analysis = Analysis::with(&scene, options);
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     let json: Value = serde_json::from_str(&json).expect("JSON");
-    Checked {
-        file: file.clone(),
-        length: number(&json["frames"][0]["length"]),
-        json,
-    }
+    Checked { file: file.clone(), length: number(&json["frames"][0]["length"]), json }
 }
 
 fn check(file: &Value) -> Checked {
@@ -49,9 +45,7 @@ fn check(file: &Value) -> Checked {
 }
 
 fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("a number: {value}"))
+    value.as_f64().unwrap_or_else(|| panic!("a number: {value}"))
 }
 
 fn pair(value: &Value) -> [f64; 2] {
@@ -87,14 +81,12 @@ fn structures() -> Vec<Checked> {
         on_slope(20.0, 2.0, 1.0, 0.6, 0.2),
     ];
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
-    held["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 2, "fy": 3, "torque": 1 } }]);
+    held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 2, "fy": 3, "torque": 1 } }]);
     files.push(held.clone());
     held["robots"][0]["limits"] = json!({ "force": 0.25, "torque": 0.0 });
     files.push(held);
     let mut pushed = wall(3, 2);
-    pushed["loads"] =
-        json!([{ "block": "4", "force": [3.0, -2.0], "at": [1.25, 0.75], "torque": 0.5 }]);
+    pushed["loads"] = json!([{ "block": "4", "force": [3.0, -2.0], "at": [1.25, 0.75], "torque": 0.5 }]);
     files.push(pushed);
     files.extend((0..90).map(|number| random::scene(number).1));
     let sound = |file: &Value| drystone::Scene::from_json(&file.to_string()).is_ok();
@@ -130,13 +122,8 @@ fn captions_say_what_the_result_says() {
             let word: String = part.rsplit([' ', '\u{a0}', '\u{202f}']).next()?.into();
             word.parse::<f64>().ok()
         });
-        let near = amounts
-            .into_iter()
-            .any(|a: f64| (a - largest).abs() <= 0.06 * largest);
-        assert!(
-            !(0.01..=999.0).contains(&largest) || near,
-            "{largest}: {caption}"
-        );
+        let near = amounts.into_iter().any(|a: f64| (a - largest).abs() <= 0.06 * largest);
+        assert!(!(0.01..=999.0).contains(&largest) || near, "{largest}: {caption}");
     }
 }
 
@@ -146,11 +133,7 @@ fn every_test_named_in_the_list_exists() {
     let root = env!("CARGO_MANIFEST_DIR");
     let read = |path: String| std::fs::read_to_string(path).unwrap_or_default();
     let text = read(format!("{root}/src/doc/claims.md"));
-    let named = text
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .filter(|word| word.contains("::"));
+    let named = text.split('`').skip(1).step_by(2).filter(|word| word.contains("::"));
     let mut seen = 0;
     for name in named.filter(|name| *name != "file::test") {
         let (file, test) = name.rsplit_once("::").expect("a test has a file");
@@ -167,9 +150,7 @@ fn every_test_named_in_the_list_exists() {
 fn every_key_of_a_result_has_a_test() {
     let root = env!("CARGO_MANIFEST_DIR");
     let text = std::fs::read_to_string(format!("{root}/src/doc/claims.md")).expect("readable");
-    let (_, section) = text
-        .split_once("## Every key of a result")
-        .expect("a section");
+    let (_, section) = text.split_once("## Every key of a result").expect("a section");
     let section = section.split("\n## ").next().unwrap_or_default();
     let quoted = |cell: &str| -> Vec<String> {
         let words = cell.split('`').skip(1).step_by(2);
@@ -188,10 +169,7 @@ fn every_key_of_a_result_has_a_test() {
     }
     let holds_others = |kind: Type| matches!(kind, Type::Object | Type::Objects | Type::ByRobot);
     let keys = KEYS.iter().chain(REFUSAL_KEYS);
-    let mut expected: Vec<&str> = keys
-        .filter(|key| !holds_others(key.kind))
-        .map(|key| key.path)
-        .collect();
+    let mut expected: Vec<&str> = keys.filter(|key| !holds_others(key.kind)).map(|key| key.path).collect();
     expected.sort_unstable();
     expected.dedup();
     listed.sort_unstable();

@@ -23,10 +23,7 @@ fn corner_contacts_of_too_many_blocks_at_one_point_are_refused() {
     let refused = Scene::from_json(&fan(400).to_string()).expect_err("refused");
     assert_eq!(refused.list[0].code, Code::TooManyTips);
     let words = refused.to_string();
-    assert!(
-        words.contains("corners of 400 bodies meet at (0, 0)"),
-        "{words}"
-    );
+    assert!(words.contains("corners of 400 bodies meet at (0, 0)"), "{words}");
     // 400 · 399 / 2.
     assert!(words.contains("79800 corner contacts"), "{words}");
     assert!(words.contains("remove `corner_contacts`"), "{words}");
@@ -46,15 +43,9 @@ fn corner_contacts_of_too_many_blocks_at_one_point_are_refused() {
 
 #[test]
 fn a_figure_of_many_loads_names_the_largest() {
-    let mut file = on_floor(
-        0.6,
-        vec![block("a", rectangle(0.0, 0.0, 10.0, 10.0), 100.0)],
-    );
+    let mut file = on_floor(0.6, vec![block("a", rectangle(0.0, 0.0, 10.0, 10.0), 100.0)]);
     let load = |k: u32| {
-        let at = [
-            0.1 + f64::from(k % 50) * 0.19,
-            0.1 + f64::from(k / 50) * 0.19,
-        ];
+        let at = [0.1 + f64::from(k % 50) * 0.19, 0.1 + f64::from(k / 50) * 0.19];
         json!({ "block": "a", "at": at, "force": [0, -1.0 - f64::from(k)] })
     };
     let mut amounts = |count: u32| {

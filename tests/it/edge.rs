@@ -38,12 +38,7 @@ fn a_large_wall_is_decided_on_both_sides_of_its_limit() {
     }
     for share in [0.481617, 0.482] {
         let frame = first(&pushed(wall(20, 20), share));
-        assert!(
-            rules_out(&frame) > 1e12,
-            "{share}: {:?} {}",
-            frame.proof,
-            frame.doubt()
-        );
+        assert!(rules_out(&frame) > 1e12, "{share}: {:?} {}", frame.proof, frame.doubt());
     }
 }
 
@@ -55,10 +50,7 @@ fn an_arch_is_decided_a_millionth_from_its_minimum_thickness() {
         for (thickness, expected) in [(least - 1e-6, FALLS), (least + 1e-6, STANDS)] {
             let file = arch(voussoirs, thickness, 0.9);
             assert_eq!(verdict(&file), expected, "{voussoirs} at {thickness}");
-            let known = study(&[scene(&file)], &[], &mut |_| {})
-                .cases
-                .remove(0)
-                .truth;
+            let known = study(&[scene(&file)], &[], &mut |_| {}).cases.remove(0).truth;
             assert_eq!(known.verdict, expected, "{voussoirs} at {thickness}");
         }
     }
@@ -74,20 +66,12 @@ fn a_flat_wedge_that_falls_is_proved_to_fall() {
     for exponent in 2..=7 {
         let half_angle = libm::exp10(-f64::from(exponent));
         let frame = first(&wedge(-half_angle));
-        assert!(
-            rules_out(&frame).is_infinite(),
-            "1e-{exponent}: {:?}",
-            frame.proof
-        );
+        assert!(rules_out(&frame).is_infinite(), "1e-{exponent}: {:?}", frame.proof);
         // The upright wedge stands. Here a force that is slightly larger than its weight lifts it.
         let mut file = wedge(half_angle);
         file["loads"] = json!([{ "block": "wedge", "force": [0, 6.0 * (1.0 + 1e-5)] }]);
         let frame = first(&file);
-        assert!(
-            rules_out(&frame).is_infinite(),
-            "1e-{exponent}: {:?}",
-            frame.proof
-        );
+        assert!(rules_out(&frame).is_infinite(), "1e-{exponent}: {:?}", frame.proof);
     }
 }
 
@@ -105,9 +89,8 @@ fn a_wedge_too_flat_for_sixteen_digits_is_not_reported_as_unstable() {
 #[test]
 fn a_row_of_blocks_between_walls_stands_only_with_friction() {
     let row = |friction: f64| {
-        let blocks: Vec<Value> = (0..5)
-            .map(|k| block(&format!("{k}"), rectangle(f64::from(k), 0.0, 1.0, 1.0), 6.0))
-            .collect();
+        let blocks: Vec<Value> =
+            (0..5).map(|k| block(&format!("{k}"), rectangle(f64::from(k), 0.0, 1.0, 1.0), 6.0)).collect();
         let sides = [-2.0, 5.0].map(|x| json!({ "polygon": rectangle(x, -1.0, 2.0, 3.0) }));
         json!({ "drystone": 1, "friction": friction, "ground": sides, "blocks": blocks })
     };
@@ -115,19 +98,11 @@ fn a_row_of_blocks_between_walls_stands_only_with_friction() {
         let frame = first(&row(friction));
         assert_eq!(frame.verdict, STANDS, "{friction}: {}", frame.doubt());
         // The friction at each wall carries half of the weight, 15 N.
-        let ends = frame
-            .contacts
-            .iter()
-            .filter(|c| c.friction_force.abs() > 14.9);
-        let thrust: Vec<f64> = ends
-            .map(|c| c.normal_forces[0] + c.normal_forces[1])
-            .collect();
+        let ends = frame.contacts.iter().filter(|c| c.friction_force.abs() > 14.9);
+        let thrust: Vec<f64> = ends.map(|c| c.normal_forces[0] + c.normal_forces[1]).collect();
         assert_eq!(thrust.len(), 2, "{friction}");
         for pressed in thrust {
-            assert!(
-                pressed >= 15.0 / friction * (1.0 - 1e-9),
-                "{friction}: {pressed}"
-            );
+            assert!(pressed >= 15.0 / friction * (1.0 - 1e-9), "{friction}: {pressed}");
         }
     }
     // Without friction they fall and slide along faces that cannot open. This is proved only up to rounding.
@@ -142,10 +117,7 @@ fn a_row_of_blocks_between_walls_stands_only_with_friction() {
 fn a_motion_excludes_balances_with_small_forces() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)]);
     assert!(rules_out(&first(&file)).is_infinite(), "nothing touches it");
-    let doubtful = Proof::Mechanism {
-        power: 0.25,
-        worst_violation: 1e-4,
-    };
+    let doubtful = Proof::Mechanism { power: 0.25, worst_violation: 1e-4 };
     assert_eq!(doubtful.excluded_force_sum(), 2500.0);
     assert!(!doubtful.holds(), "forces of 2500 loads do occur");
 }

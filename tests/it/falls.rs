@@ -2,15 +2,12 @@
 //! these failures balance every block.
 
 use drystone::Analysis;
-use drystone::analysis::{
-    EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts,
-};
+use drystone::analysis::{EffectName, Failure, FrameAnalysis, MarginKind, MarginKinds, Options, Verdict, verdicts};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, Scale, adhesion_columns, columns, force_primal, kinematic_dual,
-    least_residual_dual,
+    Column, Program, Scale, adhesion_columns, columns, force_primal, kinematic_dual, least_residual_dual,
 };
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
@@ -49,9 +46,7 @@ fn unbalanced(scene: &Scene, frame: &FrameAnalysis) -> f64 {
             _ => panic!("no robot holds anything here"),
         }
     }
-    let sizes = sums
-        .iter()
-        .map(|(force, moment)| force.norm().max(moment.abs()));
+    let sizes = sums.iter().map(|(force, moment)| force.norm().max(moment.abs()));
     sizes.fold(0.0, f64::max)
 }
 
@@ -67,15 +62,9 @@ fn assert_failures_are_listed(file: Value, degrees: f64) {
     let scene = scene(&tilted(file, degrees));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable, "{degrees}°");
-    assert!(
-        !frame.failures.is_empty(),
-        "{degrees}°: no failure is listed"
-    );
+    assert!(!frame.failures.is_empty(), "{degrees}°: no failure is listed");
     let off = unbalanced(&scene, &frame);
-    assert!(
-        off < 1e-4,
-        "{degrees}°: a block of 6 N has an unbalanced force of {off} N"
-    );
+    assert!(off < 1e-4, "{degrees}°: a block of 6 N has an unbalanced force of {off} N");
     let sum: f64 = frame.failures.iter().map(amount).sum();
     assert!(
         (sum - frame.total_sticking).abs() < 1e-9 * frame.total_sticking,
@@ -143,32 +132,20 @@ fn the_verdict_alone_is_proved_and_a_notice_states_what_is_missing() {
         let scene = scene(&tilted(file, degrees));
         let frame = Analysis::with(&scene, &verdict_only).frames.remove(0);
         let whole = Analysis::new(&scene).frames.remove(0);
-        assert_eq!(
-            (frame.verdict, whole.verdict),
-            (verdict, verdict),
-            "{degrees}°"
-        );
+        assert_eq!((frame.verdict, whole.verdict), (verdict, verdict), "{degrees}°");
         assert!(frame.proof.holds());
         assert_eq!(verdicts(&scene, &Options::default()), [verdict]);
         let programs = |frame: &FrameAnalysis| frame.solve.programs;
         assert!(programs(&frame) <= programs(&whole), "{degrees}°");
         let sticking = |frame: &FrameAnalysis| {
-            let effect = frame
-                .effects
-                .iter()
-                .find(|e| e.effect == EffectName::Sticking);
+            let effect = frame.effects.iter().find(|e| e.effect == EffectName::Sticking);
             let effect = effect.expect("every effect is listed");
             (effect.simulated, effect.why.contains("only the verdict"))
         };
         let falls = verdict == Verdict::Unstable;
         assert_eq!(sticking(&frame), (false, falls));
         assert_eq!(sticking(&whole), (falls, false));
-        assert!(
-            frame
-                .notices
-                .iter()
-                .any(|n| n.starts_with("only the verdict"))
-        );
+        assert!(frame.notices.iter().any(|n| n.starts_with("only the verdict")));
         assert!(frame.failures.is_empty() && frame.total_sticking == 0.0);
         if falls {
             assert!(2 * programs(&frame) < programs(&whole), "{degrees}°");
@@ -186,9 +163,7 @@ fn the_verdict_alone_is_proved_and_a_notice_states_what_is_missing() {
 #[test]
 fn the_verdict_of_a_high_tilted_stack_needs_at_most_one_program() {
     let at = |k: i32| rectangle(0.0, 0.5 * f64::from(k), 1.0, 0.5);
-    let mut bricks: Vec<Value> = (0..2_000)
-        .map(|k| block(&k.to_string(), at(k), 6.0))
-        .collect();
+    let mut bricks: Vec<Value> = (0..2_000).map(|k| block(&k.to_string(), at(k), 6.0)).collect();
     let verdict_only = Options::default().verdict_only(true);
     for programs in [0, 1] {
         let scene = scene(&tilted(on_floor(0.7, bricks.clone()), 26.0));
@@ -207,9 +182,7 @@ fn the_verdict_of_a_high_tilted_stack_needs_at_most_one_program() {
 fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_needs_few_programs() {
     let at = |k: i32| rectangle(9e-5 * f64::from(k), 0.25 * f64::from(k), 1.0, 0.25);
     let neighbour = block("neighbour", rectangle(-1.0, 0.0, 1.0, 0.25), 1.0);
-    let alone: Vec<_> = (0..10_000)
-        .map(|k| block(&k.to_string(), at(k), 1.0))
-        .collect();
+    let alone: Vec<_> = (0..10_000).map(|k| block(&k.to_string(), at(k), 1.0)).collect();
     let with_neighbour = alone.iter().cloned().chain([neighbour]).collect();
     let verdict_only = Options::default().verdict_only(true);
     for (bricks, most) in [(alone, 0), (with_neighbour, 8)] {
@@ -218,10 +191,7 @@ fn the_verdict_alone_of_a_stack_of_ten_thousand_blocks_needs_few_programs() {
             let frame = Analysis::with(&scene, &verdict_only).frames.remove(0);
             assert_eq!(frame.verdict, verdict, "{degrees}°");
             let solve = &frame.solve;
-            assert!(
-                solve.programs <= most && solve.iterations <= 60,
-                "{degrees}°: {solve:?}"
-            );
+            assert!(solve.programs <= most && solve.iterations <= 60, "{degrees}°: {solve:?}");
         }
     }
 }
@@ -241,10 +211,7 @@ fn the_adhesion_of_a_falling_stack_follows_from_the_balance_above_each_joint() {
         .map(|k| {
             let above = (bricks - k) as f64;
             let face = if k == 0 { 1.0 } else { 1.0 - shift };
-            f64::max(
-                0.0,
-                above * (0.5 + 0.5 * shift * (above - 1.0) - face) / face,
-            )
+            f64::max(0.0, above * (0.5 + 0.5 * shift * (above - 1.0) - face) / face)
         })
         .collect();
     let total: f64 = pulls.iter().sum();
@@ -252,22 +219,14 @@ fn the_adhesion_of_a_falling_stack_follows_from_the_balance_above_each_joint() {
     assert!((frame.total_sticking - total).abs() < 1e-9 * total);
     let joints = pulls.iter().filter(|pull| **pull > 0.0).count();
     assert_eq!(frame.failures.len(), joints);
-    assert!(
-        joints > 900 && frame.solve.programs <= 3,
-        "{:?}",
-        frame.solve
-    );
+    assert!(joints > 900 && frame.solve.programs <= 3, "{:?}", frame.solve);
 }
 
 /// The program of a structure whose blocks are all connected.
 pub fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext {
-        scene,
-        frame,
-        interfaces: &found.in_frame(scene, frame),
-    });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(scene, frame) });
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }
 
@@ -287,8 +246,8 @@ fn two_solvers_agree_on_a_thousand_bricks_that_stand_or_fall() {
         };
         let problems = [least_force, any_balance, least_residual];
         for (problem, status) in problems.iter().zip(expected) {
-            let [ours, theirs] = [Conditioning::Plain, Conditioning::Full]
-                .map(|conditioning| solve(problem, TOLERANCE, conditioning));
+            let [ours, theirs] =
+                [Conditioning::Plain, Conditioning::Full].map(|conditioning| solve(problem, TOLERANCE, conditioning));
             assert_eq!((ours.status, theirs.status), (status, status));
             assert_ne!(ours.x, theirs.x, "the same solver was used twice");
             if status == Status::Solved {
@@ -312,10 +271,7 @@ fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
     let all = columns(&program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
-    for problem in [
-        force_primal(&loads, &all, |_| 0.0, None),
-        least_residual_dual(&loads, &all).0,
-    ] {
+    for problem in [force_primal(&loads, &all, |_| 0.0, None), least_residual_dual(&loads, &all).0] {
         let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
         assert_eq!(answer.status, Status::Solved);
         assert!(answer.iterations < 60, "{}", answer.iterations);
@@ -328,9 +284,7 @@ fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
 #[test]
 fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let file = wall(16, 16);
-    let options = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let tilt = upright.margins.expect("margins were requested").tilt;
     let limit = tilt.right.at().expect("the tilt has a limit");
@@ -350,11 +304,7 @@ fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let bound = power * program.scale.force;
     assert!(bound > 0.0 && bound < 1e-5 * frame.total_force, "{bound} N");
     let off = frame.total_sticking / bound - 1.0;
-    assert!(
-        off.abs() < 1e-6,
-        "{} N instead of {bound} N",
-        frame.total_sticking
-    );
+    assert!(off.abs() < 1e-6, "{} N instead of {bound} N", frame.total_sticking);
 }
 
 /// The centre of gravity of all bricks above the lowest one lies a thousandth of a brick beyond the right end of the
@@ -372,11 +322,7 @@ fn a_tall_leaning_stack_tips_as_one_body() {
     let analysis = Analysis::with(&scene, &Options::default().verdict_only(true));
     let frame = &analysis.frames[0];
     assert_eq!(frame.verdict, Verdict::Unstable);
-    assert!(
-        frame.solve.programs <= 5,
-        "{} programs",
-        frame.solve.programs
-    );
+    assert!(frame.solve.programs <= 5, "{} programs", frame.solve.programs);
     let hinge = Point::new(1.0, high);
     let spin = frame.mechanism[0].spin;
     assert!(spin < 0.0, "to the right: {spin}");

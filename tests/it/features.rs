@@ -18,15 +18,8 @@ fn tree(features: &[&str]) -> Vec<String> {
         .args(features.iter().flat_map(|name| ["--features", name]))
         .output()
         .expect("cargo runs");
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    let mut lines: Vec<String> = String::from_utf8_lossy(&output.stdout)
-        .lines()
-        .map(str::to_owned)
-        .collect();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut lines: Vec<String> = String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect();
     lines.sort();
     lines.dedup();
     lines
@@ -47,10 +40,8 @@ fn crates(features: &[&str]) -> usize {
 fn rows() -> Vec<(Option<String>, usize)> {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/doc/library.md");
     let text = fs::read_to_string(page).expect("the page");
-    let table = text
-        .split_once("| feature | what it adds | crates |\n|---|---|---|\n")
-        .expect("the table of features")
-        .1;
+    let table =
+        text.split_once("| feature | what it adds | crates |\n|---|---|---|\n").expect("the table of features").1;
     table
         .lines()
         .take_while(|line| line.starts_with('|'))

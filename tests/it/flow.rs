@@ -63,24 +63,13 @@ fn strand<'a>(drawing: &'a Drawing, start: &str) -> &'a Group {
 
 #[test]
 fn the_width_of_a_band_is_proportional_to_its_force() {
-    let square =
-        |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
-    let blocks = vec![
-        square("low", 0.0),
-        square("middle", 2.0),
-        square("high", 4.0),
-    ];
+    let square = |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
+    let blocks = vec![square("low", 0.0), square("middle", 2.0), square("high", 4.0)];
     let drawing = drawn(&analysed(&structure::on_floor(0.7, blocks)));
     // 12 N enter the lowest block. Its weight of 6 N acts on the same line and is drawn on both sides of them, so that
     // the band of 18 N is half as wide again.
-    let low = band(strand(
-        &drawing,
-        "In block low: 12 N from block middle, 12 N to",
-    ));
-    let weight = band(strand(
-        &drawing,
-        "In block low: 6 N from its weight, 6 N to",
-    ));
+    let low = band(strand(&drawing, "In block low: 12 N from block middle, 12 N to"));
+    let weight = band(strand(&drawing, "In block low: 6 N from its weight, 6 N to"));
     let middle = band(strand(&drawing, "In block middle: 6 N from block high"));
     let (first, last) = (low[0].1, weight[weight.len() - 1].1);
     assert!((last / first - 1.5).abs() < 1e-6, "{first} {last}");
@@ -97,19 +86,12 @@ fn the_width_of_a_band_is_proportional_to_its_force() {
 
 #[test]
 fn a_weight_on_the_line_of_a_force_is_pale_although_a_load_acts_at_the_same_point() {
-    let square =
-        |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
+    let square = |id: &str, y: f64| structure::block(id, structure::rectangle(0.0, y, 2.0, 2.0), 6.0);
     let mut file = structure::on_floor(0.7, vec![square("low", 0.0), square("high", 2.0)]);
     file["loads"] = json!([{ "block": "low", "at": [1.0, 1.0], "force": [0.0, -3.0] }]);
     let drawing = drawn(&analysed(&file));
-    let low = band(strand(
-        &drawing,
-        "In block low: 6 N from block high, 9 N to",
-    ));
-    let weight = band(strand(
-        &drawing,
-        "In block low: 6 N from its weight, 6 N to",
-    ));
+    let low = band(strand(&drawing, "In block low: 6 N from block high, 9 N to"));
+    let weight = band(strand(&drawing, "In block low: 6 N from its weight, 6 N to"));
     let (first, last) = (low[0].1, low[low.len() - 1].1);
     let all = weight[weight.len() - 1].1;
     assert!((last / first - 1.5).abs() < 1e-6, "{first} {last}");
@@ -136,10 +118,7 @@ fn the_widths_of_the_strands_of_a_block_sum_to_those_of_its_forces() {
     let to_posts: f64 = on("lintel").iter().map(|b| b[b.len() - 1].1).sum();
     let in_top: f64 = on("top").iter().map(|b| b[b.len() - 1].1).sum();
     // The lintel's own 10 N and the 8 N of the block on it enter, and 18 N leave.
-    assert!(
-        (from_top / in_top - 18.0 / 8.0).abs() < 1e-6,
-        "{from_top} {in_top}"
-    );
+    assert!((from_top / in_top - 18.0 / 8.0).abs() < 1e-6, "{from_top} {in_top}");
     assert!((to_posts - from_top).abs() < 1e-6);
 }
 
@@ -160,10 +139,7 @@ fn lines_in_a_voussoir_are_true_lines_of_action() {
         }
         for (end, next) in [(axis[0], axis[1]), (axis[3], axis[2])] {
             let at = |c: &&drystone::analysis::Contact| (c.resultant.at - end).norm() < 1e-6;
-            let contact = contacts
-                .iter()
-                .find(at)
-                .expect("a joint at the end of the band");
+            let contact = contacts.iter().find(at).expect("a joint at the end of the band");
             let (force, direction): (Vector, Vector) = (contact.resultant.force, next - end);
             let sine = cross(force, direction) / (force.norm() * direction.norm());
             assert!(sine.abs() < 1e-3, "{}: {sine}", group.title);
@@ -175,14 +151,7 @@ fn lines_in_a_voussoir_are_true_lines_of_action() {
 
 #[test]
 fn the_largest_force_and_every_load_are_written() {
-    let mut file = structure::on_floor(
-        0.7,
-        vec![structure::block(
-            "a",
-            structure::rectangle(0.0, 0.0, 2.0, 2.0),
-            6.0,
-        )],
-    );
+    let mut file = structure::on_floor(0.7, vec![structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 2.0), 6.0)]);
     file["loads"] = json!([{ "block": "a", "at": [1.0, 2.0], "force": [0.0, -30.0] }]);
     let text = svg::write(&drawn(&analysed(&file)));
     assert!(text.contains("largest: 36"), "{text}");
@@ -206,10 +175,7 @@ fn missing_forces_are_drawn_with_their_magnitudes() {
     assert!(text.contains("from a missing force"), "{text}");
     assert!(text.contains("force that cannot be carried"));
     let amounts = groups(&drawing.items, "amount");
-    assert!(
-        amounts.len() >= 2,
-        "the largest force and a missing force have magnitudes"
-    );
+    assert!(amounts.len() >= 2, "the largest force and a missing force have magnitudes");
 }
 
 #[test]

@@ -30,19 +30,13 @@ fn rows(description: &str) -> Vec<Row> {
         let moment = rest.split_once("moment ").expect("a moment").1;
         let moment = moment.split(' ').next().expect("a number");
         let name = before.rsplit(". ").next().unwrap_or(before);
-        rows.push(Row {
-            name: name.to_owned(),
-            numbers: [x, y, moment].map(str::to_owned),
-        });
+        rows.push(Row { name: name.to_owned(), numbers: [x, y, moment].map(str::to_owned) });
     }
     rows
 }
 
 fn number(printed: &str) -> f64 {
-    printed
-        .replace('−', "-")
-        .parse()
-        .unwrap_or_else(|_| panic!("{printed}"))
+    printed.replace('−', "-").parse().unwrap_or_else(|_| panic!("{printed}"))
 }
 
 /// Half a unit of the last digit of a printed number.
@@ -63,18 +57,12 @@ fn assert_balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -
         let rows = rows(&drawing.description);
         let (sum, forces) = rows.split_last().expect("a list");
         assert_eq!(sum.name, "sum", "{what}: {}", drawing.description);
-        assert!(
-            !forces.is_empty() || scene.blocks()[id.0].weight == 0.0,
-            "{what}"
-        );
+        assert!(!forces.is_empty() || scene.blocks()[id.0].weight == 0.0, "{what}");
         for k in 0..3 {
             let added: f64 = forces.iter().map(|r| number(&r.numbers[k])).sum();
             let slack = rounding(&sum.numbers[k]) * (forces.len() as f64 + 1.0) + 1e-9;
             let off = (added - number(&sum.numbers[k])).abs();
-            assert!(
-                off <= slack,
-                "{what}: column {k} adds up to {added}, {off} off"
-            );
+            assert!(off <= slack, "{what}: column {k} adds up to {added}, {off} off");
             if found.verdict != Verdict::Undecided && !found.unsupported.contains(&id) {
                 let all = &drawing.description;
                 assert_eq!(number(&sum.numbers[k]), 0.0, "{what}: {all}");
@@ -121,22 +109,11 @@ fn loads_missing_forces_and_the_step_are_listed() {
     let options = Options::default();
     let drawing = figure::freebody(&Analysis::new(&loaded), 0, beam, &options).expect("placed");
     let description = &drawing.description;
-    assert!(
-        description.contains("Load Q_1 on block beam: 4 kN at 270°"),
-        "{description}"
-    );
-    assert!(
-        description.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"),
-        "{description}"
-    );
+    assert!(description.contains("Load Q_1 on block beam: 4 kN at 270°"), "{description}");
+    assert!(description.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"), "{description}");
     let slide = crate::pictures::scene("tests/scenes/slide.json");
-    let drawing =
-        figure::freebody(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
-    assert!(
-        drawing.description.contains("missing, ground"),
-        "{}",
-        drawing.description
-    );
+    let drawing = figure::freebody(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
+    assert!(drawing.description.contains("missing, ground"), "{}", drawing.description);
     let steps = crate::pictures::scene("assets/thesis/figure-4.json");
     let analysis = Analysis::new(&steps);
     let drawing = figure::freebody(&analysis, 1, BlockId(0), &options).expect("placed");
@@ -154,28 +131,15 @@ fn every_name_of_a_free_body_is_legible() {
         for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
                 for options in [&Options::default(), &column, &corners] {
-                    let drawing = figure::freebody(&analysis, frame, *block, options)
-                        .expect("the block is placed");
-                    let (labels, complaints) = hidden(
-                        &drawing.items,
-                        &["name"],
-                        &["force", "block", "guides", "values", "axes"],
-                    );
+                    let drawing = figure::freebody(&analysis, frame, *block, options).expect("the block is placed");
+                    let (labels, complaints) =
+                        hidden(&drawing.items, &["name"], &["force", "block", "guides", "values", "axes"]);
                     count += labels;
-                    assert!(
-                        complaints.is_empty(),
-                        "{name}, block {block:?}: {complaints:?}"
-                    );
-                    let page = Group {
-                        items: drawing.items,
-                        ..Group::default()
-                    };
+                    assert!(complaints.is_empty(), "{name}, block {block:?}: {complaints:?}");
+                    let page = Group { items: drawing.items, ..Group::default() };
                     for text in texts(&page) {
                         let [left, top, right, bottom] = ink(&text);
-                        let inside = left >= 0.0
-                            && top >= 0.0
-                            && right <= drawing.width
-                            && bottom <= drawing.height;
+                        let inside = left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
                         assert!(inside, "{name}, {block:?}: {} is cut", text.words);
                     }
                 }
@@ -192,12 +156,7 @@ fn the_free_body_of_the_slope_names_and_lists_every_force() {
     let all = Options::default().corners(figure::Corners::All);
     let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
     for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
-        assert!(
-            drawing
-                .description
-                .contains(&format!("force {name} on block a")),
-            "{name}"
-        );
+        assert!(drawing.description.contains(&format!("force {name} on block a")), "{name}");
     }
     // 6 N on a slope of 20°: friction of 6·sin 20° acts up the slope, to the right of the normal ŝ.
     for part in [
@@ -206,18 +165,8 @@ fn the_free_body_of_the_slope_names_and_lists_every_force() {
         "sum: (0.000; 0.000) N, moment 0.000 N·m",
         "s = (−0.342; 0.94)",
     ] {
-        assert!(
-            drawing.description.contains(part),
-            "{part}: {}",
-            drawing.description
-        );
+        assert!(drawing.description.contains(part), "{part}: {}", drawing.description);
     }
-    assert_eq!(
-        figure::freebody(&analysis, 1, BlockId(0), &Options::default()),
-        None
-    );
-    assert_eq!(
-        figure::freebody(&analysis, 0, BlockId(1), &Options::default()),
-        None
-    );
+    assert_eq!(figure::freebody(&analysis, 1, BlockId(0), &Options::default()), None);
+    assert_eq!(figure::freebody(&analysis, 0, BlockId(1), &Options::default()), None);
 }

@@ -7,9 +7,7 @@ use drystone::Analysis;
 use drystone::analysis::{Proof, Verdict};
 use serde_json::{Value, json};
 
-use crate::structure::{
-    arch, block, first, on_floor, on_slope, rectangle, scene, tower, verdict, wall,
-};
+use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene, tower, verdict, wall};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
@@ -25,11 +23,7 @@ pub fn wedge(half_angle: f64) -> Value {
 
 /// A block whose centre of gravity lies `beyond` the edge of its support. With `pair` the support is another block.
 pub fn overhang(beyond: f64, pair: bool) -> Value {
-    let mut blocks = vec![block(
-        "a",
-        rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5),
-        6.0,
-    )];
+    let mut blocks = vec![block("a", rectangle(0.5 + beyond, if pair { 0.5 } else { 0.0 }, 1.0, 0.5), 6.0)];
     if pair {
         blocks.push(block("b", rectangle(0.0, 0.0, 1.0, 0.5), 6.0));
     }
@@ -57,22 +51,10 @@ fn a_flat_wedge_stands_however_large_its_thrust() {
     for exponent in 2..=7 {
         let half_angle = libm::exp10(-f64::from(exponent));
         let frame = first(&wedge(half_angle));
-        assert_eq!(
-            frame.verdict, STANDS,
-            "half-angle 1e-{exponent}: {:?}",
-            frame.proof
-        );
+        assert_eq!(frame.verdict, STANDS, "half-angle 1e-{exponent}: {:?}", frame.proof);
         let expected = 6.0 / (2.0 * libm::sin(half_angle));
-        let sum: f64 = frame
-            .contacts
-            .iter()
-            .flat_map(|c| c.normal_forces)
-            .sum::<f64>()
-            / 2.0;
-        assert!(
-            (sum / expected - 1.0).abs() < 1e-6,
-            "half-angle 1e-{exponent}: {sum} instead of {expected}"
-        );
+        let sum: f64 = frame.contacts.iter().flat_map(|c| c.normal_forces).sum::<f64>() / 2.0;
+        assert!((sum / expected - 1.0).abs() < 1e-6, "half-angle 1e-{exponent}: {sum} instead of {expected}");
     }
 }
 
@@ -81,23 +63,11 @@ fn a_flat_wedge_stands_however_large_its_thrust() {
 fn a_centre_of_gravity_on_the_edge() {
     for pair in [false, true] {
         for inside in [0.0, -1e-9, -1e-8, -1e-7, -1e-6, -1e-5] {
-            assert_eq!(
-                verdict(&overhang(inside, pair)),
-                STANDS,
-                "{inside:e}, pair: {pair}"
-            );
+            assert_eq!(verdict(&overhang(inside, pair)), STANDS, "{inside:e}, pair: {pair}");
         }
-        assert_eq!(
-            verdict(&overhang(1e-9, pair)),
-            STANDS,
-            "a balance within the tolerance counts"
-        );
+        assert_eq!(verdict(&overhang(1e-9, pair)), STANDS, "a balance within the tolerance counts");
         for beyond in [2e-7, 1e-6, 1e-5] {
-            assert_eq!(
-                verdict(&overhang(beyond, pair)),
-                FALLS,
-                "{beyond:e}, pair: {pair}"
-            );
+            assert_eq!(verdict(&overhang(beyond, pair)), FALLS, "{beyond:e}, pair: {pair}");
         }
     }
 }
@@ -114,11 +84,7 @@ fn kernels_of_zero_and_one() {
     file["kernel"] = json!(1.0);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    assert_eq!(
-        frame.unsupported.len(),
-        11,
-        "adhesion in the middle of the joints cannot hold a chain of hinges"
-    );
+    assert_eq!(frame.unsupported.len(), 11, "adhesion in the middle of the joints cannot hold a chain of hinges");
 }
 
 /// At the limit between two verdicts, the status that a solver returns is not reliable.
@@ -126,12 +92,7 @@ fn kernels_of_zero_and_one() {
 fn an_arch_at_its_minimum_thickness() {
     // The limit of an arch of 181 voussoirs is slightly below that of the continuous arch (0.1075), because the
     // hinges of a continuous arch may also lie between these joints.
-    for (thickness, expected) in [
-        (0.10743, FALLS),
-        (0.10746, FALLS),
-        (0.1075, STANDS),
-        (0.1076, STANDS),
-    ] {
+    for (thickness, expected) in [(0.10743, FALLS), (0.10746, FALLS), (0.1075, STANDS), (0.1076, STANDS)] {
         assert_eq!(verdict(&arch(181, thickness, 0.9)), expected, "{thickness}");
     }
 }
@@ -141,11 +102,7 @@ fn an_arch_at_its_minimum_thickness() {
 fn friction_exactly_at_the_slope() {
     for degrees in [10.0f64, 30.0, 45.0, 60.0] {
         let friction = libm::tan(degrees.to_radians());
-        assert_eq!(
-            verdict(&on_slope(degrees, 4.0, 0.5, friction, 0.0)),
-            STANDS,
-            "{degrees}"
-        );
+        assert_eq!(verdict(&on_slope(degrees, 4.0, 0.5, friction, 0.0)), STANDS, "{degrees}");
     }
 }
 
@@ -153,24 +110,13 @@ fn friction_exactly_at_the_slope() {
 /// is symmetric.
 #[test]
 fn redundant_supports_carry_symmetric_forces() {
-    let mut blocks: Vec<Value> = (0..5)
-        .map(|k| {
-            block(
-                &format!("post {k}"),
-                rectangle(2.0 * k as f64, 0.0, 1.0, 1.0),
-                1.0,
-            )
-        })
-        .collect();
+    let mut blocks: Vec<Value> =
+        (0..5).map(|k| block(&format!("post {k}"), rectangle(2.0 * k as f64, 0.0, 1.0, 1.0), 1.0)).collect();
     blocks.push(block("beam", rectangle(0.0, 1.0, 9.0, 0.5), 45.0));
     let frame = first(&on_floor(0.5, blocks));
     assert_eq!(frame.verdict, STANDS);
-    let carried: Vec<f64> = frame
-        .contacts
-        .iter()
-        .filter(|c| c.interface.ends[0].y == 1.0)
-        .map(|c| c.resultant.force.y.abs())
-        .collect();
+    let carried: Vec<f64> =
+        frame.contacts.iter().filter(|c| c.interface.ends[0].y == 1.0).map(|c| c.resultant.force.y.abs()).collect();
     assert_eq!(carried.len(), 5);
     for (a, b) in carried.iter().zip(carried.iter().rev()) {
         assert!((a - b).abs() < 1e-6, "{carried:?}");
@@ -185,11 +131,7 @@ fn a_wall_on_a_tilted_table_fails_in_every_course() {
     file["gravity"] = json!([6.0, -8.0]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    assert!(
-        frame.total_sticking > 0.0 && frame.failures.len() < 60,
-        "{} points",
-        frame.failures.len()
-    );
+    assert!(frame.total_sticking > 0.0 && frame.failures.len() < 60, "{} points", frame.failures.len());
 }
 
 /// Each tower is a small independent program.
@@ -246,32 +188,15 @@ fn effects_that_a_frame_does_not_need_are_not_simulated() {
         ("robots", false),
         ("sticking", false),
     ] {
-        assert_eq!(
-            effect(name).simulated,
-            simulated,
-            "{name}: {}",
-            effect(name).why
-        );
+        assert_eq!(effect(name).simulated, simulated, "{name}: {}", effect(name).why);
     }
     let contacts = analysis.frames[1].contacts.len();
     assert_eq!(effect("contact").unknowns, 2 * contacts);
-    assert_eq!(
-        effect("friction").unknowns,
-        4 * contacts,
-        "the unknowns that friction would add"
-    );
+    assert_eq!(effect("friction").unknowns, 4 * contacts, "the unknowns that friction would add");
     // The third frame is equal to the first.
     let last = &analysis.frames[2];
-    assert_eq!(
-        (last.solve.reused, last.solve.groups, last.solve.programs),
-        (1, 1, 0)
-    );
-    let Proof::Forces {
-        worst_imbalance, ..
-    } = last.proof
-    else {
-        panic!("{:?}", last.proof)
-    };
+    assert_eq!((last.solve.reused, last.solve.groups, last.solve.programs), (1, 1, 0));
+    let Proof::Forces { worst_imbalance, .. } = last.proof else { panic!("{:?}", last.proof) };
     assert!(worst_imbalance < 1e-9);
 }
 
@@ -292,9 +217,5 @@ fn a_wedged_pile_that_falls_could_be_held_by_adhesion() {
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
     assert!(frame.unsupported.is_empty(), "{:?}", frame.unsupported);
-    assert!(
-        (frame.total_sticking / 1.325_152_168_800_875 - 1.0).abs() < 1e-7,
-        "{}",
-        frame.total_sticking
-    );
+    assert!((frame.total_sticking / 1.325_152_168_800_875 - 1.0).abs() < 1e-7, "{}", frame.total_sticking);
 }

@@ -50,9 +50,7 @@ impl Written {
     }
 
     fn all() -> impl Iterator<Item = Written> {
-        (3..=9)
-            .map(Written::Decimals)
-            .chain([Written::Float32, Written::InFull])
+        (3..=9).map(Written::Decimals).chain([Written::Float32, Written::InFull])
     }
 }
 
@@ -86,20 +84,8 @@ fn arch(count: usize, inner: f64, thickness: f64) -> Built {
     let middle = (inner + outer) / 2.0;
     Built {
         name: format!("arch of {count}, {inner:.3} m, {thickness:.3} m"),
-        ground: vec![
-            corners(-middle - 1.0, -1.0, 2.0, 1.0),
-            corners(middle - 1.0, -1.0, 2.0, 1.0),
-        ],
-        blocks: (0..count)
-            .map(|k| {
-                vec![
-                    at(inner, k),
-                    at(outer, k),
-                    at(outer, k + 1),
-                    at(inner, k + 1),
-                ]
-            })
-            .collect(),
+        ground: vec![corners(-middle - 1.0, -1.0, 2.0, 1.0), corners(middle - 1.0, -1.0, 2.0, 1.0)],
+        blocks: (0..count).map(|k| vec![at(inner, k), at(outer, k), at(outer, k + 1), at(inner, k + 1)]).collect(),
     }
 }
 
@@ -124,9 +110,8 @@ impl Built {
                     Some(chance) => split(outline, chance),
                     None => outline.clone(),
                 };
-                let place = |p: &[f64; 2]| {
-                    [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]].map(|x| written.number(x))
-                };
+                let place =
+                    |p: &[f64; 2]| [cos * p[0] - sin * p[1], sin * p[0] + cos * p[1]].map(|x| written.number(x));
                 json!({ "polygon": outline.iter().map(place).collect::<Vec<_>>() })
             };
             outlines.iter().map(body).collect()
@@ -149,10 +134,7 @@ fn assert_same(name: &str, expected: (Verdict, f64), file: &Value, written: Writ
     let (verdict, total, doubt) = judged(file);
     assert_eq!(verdict, expected.0, "{name}, {written:?}: {doubt}");
     let off = (total - expected.1).abs() / expected.1;
-    assert!(
-        verdict != Verdict::Stable || off <= written.error(),
-        "{name}, {written:?}: total force off by {off:.2e}"
-    );
+    assert!(verdict != Verdict::Stable || off <= written.error(), "{name}, {written:?}: total force off by {off:.2e}");
 }
 
 #[test]
@@ -160,11 +142,7 @@ fn rotated_and_rounded_walls_and_arches_keep_their_verdict_and_forces() {
     for seed in 0..12 {
         let mut chance = Random::new(seed);
         let built = if seed % 2 == 0 {
-            bond(
-                chance.whole(2, 4) as usize,
-                chance.whole(2, 6) as usize,
-                chance.between(0.4, 0.8),
-            )
+            bond(chance.whole(2, 4) as usize, chance.whole(2, 6) as usize, chance.between(0.4, 0.8))
         } else {
             let count = chance.whole(4, 9) as usize;
             let radius = count as f64 * chance.between(0.3, 0.4);
@@ -190,9 +168,7 @@ fn stones_between_walls(chance: &mut Random) -> Built {
     let (mut y, mut blocks) = (0.0, Vec::new());
     for _ in 0..courses {
         let height = chance.between(0.25, 0.6);
-        let mut ends: Vec<f64> = (1..width)
-            .map(|k| k as f64 + chance.between(-0.35, 0.35))
-            .collect();
+        let mut ends: Vec<f64> = (1..width).map(|k| k as f64 + chance.between(-0.35, 0.35)).collect();
         ends.push(length);
         let mut x = 0.0;
         for end in ends {
@@ -203,18 +179,12 @@ fn stones_between_walls(chance: &mut Random) -> Built {
         }
         y += height;
     }
-    let mut ground = vec![
-        corners(-2.0, -1.0, length + 4.0, 1.0),
-        corners(length, 0.0, 2.0, y * chance.between(0.4, 1.2)),
-    ];
+    let mut ground =
+        vec![corners(-2.0, -1.0, length + 4.0, 1.0), corners(length, 0.0, 2.0, y * chance.between(0.4, 1.2))];
     if chance.share() < 0.5 {
         ground.push(corners(-2.0, 0.0, 2.0, y * chance.between(0.4, 0.9)));
     }
-    Built {
-        name: format!("{} stones next to a wall", blocks.len()),
-        ground,
-        blocks,
-    }
+    Built { name: format!("{} stones next to a wall", blocks.len()), ground, blocks }
 }
 
 /// Rounding turns a stone between parallel upright faces into a wedge with an angle of about 10⁻⁶. Its forces of
@@ -247,20 +217,13 @@ fn structures_that_fall_are_not_healed_into_standing() {
     let corbel = Built {
         name: "corbel".into(),
         ground: vec![corners(-1.0, -1.0, 3.0, 1.0)],
-        blocks: (0..4)
-            .map(|k| corners(0.4 * f64::from(k), 0.5 * f64::from(k), 1.0, 0.5))
-            .collect(),
+        blocks: (0..4).map(|k| corners(0.4 * f64::from(k), 0.5 * f64::from(k), 1.0, 0.5)).collect(),
     };
     for built in [corbel, arch(11, 3.0, 0.25)] {
         for degrees in [0.0, 17.3, 41.3, 73.9] {
             for written in Written::all() {
                 let (verdict, ..) = judged(&built.file(degrees, written, None));
-                assert_eq!(
-                    verdict,
-                    Verdict::Unstable,
-                    "{}, {degrees}°, {written:?}",
-                    built.name
-                );
+                assert_eq!(verdict, Verdict::Unstable, "{}, {degrees}°, {written:?}", built.name);
             }
         }
     }
@@ -277,8 +240,7 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
             ring.iter().map(|p| place(p.x, p.y)).collect()
         };
         let holes: Vec<Vec<[f64; 2]>> = body.polygon.holes().iter().map(|h| ring(h)).collect();
-        let mut value =
-            json!({ "polygon": ring(body.polygon.outline()), "friction": body.friction });
+        let mut value = json!({ "polygon": ring(body.polygon.outline()), "friction": body.friction });
         if !holes.is_empty() {
             value["holes"] = json!(holes);
         }
@@ -318,10 +280,7 @@ fn frozen(scene: &Scene, frame: &Frame, degrees: f64, written: Written) -> Value
 #[test]
 fn every_frame_of_the_thesis_keeps_its_verdict() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/thesis");
-    let mut paths: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
+    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.sort();
     let mut count = 0;
     for path in paths {
@@ -337,12 +296,7 @@ fn every_frame_of_the_thesis_keeps_its_verdict() {
                     let file = frozen(&scene, frame, degrees, written);
                     let name = format!("{} {number}, {degrees}°", path.display());
                     if expected.robots.is_empty() {
-                        assert_same(
-                            &name,
-                            (expected.verdict, expected.total_force),
-                            &file,
-                            written,
-                        );
+                        assert_same(&name, (expected.verdict, expected.total_force), &file, written);
                     } else {
                         // The cost of a robot's force depends on its components, so the total force changes with the
                         // rotation.
@@ -362,25 +316,15 @@ fn the_source_of_the_tolerance_is_reported() {
     let wall = bond(3, 3, 0.5);
     let source = |written| {
         let scene = Scene::from_json(&wall.file(17.3, written, None).to_string()).unwrap();
-        (
-            scene.healed().source,
-            scene.tolerance().gap,
-            *scene.healed(),
-        )
+        (scene.healed().source, scene.tolerance().gap, *scene.healed())
     };
     let (from, gap, healed) = source(Written::Decimals(4));
     assert_eq!(from, ToleranceSource::Decimals(4));
     assert!((gap - 1.5e-4).abs() < 1e-12, "{gap}");
-    assert!(
-        healed.corners > 20 && healed.distance <= gap && healed.kept == 0,
-        "{healed:?}"
-    );
+    assert!(healed.corners > 20 && healed.distance <= gap && healed.kept == 0, "{healed:?}");
     let (from, gap, healed) = source(Written::Float32);
     assert_eq!(from, ToleranceSource::Float32);
-    assert!(
-        (1e-7..gap).contains(&healed.within) && healed.corners > 20,
-        "{healed:?}"
-    );
+    assert!((1e-7..gap).contains(&healed.within) && healed.corners > 20, "{healed:?}");
     let (from, _, healed) = source(Written::InFull);
     assert_eq!((from, healed.corners), (ToleranceSource::Size, 0));
     // Without rotation, all corners already fit.
@@ -406,9 +350,7 @@ fn bodies_that_cannot_be_healed_stay_as_written_and_the_first_is_named() {
         panic!("{healed:?}");
     };
     let block = &scene.blocks()[first.0];
-    let written = file["blocks"][first.0]["polygon"]
-        .as_array()
-        .expect("a list");
+    let written = file["blocks"][first.0]["polygon"].as_array().expect("a list");
     let outline = block.body.polygon.outline();
     assert!(written.iter().all(|corner| {
         let at = [&corner[0], &corner[1]].map(|v| v.as_f64().expect("a number"));
@@ -417,8 +359,5 @@ fn bodies_that_cannot_be_healed_stay_as_written_and_the_first_is_named() {
     let (least, words) = (block.body.polygon.bounds().min, scene.tolerance_words());
     let named = format!("; {} (from {:.4}, {:.4} to", block.id, least.x, least.y);
     let words = words.expect("the scene is on no lattice");
-    assert!(
-        words.contains(&named) && words.contains("stayed as written"),
-        "{words}"
-    );
+    assert!(words.contains(&named) && words.contains("stayed as written"), "{words}");
 }

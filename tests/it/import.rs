@@ -12,9 +12,7 @@ use serde_json::Value;
 use crate::random::Random;
 
 fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("assets")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("assets").join(name)
 }
 
 fn read(name: &str, format: Format, options: &Options) -> Imported {
@@ -29,13 +27,7 @@ fn ids(imported: &Imported) -> Vec<&str> {
 
 fn remarks(imported: &Imported) -> Vec<(&str, &str)> {
     let one = imported.remarks.iter();
-    one.map(|r| {
-        (
-            r.element.as_str(),
-            r.message.split([';', ':']).next().unwrap_or(""),
-        )
-    })
-    .collect()
+    one.map(|r| (r.element.as_str(), r.message.split([';', ':']).next().unwrap_or(""))).collect()
 }
 
 fn verdict(file: &SceneFile) -> Verdict {
@@ -47,11 +39,7 @@ fn verdict(file: &SceneFile) -> Verdict {
 fn touching(file: &SceneFile) -> usize {
     let scene = Scene::from_json(&file.to_json()).expect("sound");
     let analysis = Analysis::new(&scene);
-    let mut pairs: Vec<_> = analysis.frames[0]
-        .contacts
-        .iter()
-        .map(|c| c.interface.bodies)
-        .collect();
+    let mut pairs: Vec<_> = analysis.frames[0].contacts.iter().map(|c| c.interface.bodies).collect();
     pairs.sort();
     pairs.dedup();
     pairs.len()
@@ -63,56 +51,29 @@ fn a_doorway_from_inkscape_stands_at_its_real_size() {
     assert_eq!(imported.scene.blocks.len(), 17);
     assert_eq!(imported.scene.ground.len(), 1);
     assert_eq!(imported.scene.title.as_deref(), Some("A doorway"));
-    assert_eq!(
-        remarks(&imported),
-        [("text \"text1\"", "a text cannot become a block")]
-    );
-    assert!(
-        imported
-            .notes
-            .iter()
-            .any(|n| n.contains("0.001 m, because it is 210mm wide")),
-        "{:?}",
-        imported.notes
-    );
+    assert_eq!(remarks(&imported), [("text \"text1\"", "a text cannot become a block")]);
+    assert!(imported.notes.iter().any(|n| n.contains("0.001 m, because it is 210mm wide")), "{:?}", imported.notes);
     for skipped in ["g \"guides\"", "g \"older attempt\""] {
-        assert!(
-            imported.notes.iter().any(|n| n.contains(skipped)),
-            "{skipped}: {:?}",
-            imported.notes
-        );
+        assert!(imported.notes.iter().any(|n| n.contains(skipped)), "{skipped}: {:?}", imported.notes);
     }
     let crane = &imported.scene.robots[0];
-    assert_eq!(
-        (crane.id.as_deref(), crane.holds.as_deref()),
-        (Some("crane"), Some("load"))
-    );
+    assert_eq!((crane.id.as_deref(), crane.holds.as_deref()), (Some("crane"), Some("load")));
     // Every brick of the left pier was drawn some thousandths of a millimetre off its intended position.
     assert!(imported.snapped.len() >= 7, "{:?}", imported.snapped);
-    assert!(
-        imported
-            .snapped
-            .iter()
-            .all(|s| s.distance < 5e-6 && !s.to.is_empty())
-    );
+    assert!(imported.snapped.iter().all(|s| s.distance < 5e-6 && !s.to.is_empty()));
     // Each pier has 2 pairs with the ground, 4 within courses and 8 between courses. The lintel lies on both piers,
     // and two blocks stand alone.
     assert_eq!(touching(&imported.scene), 2 * (2 + 4 + 8) + 2 + 2);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     let unsnapped = Options::default().gap(0.0);
     let text = fs::read_to_string(asset("import/doorway.svg")).expect("an asset");
-    assert!(
-        import(&text, Format::Svg, &unsnapped).is_err(),
-        "as drawn, the blocks overlap"
-    );
+    assert!(import(&text, Format::Svg, &unsnapped).is_err(), "as drawn, the blocks overlap");
 }
 
 #[test]
 fn an_arch_from_illustrator_stands_on_its_curves() {
     let imported = read("arch.svg", Format::Svg, &Options::default());
-    let expected = [
-        "v1", "v2", "v3", "v4", "v5", "keystone", "v7", "v8", "v9", "v10", "v11",
-    ];
+    let expected = ["v1", "v2", "v3", "v4", "v5", "keystone", "v7", "v8", "v9", "v10", "v11"];
     assert_eq!(ids(&imported), expected);
     assert_eq!(remarks(&imported), []);
     assert_eq!(imported.scene.robots[0].holds.as_deref(), Some("keystone"));
@@ -128,19 +89,10 @@ fn an_arch_from_illustrator_stands_on_its_curves() {
 #[test]
 fn a_drum_touches_the_hole_that_contains_it() {
     let imported = read("window.svg", Format::Svg, &Options::default());
-    assert_eq!(
-        ids(&imported),
-        ["quoin-left", "quoin-right", "panel", "drum", "cap"]
-    );
+    assert_eq!(ids(&imported), ["quoin-left", "quoin-right", "panel", "drum", "cap"]);
     assert_eq!(
         remarks(&imported),
-        [
-            (
-                "circle \"drum\"",
-                "a gradient or pattern cannot become a material"
-            ),
-            ("path \"crack\"", "it is open"),
-        ]
+        [("circle \"drum\"", "a gradient or pattern cannot become a material"), ("path \"crack\"", "it is open"),]
     );
     assert_eq!(imported.scene.blocks[2].holes.len(), 1);
     assert_eq!(touching(&imported.scene), 6);
@@ -159,10 +111,7 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
     let options = Options::default().scale(2.0);
     let post = read("post.wkt", Format::Wkt, &options);
     assert_eq!(ids(&post), ["footing", "post"]);
-    assert_eq!(
-        post.scene.blocks[1].polygon.as_ref().expect("a polygon")[2],
-        [2.5, 7.0]
-    );
+    assert_eq!(post.scene.blocks[1].polygon.as_ref().expect("a polygon")[2], [2.5, 7.0]);
     assert_eq!(verdict(&post.scene), Verdict::Stable);
 }
 
@@ -195,32 +144,18 @@ fn drawings_of_other_programs_in_dxf_become_scenes() {
     let mut options = Options::default();
     options.scale = Some(1.0);
     let imported = read("lintel.dxf", Format::Dxf, &options);
-    assert_eq!(
-        (imported.scene.blocks.len(), imported.scene.ground.len()),
-        (3, 1)
-    );
+    assert_eq!((imported.scene.blocks.len(), imported.scene.ground.len()), (3, 1));
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     // Written by ezdxf as release 12: polylines with vertices, an array of a block, a rotated block, no unit.
     let imported = read("bricks.dxf", Format::Dxf, &Options::default());
-    assert_eq!(
-        (imported.scene.blocks.len(), imported.scene.ground.len()),
-        (7, 1)
-    );
+    assert_eq!((imported.scene.blocks.len(), imported.scene.ground.len()), (7, 1));
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
-    assert!(
-        imported
-            .notes
-            .iter()
-            .any(|n| n.contains("taken as ground by name: Fundament"))
-    );
+    assert!(imported.notes.iter().any(|n| n.contains("taken as ground by name: Fundament")));
 }
 
 #[test]
 fn a_scene_exported_to_dxf_and_imported_again_gives_the_same_verdict() {
-    for (name, text) in [
-        ("stands", drystone::scene::starter()),
-        ("falls", drystone::scene::falling_starter()),
-    ] {
+    for (name, text) in [("stands", drystone::scene::starter()), ("falls", drystone::scene::falling_starter())] {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::new(&scene);
         for (i, frame) in analysis.frames.iter().enumerate() {
@@ -228,11 +163,7 @@ fn a_scene_exported_to_dxf_and_imported_again_gives_the_same_verdict() {
             let mut options = Options::default();
             options.scene.friction = Some(scene.blocks()[0].body.friction);
             let imported = import(&drawing, Format::Dxf, &options).expect("our own drawing");
-            assert_eq!(
-                imported.scene.blocks.len(),
-                scene.frames()[i].placed.len(),
-                "{name} {i}"
-            );
+            assert_eq!(imported.scene.blocks.len(), scene.frames()[i].placed.len(), "{name} {i}");
             assert!(imported.remarks.is_empty(), "{:?}", imported.remarks);
             let has_guide = |layer: &str| drawing.contains(&format!("\n  8\nguide {layer}"));
             assert_eq!(has_guide("thrust line"), frame.verdict == Verdict::Stable);
@@ -267,14 +198,9 @@ fn imported_figures_of_this_crate_have_the_same_verdicts() {
                     .density(first.weight / first.body.polygon.area()),
             );
             let name = format!("{} frame {number}", path.display());
-            let mut imported =
-                import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{name}: {r:?}"));
+            let mut imported = import(&svg, Format::Svg, &options).unwrap_or_else(|r| panic!("{name}: {r:?}"));
             assert_eq!(imported.remarks, [], "{name}");
-            let names: Vec<&str> = frame
-                .placed
-                .iter()
-                .map(|id| scene.blocks()[id.0].id.as_str())
-                .collect();
+            let names: Vec<&str> = frame.placed.iter().map(|id| scene.blocks()[id.0].id.as_str()).collect();
             assert_eq!(ids(&imported), names, "{name}");
             assert_eq!(imported.scene.ground.len(), scene.ground().len(), "{name}");
             assert_eq!(imported.scene.robots.len(), frame.holds.len(), "{name}");
@@ -282,11 +208,7 @@ fn imported_figures_of_this_crate_have_the_same_verdicts() {
             for (robot, hold) in imported.scene.robots.iter_mut().zip(&frame.holds) {
                 let own = &scene.robots()[hold.robot.0];
                 assert_eq!(robot.id.as_deref(), Some(own.id.as_str()), "{name}");
-                assert_eq!(
-                    robot.holds.as_deref(),
-                    Some(scene.blocks()[hold.block.0].id.as_str()),
-                    "{name}"
-                );
+                assert_eq!(robot.holds.as_deref(), Some(scene.blocks()[hold.block.0].id.as_str()), "{name}");
                 robot.limits = limits[hold.robot.0].clone();
             }
             for (block, id) in imported.scene.blocks.iter_mut().zip(&frame.placed) {
@@ -301,11 +223,7 @@ fn imported_figures_of_this_crate_have_the_same_verdicts() {
             }
             let again = Analysis::new(&read);
             assert_eq!(again.frames[0].verdict, found.verdict, "{name}");
-            assert_eq!(
-                again.frames[0].contacts.len(),
-                found.contacts.len(),
-                "{name}"
-            );
+            assert_eq!(again.frames[0].contacts.len(), found.contacts.len(), "{name}");
             frames += 1;
         }
     }
@@ -316,18 +234,7 @@ fn imported_figures_of_this_crate_have_the_same_verdicts() {
 fn damaged_drawings_are_reported_and_never_panic() {
     let mut numbers = Random::new(1);
     let mut random = move |count: usize| numbers.below(count);
-    let bits: [&[u8]; 10] = [
-        b"1e308",
-        b"-",
-        b"<g>",
-        b"z",
-        b"\"",
-        b"NaN",
-        b"0",
-        b"a1 1 0 0 1 ",
-        b"#",
-        b"1e-300",
-    ];
+    let bits: [&[u8]; 10] = [b"1e308", b"-", b"<g>", b"z", b"\"", b"NaN", b"0", b"a1 1 0 0 1 ", b"#", b"1e-300"];
     for (name, format) in [
         ("doorway.svg", Format::Svg),
         ("arch.svg", Format::Svg),
@@ -352,10 +259,7 @@ fn damaged_drawings_are_reported_and_never_panic() {
             }
             let text = String::from_utf8_lossy(&bytes);
             match import(&text, format, &Options::default()) {
-                Ok(imported) => assert!(
-                    Scene::from_json(&imported.scene.to_json()).is_ok(),
-                    "{text}"
-                ),
+                Ok(imported) => assert!(Scene::from_json(&imported.scene.to_json()).is_ok(), "{text}"),
                 Err(refusal) => assert!(!refusal.problems.is_empty()),
             }
         }
@@ -368,18 +272,11 @@ fn a_figure_of_very_many_blocks_is_imported_completely() {
     for row in 0..35 {
         for column in 0..30 {
             let corners = crate::structure::rectangle(f64::from(column), f64::from(row), 1.0, 1.0);
-            blocks.push(crate::structure::block(
-                &format!("{row}-{column}"),
-                corners,
-                1.0,
-            ));
+            blocks.push(crate::structure::block(&format!("{row}-{column}"), corners, 1.0));
         }
     }
     let scene = crate::structure::scene(&crate::structure::on_floor(0.7, blocks));
-    let svg = output::svg::write(&figure::forces(
-        &Analysis::new(&scene),
-        &figure::Options::default(),
-    ));
+    let svg = output::svg::write(&figure::forces(&Analysis::new(&scene), &figure::Options::default()));
     let imported = import(&svg, Format::Svg, &Options::default()).expect("a scene");
     assert_eq!(imported.scene.blocks.len(), 1050);
     assert_eq!(imported.remarks, []);

@@ -20,25 +20,17 @@ mod random;
 mod slight;
 
 use exact::{
-    Problems, check_friction, check_kernel, check_linear, check_robots, check_tilt, exact_interval,
-    is_borderline,
+    Problems, check_friction, check_kernel, check_linear, check_robots, check_tilt, exact_interval, is_borderline,
 };
 use random::random_scene;
 
 fn analysed(scene: &Scene) -> Margins {
     let mut analysis = Analysis::with(scene, &Options::default().margins(true));
-    analysis
-        .frames
-        .remove(0)
-        .margins
-        .expect("margins were requested")
+    analysis.frames.remove(0).margins.expect("margins were requested")
 }
 
 fn known(name: &str) -> (Value, Margins) {
-    let path = format!(
-        "{}/tests/it/intervals/{name}.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let path = format!("{}/tests/it/intervals/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a scene");
     let scene = Scene::from_json(&text).expect("a sound scene");
     (serde_json::from_str(&text).expect("JSON"), analysed(&scene))
@@ -95,11 +87,7 @@ fn groups_with_disjoint_intervals_stand_at_no_value() {
     assert_eq!(ends(&margins.intervals.load_factor), None);
     assert_eq!(margins.load_factor, Margin::None);
     let (_, margins) = known("margin-robot-other-falls");
-    for limit in [
-        &margins.robots[0].fx,
-        &margins.robots[0].fy,
-        &margins.robots[0].torque,
-    ] {
+    for limit in [&margins.robots[0].fx, &margins.robots[0].fy, &margins.robots[0].torque] {
         assert_eq!(*limit, Margin::None);
     }
 }
@@ -118,10 +106,7 @@ fn a_plank_needs_three_tenths_of_its_counterweight() {
 fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
     let (_, margins) = known("archmech");
     let [low, high] = ends(&margins.intervals.horizontal_load).expect("it stands when pushed");
-    assert!(
-        (low + 1.320617).abs() < 1e-5 && (high + 0.589701).abs() < 1e-5,
-        "{low} {high}"
-    );
+    assert!((low + 1.320617).abs() < 1e-5 && (high + 0.589701).abs() < 1e-5, "{low} {high}");
     assert_eq!(margins.horizontal_load.left, Margin::None);
     assert_eq!(margins.tilt.right, Margin::None);
     near(ends(&margins.intervals.load_factor), [0.0, 0.327657247]);
@@ -157,29 +142,14 @@ fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
     };
     let margins = analysed(&scene);
     let found = &margins.intervals;
-    let mut problems = Problems {
-        has_band,
-        ..Problems::default()
-    };
+    let mut problems = Problems { has_band, ..Problems::default() };
     let is_loaded = !scene.loads().is_empty();
     if is_loaded {
-        check_linear(
-            "load factor",
-            file,
-            Growing::ListedLoads,
-            &found.load_factor,
-            &mut problems,
-        );
+        check_linear("load factor", file, Growing::ListedLoads, &found.load_factor, &mut problems);
     } else if found.load_factor.is_some() || margins.load_factor != Margin::NotApplicable {
         problems.push("a load factor without loads".into());
     }
-    check_linear(
-        "horizontal",
-        file,
-        Growing::AcrossGravity,
-        &found.horizontal_load,
-        &mut problems,
-    );
+    check_linear("horizontal", file, Growing::AcrossGravity, &found.horizontal_load, &mut problems);
     check_friction(file, found, &mut problems);
     check_kernel(file, found, &mut problems);
     check_tilt(file, found, &mut Random::new(number), &mut problems);
@@ -193,16 +163,8 @@ fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
 fn both_ends_of_each_interval_agree_with_the_exact_program() {
     let first = number_of("DRYSTONE_INTERVAL_FIRST", 0);
     let wanted = number_of("DRYSTONE_INTERVAL_SCENES", 100);
-    let found: Vec<String> = (first..first + wanted)
-        .into_par_iter()
-        .flat_map_iter(problems)
-        .collect();
-    assert!(
-        found.is_empty(),
-        "{} problems:\n{}",
-        found.len(),
-        found.join("\n")
-    );
+    let found: Vec<String> = (first..first + wanted).into_par_iter().flat_map_iter(problems).collect();
+    assert!(found.is_empty(), "{} problems:\n{}", found.len(), found.join("\n"));
 }
 
 /// A load pulls a lintel off its posts. The mechanisms of nearby tilts differ little, and each cuts off a fifteenth
@@ -281,8 +243,7 @@ fn analysed_scene(number: u64) -> Margins {
 fn a_session_has_the_margins_of_the_scene() {
     for number in 0..12 {
         let file = random_scene(number).to_string();
-        let session =
-            Session::new(serde_json::from_str(&file).expect("a scene file")).expect("sound");
+        let session = Session::new(serde_json::from_str(&file).expect("a scene file")).expect("sound");
         let margins = session.margins(MarginKinds::ALL).expect("one frame");
         let scene = Scene::from_json(&file).expect("sound");
         let json = |margins: &Margins| drystone::result::margins_json(&scene, margins);

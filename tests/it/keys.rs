@@ -18,15 +18,8 @@ fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
         .filter(|words| !words.starts_with("largest: "))
         .collect();
     assert_eq!(amounts.len(), scene.loads().len(), "{amounts:?}");
-    let key: Vec<Text> = classes(&drawing.items, &["key"])
-        .into_iter()
-        .flat_map(texts)
-        .collect();
-    assert!(
-        key.iter()
-            .any(|t| t.words.contains("2 loads of 800 N and 4 kN")),
-        "{key:?}"
-    );
+    let key: Vec<Text> = classes(&drawing.items, &["key"]).into_iter().flat_map(texts).collect();
+    assert!(key.iter().any(|t| t.words.contains("2 loads of 800 N and 4 kN")), "{key:?}");
     assert!(key.iter().any(|t| t.words.contains("weight")), "{key:?}");
 }
 
@@ -34,10 +27,7 @@ fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
 fn every_robot_is_named_in_the_key() {
     let scene = scene("tests/scenes/robots10.json");
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
-    let key: Vec<Text> = classes(&drawing.items, &["key"])
-        .into_iter()
-        .flat_map(texts)
-        .collect();
+    let key: Vec<Text> = classes(&drawing.items, &["key"]).into_iter().flat_map(texts).collect();
     for robot in scene.robots() {
         let words = format!("robot {}", robot.id);
         assert!(key.iter().any(|t| t.words == words), "{words}");
@@ -53,12 +43,7 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
         figure::forces(&Analysis::new(&scene), &options)
     };
     let steps = drawn("tests/scenes/steps30.json", None);
-    assert!(
-        steps.height / steps.width < 297.0 / 210.0,
-        "{} × {}",
-        steps.width,
-        steps.height
-    );
+    assert!(steps.height / steps.width < 297.0 / 210.0, "{} × {}", steps.width, steps.height);
     let figure = drawn("assets/thesis/figure-4.json", Some(COLUMN));
     let high = figure.height / figure.width * 84.0;
     // A4 without margins of 35 mm at the top and at the bottom.
@@ -66,17 +51,8 @@ fn thirty_steps_fit_on_a_page_and_figure_4_in_a_column() {
 }
 
 /// The scenes of the test below: none of them is flatter than a third of its width.
-const NOT_FLAT: [&str; 9] = [
-    "arch13",
-    "arch13thin",
-    "archload",
-    "buttress",
-    "doorway",
-    "leaning",
-    "loaded",
-    "slide",
-    "wall200",
-];
+const NOT_FLAT: [&str; 9] =
+    ["arch13", "arch13thin", "archload", "buttress", "doorway", "leaning", "loaded", "slide", "wall200"];
 
 #[test]
 fn in_a_column_of_print_key_and_caption_need_at_most_half_of_a_figure() {
@@ -104,14 +80,8 @@ fn each_option_leaves_out_only_the_part_that_it_names() {
     let analysis = Analysis::new(&scene);
     let words_of = |options: &Options| {
         let drawing = figure::forces(&analysis, options);
-        let page = Group {
-            items: drawing.items,
-            ..Group::default()
-        };
-        texts(&page)
-            .into_iter()
-            .map(|t| t.words)
-            .collect::<Vec<String>>()
+        let page = Group { items: drawing.items, ..Group::default() };
+        texts(&page).into_iter().map(|t| t.words).collect::<Vec<String>>()
     };
     let full = words_of(&Options::default());
     let has = |all: &[String], words: &str| all.iter().any(|s| s.contains(words));

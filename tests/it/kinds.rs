@@ -9,13 +9,7 @@ use serde_json::json;
 
 use super::structure;
 
-const KINDS: [Kind; 5] = [
-    Kind::Flow,
-    Kind::Mechanism,
-    Kind::Thrust,
-    Kind::Kernel,
-    Kind::Utilisation,
-];
+const KINDS: [Kind; 5] = [Kind::Flow, Kind::Mechanism, Kind::Thrust, Kind::Kernel, Kind::Utilisation];
 
 fn scene(path: &str) -> Scene {
     let full = format!("{}/assets/{path}", env!("CARGO_MANIFEST_DIR"));
@@ -82,8 +76,7 @@ fn no_kind_of_figure_draws_beyond_the_page() {
             let drawing = draw(&analysis, kind);
             outlines(&drawing.items, &mut |outline| {
                 for p in outline.points() {
-                    let inside = (0.0..=drawing.width).contains(&p.x)
-                        && (0.0..=drawing.height).contains(&p.y);
+                    let inside = (0.0..=drawing.width).contains(&p.x) && (0.0..=drawing.height).contains(&p.y);
                     assert!(inside, "{name}, {kind:?}: {p:?}");
                 }
             });
@@ -128,10 +121,8 @@ fn the_safe_fraction_of_an_interface_is_one_minus_the_kernel() {
             for path in paths(interface) {
                 let stroke = path.stroke.as_ref().expect("a line");
                 let points: Vec<_> = path.outline.points().collect();
-                let length: f64 = points
-                    .chunks(2)
-                    .map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y))
-                    .sum();
+                let length: f64 =
+                    points.chunks(2).map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y)).sum();
                 if stroke.colour == Theme::default().safe {
                     safe += length;
                 } else if !stroke.dash.is_empty() {
@@ -152,39 +143,22 @@ fn with_a_kernel_of_one_the_safe_part_is_a_point() {
     let scene = structure::scene(&file);
     let svg = svg::write(&draw(&Analysis::new(&scene), Kind::Kernel));
     assert!(svg.contains("every safe part is a point"), "{svg}");
-    assert!(
-        svg.contains("Between a and the ground: 0 m of 2 m safe"),
-        "{svg}"
-    );
+    assert!(svg.contains("Between a and the ground: 0 m of 2 m safe"), "{svg}");
 }
 
 #[test]
 fn interfaces_that_use_all_friction_are_marked_and_no_others() {
     let mut marked = 0;
-    for name in [
-        "thesis/figure-8-left.json",
-        "thesis/figure-3b.json",
-        "study/slope-exact.json",
-    ] {
+    for name in ["thesis/figure-8-left.json", "thesis/figure-3b.json", "study/slope-exact.json"] {
         let scene = scene(name);
         let analysis = Analysis::new(&scene);
         let drawing = draw(&analysis, Kind::Utilisation);
         // An interface that uses all its friction has three paths: a rim, a line, and a bar across the line.
-        let bars = all(&drawing, "interface")
-            .into_iter()
-            .filter(|group| paths(group).count() == 3);
+        let bars = all(&drawing, "interface").into_iter().filter(|group| paths(group).count() == 3);
         let titles: Vec<&str> = bars.map(|group| group.title.as_str()).collect();
-        let used = analysis.frames[0]
-            .contacts
-            .iter()
-            .filter(|c| c.friction_used >= 1.0 - 1e-6)
-            .count();
+        let used = analysis.frames[0].contacts.iter().filter(|c| c.friction_used >= 1.0 - 1e-6).count();
         assert_eq!(titles.len(), used, "{name}: {titles:?}");
-        assert!(
-            titles
-                .iter()
-                .all(|t| t.contains(": 100\u{a0}% of the available friction"))
-        );
+        assert!(titles.iter().all(|t| t.contains(": 100\u{a0}% of the available friction")));
         marked += used;
     }
     assert!(marked >= 2, "{marked}");
@@ -243,16 +217,11 @@ fn only_changes_from_frame_to_frame_are_marked() {
         of_class(&frames[frame].items, class, &mut found);
         found.len()
     };
-    let marks: Vec<[usize; 3]> = (0..3)
-        .map(|f| [count(f, "new"), count(f, "gone"), count(f, "change")])
-        .collect();
+    let marks: Vec<[usize; 3]> = (0..3).map(|f| [count(f, "new"), count(f, "gone"), count(f, "change")]).collect();
     assert_eq!(marks, [[0, 0, 0], [1, 0, 1], [0, 1, 1]]);
     let svg = svg::write(&drawing);
     assert!(svg.contains("Between low and the ground: 6 N before, 10 N now"));
-    assert!(
-        svg.contains("new: high; 1 of 2 shared forces changed by over 5 %"),
-        "{svg}"
-    );
+    assert!(svg.contains("new: high; 1 of 2 shared forces changed by over 5 %"), "{svg}");
 }
 
 #[test]
@@ -260,17 +229,12 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
     let scene = scene("study/arch-27.json");
     let plain = Analysis::new(&scene);
     let kinds = Kind::Thrust.stated_margins(&plain).expect("the kernel");
-    let margin_options = drystone::analysis::Options::default()
-        .margins(true)
-        .margin_kinds(kinds);
+    let margin_options = drystone::analysis::Options::default().margins(true).margin_kinds(kinds);
     let analysis = Analysis::with(&scene, &margin_options);
     let family = analysis.thrust_states(0);
-    let [least, central, greatest] = [&family.least, &family.central, &family.greatest]
-        .map(|state| state.as_ref().expect("it is an arch").thrust);
-    assert!(
-        least < central && central < greatest,
-        "{least} {central} {greatest}"
-    );
+    let [least, central, greatest] =
+        [&family.least, &family.central, &family.greatest].map(|state| state.as_ref().expect("it is an arch").thrust);
+    assert!(least < central && central < greatest, "{least} {central} {greatest}");
     // The forces of the analysis are another balance of the same arch and lie in between.
     assert!(least <= family.present * (1.0 + 1e-6), "{}", family.present);
     assert!(family.present <= greatest * (1.0 + 1e-6));
@@ -278,12 +242,7 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
     assert_eq!(all(&drawing, "thrust-least").len(), 1);
     assert_eq!(all(&drawing, "thrust-greatest").len(), 1);
     let svg = svg::write(&drawing);
-    for words in [
-        "least thrust",
-        "greatest thrust",
-        "most central line",
-        "forces of least sum",
-    ] {
+    for words in ["least thrust", "greatest thrust", "most central line", "forces of least sum"] {
         assert!(svg.contains(words), "{words}");
     }
 }
@@ -299,10 +258,7 @@ fn a_line_of_thrust_over_several_supports_names_its_state() {
     let analysis = Analysis::new(&scene);
     assert_eq!(analysis.thrust_states(0).supports, 3);
     let svg = svg::write(&draw(&analysis, Kind::Thrust));
-    assert!(
-        svg.contains("line of thrust of the forces of least sum"),
-        "{svg}"
-    );
+    assert!(svg.contains("line of thrust of the forces of least sum"), "{svg}");
     assert!(svg.contains("more than two supports"), "{svg}");
 }
 
@@ -311,10 +267,7 @@ fn a_large_structure_without_arrows_still_names_its_largest_contact_force() {
     let scene = structure::scene(&structure::wall(20, 16));
     let drawing = figure::forces(&Analysis::new(&scene), &Options::default().width(397.0));
     let svg = svg::write(&drawing);
-    assert!(
-        svg.contains("too small to read, left out"),
-        "arrows are drawn"
-    );
+    assert!(svg.contains("too small to read, left out"), "arrows are drawn");
     assert_eq!(svg.matches(">largest: ").count(), 1, "{svg}");
 }
 
@@ -328,9 +281,7 @@ fn structures_without_thrust_have_no_family_of_lines() {
 
 /// The ends of the only line of a group.
 fn line(group: &Group) -> [(f64, f64); 2] {
-    let points: Vec<_> = paths(group)
-        .flat_map(|path| path.outline.points())
-        .collect();
+    let points: Vec<_> = paths(group).flat_map(|path| path.outline.points()).collect();
     [points[0], points[1]].map(|p| (p.x, p.y))
 }
 
@@ -349,34 +300,20 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     for (k, ray) in rays.iter().enumerate() {
         let words = ray.title.strip_prefix(&format!("Ray {}: ", k + 1));
         let words = words.unwrap_or_else(|| panic!("{}", ray.title));
-        let amount: f64 = words
-            .split(' ')
-            .next()
-            .and_then(|n| n.parse().ok())
-            .expect("N");
+        let amount: f64 = words.split(' ').next().and_then(|n| n.parse().ok()).expect("N");
         let amount = amount * if words.contains("kN") { 1000.0 } else { 1.0 };
         let [pole, tip] = line(ray);
         let length = libm::hypot(tip.0 - pole.0, tip.1 - pole.1);
         let scale = *scale.get_or_insert(amount / length);
-        assert!(
-            (amount / length - scale).abs() < 0.01 * scale,
-            "{}: {length} pixels",
-            ray.title
-        );
+        assert!((amount / length - scale).abs() < 0.01 * scale, "{}: {length} pixels", ray.title);
     }
     // The weights and loads form a polyline from the tip of the first ray to the tip of the last ray.
     let loads = all(&drawing, "load");
-    let loads: Vec<&Group> = loads
-        .into_iter()
-        .filter(|l| l.title.contains(" on block "))
-        .collect();
+    let loads: Vec<&Group> = loads.into_iter().filter(|l| l.title.contains(" on block ")).collect();
     let (first, last) = (line(loads[0])[0], line(loads[loads.len() - 1])[1]);
     for (end, ray) in [(first, rays[0]), (last, rays[rays.len() - 1])] {
         let tip = line(ray)[1];
-        assert!(
-            libm::hypot(tip.0 - end.0, tip.1 - end.1) < 0.1,
-            "{tip:?} {end:?}"
-        );
+        assert!(libm::hypot(tip.0 - end.0, tip.1 - end.1) < 0.1, "{tip:?} {end:?}");
     }
     for width in [397.0, 823.0] {
         let drawing = figure::draw(&analysis, Kind::Thrust, &options.clone().width(width));
@@ -407,9 +344,8 @@ fn no_kind_leaves_out_a_load_silently() {
         .to_string(),
     )
     .expect("a sound scene");
-    let options = drystone::analysis::Options::default().capacity(
-        drystone::analysis::CapacityRequest::of_block(drystone::scene::BlockId(0)),
-    );
+    let options = drystone::analysis::Options::default()
+        .capacity(drystone::analysis::CapacityRequest::of_block(drystone::scene::BlockId(0)));
     let analysis = Analysis::with(&scene, &options);
     for kind in KINDS {
         let text = svg::write(&draw(&analysis, kind));
@@ -418,8 +354,5 @@ fn no_kind_leaves_out_a_load_silently() {
         assert!(names_load, "{kind:?}: {text}");
     }
     let text = svg::write(&draw(&analysis, Kind::Capacity));
-    assert!(
-        text.contains("one load also acts; it is not drawn"),
-        "{text}"
-    );
+    assert!(text.contains("one load also acts; it is not drawn"), "{text}");
 }

@@ -22,29 +22,12 @@ pub(crate) fn ink(text: &Text) -> Box4 {
         Anchor::Middle => text.at.x - wide / 2.0,
         Anchor::End => text.at.x - wide,
     };
-    let deep = if text
-        .words
-        .contains(['g', 'j', 'p', 'q', 'y', 'µ', '(', ')', ','])
-    {
-        0.2
-    } else {
-        0.0
-    };
-    [
-        left,
-        text.at.y - 0.72 * text.size,
-        left + wide,
-        text.at.y + deep * text.size,
-    ]
+    let deep = if text.words.contains(['g', 'j', 'p', 'q', 'y', 'µ', '(', ')', ',']) { 0.2 } else { 0.0 };
+    [left, text.at.y - 0.72 * text.size, left + wide, text.at.y + deep * text.size]
 }
 
 fn union(a: Box4, b: Box4) -> Box4 {
-    [
-        a[0].min(b[0]),
-        a[1].min(b[1]),
-        a[2].max(b[2]),
-        a[3].max(b[3]),
-    ]
+    [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
 pub(crate) fn texts(group: &Group) -> Vec<Text> {
@@ -111,10 +94,7 @@ pub(crate) fn pieces(group: &Group) -> Vec<[PagePoint; 2]> {
 /// Whether a segment passes through the inside of a box.
 pub(crate) fn through([a, b]: [PagePoint; 2], bounds: Box4) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
-    for (start, along, low, high) in [
-        (a.x, b.x - a.x, bounds[0], bounds[2]),
-        (a.y, b.y - a.y, bounds[1], bounds[3]),
-    ] {
+    for (start, along, low, high) in [(a.x, b.x - a.x, bounds[0], bounds[2]), (a.y, b.y - a.y, bounds[1], bounds[3])] {
         if along == 0.0 {
             if start <= low || start >= high {
                 return false;
@@ -169,11 +149,8 @@ fn names_and_magnitudes_cover_nothing_in_the_gallery() {
         for (name, scene) in gallery() {
             let drawing = figure::forces(&Analysis::new(&scene), &options);
             for items in panels(&drawing) {
-                let (labels, complaints) = hidden(
-                    items,
-                    &["name", "robot-name", "amount"],
-                    &["block", "plan", "robot", "force", "torque"],
-                );
+                let (labels, complaints) =
+                    hidden(items, &["name", "robot-name", "amount"], &["block", "plan", "robot", "force", "torque"]);
                 count += labels;
                 assert!(complaints.is_empty(), "{name}: {complaints:?}");
             }
@@ -196,9 +173,7 @@ fn names(text: &str, name: &str) -> bool {
     let is_number = !name.contains(char::is_alphabetic);
     let may_follow = |rest: &str| {
         let word = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}']);
-        let verbs = [
-            "and ", "or ", "falls", "fall ", "is ", "are ", "at ", "in ", "on ", "under ", "with ",
-        ];
+        let verbs = ["and ", "or ", "falls", "fall ", "is ", "are ", "at ", "in ", "on ", "under ", "with "];
         word.is_empty()
             || word.starts_with([',', '.', ';', ':', ')'])
             || verbs.iter().any(|verb| word.starts_with(verb))
@@ -252,67 +227,40 @@ fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
                         named += 1;
                         // Bands of force flow may leave no room for a name. Then the text below the frame states how
                         // many names are left out.
-                        let is_counted =
-                            kind == figure::Kind::Flow && below.contains("no room for");
-                        assert!(
-                            labels.contains(id) || is_counted,
-                            "{what}: {id} of {below:?} has no label"
-                        );
+                        let is_counted = kind == figure::Kind::Flow && below.contains("no room for");
+                        assert!(labels.contains(id) || is_counted, "{what}: {id} of {below:?} has no label");
                     }
                     let robots = classes(&group.items, &["robot-name"]).len();
                     let wanted = frame.placed.len() + frame.holds.len();
                     let missing = wanted.saturating_sub(labels.len() + robots);
                     if missing > 0 && frame.placed.len() <= 60 {
                         counted += 1;
-                        let number = if missing == 1 {
-                            "1 name".to_owned()
-                        } else {
-                            format!("{missing} names")
-                        };
+                        let number = if missing == 1 { "1 name".to_owned() } else { format!("{missing} names") };
                         let is_cut = kind == figure::Kind::Flow;
-                        let is_stated =
-                            below.contains("no room for") && (is_cut || below.contains(&number));
+                        let is_stated = below.contains("no room for") && (is_cut || below.contains(&number));
                         assert!(is_stated, "{what}: {missing} of {below:?}");
                     }
                 }
             }
         }
     }
-    assert!(
-        named > 60 && counted > 5,
-        "{named} named, {counted} counted"
-    );
+    assert!(named > 60 && counted > 5, "{named} named, {counted} counted");
 }
 
 #[test]
 fn a_figure_zoomed_to_a_block_names_it_and_draws_its_forces() {
     let scene = scene("tests/scenes/tinyhuge.json");
-    let pebble = scene
-        .blocks()
-        .iter()
-        .position(|b| b.id == "pebble")
-        .expect("there is one");
+    let pebble = scene.blocks().iter().position(|b| b.id == "pebble").expect("there is one");
     let options = Options::default().zoom(BlockId(pebble));
     let drawing = figure::forces(&Analysis::new(&scene), &options);
     let picture = classes(&drawing.items, &["picture"])[0];
     assert!(picture.clip.is_some());
-    let labels: Vec<String> = classes(&drawing.items, &["name"])
-        .into_iter()
-        .flat_map(texts)
-        .map(|t| t.words)
-        .collect();
+    let labels: Vec<String> = classes(&drawing.items, &["name"]).into_iter().flat_map(texts).map(|t| t.words).collect();
     assert!(labels.contains(&"pebble".to_owned()), "{labels:?}");
     let forces = classes(&drawing.items, &["force"]);
     assert!(forces.iter().any(|f| f.title.contains("on block pebble")));
-    let page = Group {
-        items: drawing.items.clone(),
-        ..Group::default()
-    };
-    assert!(
-        texts(&page)
-            .iter()
-            .any(|t| t.words == "around block pebble")
-    );
+    let page = Group { items: drawing.items.clone(), ..Group::default() };
+    assert!(texts(&page).iter().any(|t| t.words == "around block pebble"));
 }
 
 #[test]
@@ -322,18 +270,9 @@ fn the_measurement_finds_a_hidden_label() {
     let mut items = panels(&drawing)[0].to_vec();
     let weight = classes(&items, &["force"])[0];
     let at = pieces(weight)[0][0];
-    let words = Text::new(
-        at,
-        "hidden",
-        drystone::drawing::Face::Sans,
-        12.0,
-        drystone::drawing::Colour::BLACK,
-    )
-    .anchored(Anchor::Middle);
+    let words = Text::new(at, "hidden", drystone::drawing::Face::Sans, 12.0, drystone::drawing::Colour::BLACK)
+        .anchored(Anchor::Middle);
     items.push(Group::with_class("name").with(words).into());
     let (_, complaints) = hidden(&items, &["name"], &["force"]);
-    assert!(
-        complaints.iter().any(|c| c.starts_with("hidden lies on")),
-        "{complaints:?}"
-    );
+    assert!(complaints.iter().any(|c| c.starts_with("hidden lies on")), "{complaints:?}");
 }

@@ -24,21 +24,11 @@ struct Change {
 }
 
 /// The change that leaves a scene as it is.
-const SAME: Change = Change {
-    degrees: 0.0,
-    mirrored: false,
-    stretch: 1.0,
-    by: [0.0, 0.0],
-    force: 1.0,
-};
+const SAME: Change = Change { degrees: 0.0, mirrored: false, stretch: 1.0, by: [0.0, 0.0], force: 1.0 };
 
 impl Change {
     fn vector(&self, v: Vector) -> Vector {
-        let v = if self.mirrored {
-            Vector::new(-v.x, v.y)
-        } else {
-            v
-        };
+        let v = if self.mirrored { Vector::new(-v.x, v.y) } else { v };
         let (sin, cos) = libm::sincos(self.degrees.to_radians());
         Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
     }
@@ -72,12 +62,7 @@ impl Change {
                 }
             }
         }
-        for robot in file
-            .get_mut("robots")
-            .and_then(Value::as_array_mut)
-            .into_iter()
-            .flatten()
-        {
+        for robot in file.get_mut("robots").and_then(Value::as_array_mut).into_iter().flatten() {
             if let Some(at) = robot.get("at").cloned() {
                 robot["at"] = self.pair(&at, true);
             }
@@ -92,24 +77,9 @@ fn weighed(mut file: Value) -> Value {
     let bodies: Vec<(Vec<[f64; 2]>, f64)> = scene
         .blocks()
         .iter()
-        .map(|b| {
-            (
-                b.body
-                    .polygon
-                    .outline()
-                    .iter()
-                    .map(|p| [p.x, p.y])
-                    .collect(),
-                b.weight,
-            )
-        })
+        .map(|b| (b.body.polygon.outline().iter().map(|p| [p.x, p.y]).collect(), b.weight))
         .collect();
-    for (block, (outline, weight)) in file["blocks"]
-        .as_array_mut()
-        .expect("blocks")
-        .iter_mut()
-        .zip(bodies)
-    {
+    for (block, (outline, weight)) in file["blocks"].as_array_mut().expect("blocks").iter_mut().zip(bodies) {
         *block = json!({ "id": block["id"], "polygon": outline, "weight": weight });
     }
     let ground: Vec<Value> = scene
@@ -139,9 +109,7 @@ fn structures() -> Vec<(&'static str, Value)> {
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
     held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "force": 2 } }]);
     list.push(("held slope", held));
-    list.into_iter()
-        .map(|(name, file)| (name, weighed(file)))
-        .collect()
+    list.into_iter().map(|(name, file)| (name, weighed(file))).collect()
 }
 
 /// An irregular heap of bricks in rows with gaps, from a small generator.
@@ -154,11 +122,7 @@ fn pile(seed: u64) -> Value {
         for _ in 0..(5 - row) {
             let width = 0.8 + random();
             let polygon = crate::structure::rectangle(x, row as f64 * 0.6, width, 0.6);
-            blocks.push(crate::structure::block(
-                &format!("b{}", blocks.len()),
-                polygon,
-                3.0 * width,
-            ));
+            blocks.push(crate::structure::block(&format!("b{}", blocks.len()), polygon, 3.0 * width));
             x += width + random() * 0.7;
         }
     }
@@ -179,55 +143,19 @@ fn assert_same(
 ) {
     use drystone::scene::{BlockId, BodyId};
     let what = format!("{name} under {change:?}");
-    assert_eq!(
-        before.verdict,
-        after.verdict,
-        "{what}: {:?} {:?} {}",
-        before.proof,
-        after.proof,
-        after.doubt()
-    );
+    assert_eq!(before.verdict, after.verdict, "{what}: {:?} {:?} {}", before.proof, after.proof, after.doubt());
     // In a random pile the verdict may depend on a narrow gap. Then it must also do so in the changed pile.
     if before.doubt().contains("narrow gaps") {
-        assert!(
-            after.doubt().contains("narrow gaps"),
-            "{what}: {}",
-            after.doubt()
-        );
+        assert!(after.doubt().contains("narrow gaps"), "{what}: {}", after.doubt());
         return;
     }
-    assert_ne!(
-        before.verdict,
-        Verdict::Undecided,
-        "{what}: {}",
-        before.doubt()
-    );
+    assert_ne!(before.verdict, Verdict::Undecided, "{what}: {}", before.doubt());
     let force = change.force;
     let heaviest = before.weight.max(before.total_force) * force;
-    assert!(
-        close(before.total_force * force, after.total_force, heaviest),
-        "{what}: total force"
-    );
-    assert!(
-        close(
-            before.total_sticking * force,
-            after.total_sticking,
-            heaviest
-        ),
-        "{what}: total sticking"
-    );
-    assert_eq!(
-        before.contacts.len(),
-        after.contacts.len(),
-        "{what}: contacts"
-    );
-    assert_eq!(
-        before.failures.len(),
-        after.failures.len(),
-        "{what}: {:?} {:?}",
-        before.failures,
-        after.failures
-    );
+    assert!(close(before.total_force * force, after.total_force, heaviest), "{what}: total force");
+    assert!(close(before.total_sticking * force, after.total_sticking, heaviest), "{what}: total sticking");
+    assert_eq!(before.contacts.len(), after.contacts.len(), "{what}: contacts");
+    assert_eq!(before.failures.len(), after.failures.len(), "{what}: {:?} {:?}", before.failures, after.failures);
     let body = |id: BodyId| match id {
         BodyId::Block(id) => BodyId::Block(BlockId(block(id.0))),
         ground => ground,
@@ -241,16 +169,9 @@ fn assert_same(
             (bodies == [a, b] || bodies == [b, a]) && (c.interface.middle() - middle).norm() < near
         });
         let found = found.unwrap_or_else(|| panic!("{what}: no contact at {middle}"));
-        let sign = if found.interface.bodies == bodies {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = if found.interface.bodies == bodies { 1.0 } else { -1.0 };
         let expected = change.vector(contact.resultant.force) * force * sign;
-        assert!(
-            (found.resultant.force - expected).norm() <= 2e-6 * heaviest,
-            "{what}: {found:?} {expected}"
-        );
+        assert!((found.resultant.force - expected).norm() <= 2e-6 * heaviest, "{what}: {found:?} {expected}");
         if contact.resultant.force.norm() * force > 1e-3 * heaviest {
             let off = (found.resultant.at - change.point(contact.resultant.at)).norm();
             assert!(off < 100.0 * near, "{what}: resultant off by {off}");
@@ -267,30 +188,15 @@ fn check(change: Change) {
 
 #[test]
 fn moved_far_away() {
-    check(Change {
-        by: [1e5, -1e5],
-        ..SAME
-    });
+    check(Change { by: [1e5, -1e5], ..SAME });
 }
 
 #[test]
 fn in_millimetres_and_in_kilometres() {
-    check(Change {
-        stretch: 1e3,
-        ..SAME
-    });
-    check(Change {
-        stretch: 1e-3,
-        ..SAME
-    });
-    check(Change {
-        stretch: 1e6,
-        ..SAME
-    });
-    check(Change {
-        stretch: 1e-6,
-        ..SAME
-    });
+    check(Change { stretch: 1e3, ..SAME });
+    check(Change { stretch: 1e-3, ..SAME });
+    check(Change { stretch: 1e6, ..SAME });
+    check(Change { stretch: 1e-6, ..SAME });
 }
 
 #[test]
@@ -310,10 +216,7 @@ fn with_very_small_and_very_large_forces() {
 
 #[test]
 fn mirrored() {
-    check(Change {
-        mirrored: true,
-        ..SAME
-    });
+    check(Change { mirrored: true, ..SAME });
 }
 
 #[test]
@@ -325,17 +228,8 @@ fn rotated_together_with_gravity() {
     }
     for degrees in [13.0, 77.7, 201.0] {
         let change = Change { degrees, ..SAME };
-        for (name, file) in structures()
-            .into_iter()
-            .filter(|(_, f)| f.get("robots").is_none())
-        {
-            assert_same(
-                name,
-                &first(&file),
-                &first(&change.file(&file)),
-                &change,
-                |k| k,
-            );
+        for (name, file) in structures().into_iter().filter(|(_, f)| f.get("robots").is_none()) {
+            assert_same(name, &first(&file), &first(&change.file(&file)), &change, |k| k);
         }
     }
 }
@@ -352,9 +246,7 @@ fn with_blocks_and_corners_in_another_order() {
             corners.rotate_left(2);
             corners.reverse();
         }
-        assert_same(name, &first(&file), &first(&other), &SAME, |k| {
-            count - 1 - k
-        });
+        assert_same(name, &first(&file), &first(&other), &SAME, |k| count - 1 - k);
     }
 }
 
@@ -365,26 +257,15 @@ fn with_the_noise_of_32_bit_floats() {
         for list in ["ground", "blocks"] {
             for body in other[list].as_array_mut().expect("a list") {
                 for corner in body["polygon"].as_array_mut().expect("corners") {
-                    let rounded =
-                        |k: usize| f64::from(corner[k].as_f64().expect("a number") as f32);
+                    let rounded = |k: usize| f64::from(corner[k].as_f64().expect("a number") as f32);
                     *corner = json!([rounded(0), rounded(1)]);
                 }
             }
         }
         let (before, after) = (first(&file), first(&other));
-        assert_eq!(
-            before.verdict,
-            after.verdict,
-            "{name}: {:?} {:?} {}",
-            before.proof,
-            after.proof,
-            after.doubt()
-        );
+        assert_eq!(before.verdict, after.verdict, "{name}: {:?} {:?} {}", before.proof, after.proof, after.doubt());
         assert_eq!(before.contacts.len(), after.contacts.len(), "{name}");
-        assert!(
-            (before.total_force - after.total_force).abs() <= 1e-4 * before.total_force,
-            "{name}"
-        );
+        assert!((before.total_force - after.total_force).abs() <= 1e-4 * before.total_force, "{name}");
     }
 }
 
@@ -396,10 +277,7 @@ fn more_friction_never_makes_a_structure_fall() {
             let mut file = file.clone();
             file["friction"] = json!(friction);
             let stands = first(&file).verdict == Verdict::Stable;
-            assert!(
-                stands || !stood,
-                "{name} falls at μ = {friction}, but stands at a smaller μ"
-            );
+            assert!(stands || !stood, "{name} falls at μ = {friction}, but stands at a smaller μ");
             stood = stands;
         }
     }

@@ -18,29 +18,8 @@ const GROUP_RULES: &[(&str, &[&str])] = &[
     ("mechanics", &["clock", "geometry", "text"]),
     ("pictures", &["geometry", "text"]),
     ("sources", &["mechanics", "geometry", "text"]),
-    (
-        "products",
-        &[
-            "sources",
-            "pictures",
-            "mechanics",
-            "clock",
-            "geometry",
-            "text",
-        ],
-    ),
-    (
-        "entry",
-        &[
-            "products",
-            "sources",
-            "pictures",
-            "mechanics",
-            "clock",
-            "geometry",
-            "text",
-        ],
-    ),
+    ("products", &["sources", "pictures", "mechanics", "clock", "geometry", "text"]),
+    ("entry", &["products", "sources", "pictures", "mechanics", "clock", "geometry", "text"]),
 ];
 
 /// Modules that a module may not use although they are listed before it. A proof must not use the code that it
@@ -58,10 +37,8 @@ struct Layers {
 impl Layers {
     /// Reads the order of the modules from the groups' `mod.rs`.
     fn from_source(root: &Path) -> Layers {
-        let members: BTreeMap<&str, Vec<String>> = GROUP_RULES
-            .iter()
-            .map(|(group, _)| (*group, members_of(root, group)))
-            .collect();
+        let members: BTreeMap<&str, Vec<String>> =
+            GROUP_RULES.iter().map(|(group, _)| (*group, members_of(root, group))).collect();
         let mut allowed = BTreeMap::new();
         for (group, usable) in GROUP_RULES {
             let own = &members[group];
@@ -93,12 +70,10 @@ fn members_of(root: &Path, group: &str) -> Vec<String> {
         Some(name.to_owned())
     });
     modules
-        .flat_map(
-            |name| match crate::source::GROUPS.contains(&name.as_str()) {
-                true => members_of(&root.join(group), &name),
-                false => vec![name],
-            },
-        )
+        .flat_map(|name| match crate::source::GROUPS.contains(&name.as_str()) {
+            true => members_of(&root.join(group), &name),
+            false => vec![name],
+        })
         .collect()
 }
 
@@ -130,16 +105,10 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
             "report/book.rs",
         ],
     ),
-    (
-        "toml",
-        &["drawing/style/format/value.rs", "snapshot/setting.rs"],
-    ),
+    ("toml", &["drawing/style/format/value.rs", "snapshot/setting.rs"]),
     ("schemars", &["scene/format.rs", "scene/format/"]),
     ("clarabel", &["solve/"]),
-    (
-        "amd",
-        &["solve/basis_factor.rs", "solve/normal/elimination_tree.rs"],
-    ),
+    ("amd", &["solve/basis_factor.rs", "solve/normal/elimination_tree.rs"]),
     (
         "resvg",
         &[
@@ -155,24 +124,8 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
     ("krilla", &["output/pdf.rs", "output/pdf/"]),
     ("subsetter", &["output/svg/font.rs"]),
     ("write_fonts", &["output/svg/font.rs"]),
-    (
-        "base64",
-        &[
-            "output/svg/font.rs",
-            "snapshot/review.rs",
-            "cli/snapshot/answer.rs",
-        ],
-    ),
-    (
-        "png",
-        &[
-            "output/png.rs",
-            "output/png/",
-            "output/animation.rs",
-            "output/animation/",
-            "snapshot/picture/",
-        ],
-    ),
+    ("base64", &["output/svg/font.rs", "snapshot/review.rs", "cli/snapshot/answer.rs"]),
+    ("png", &["output/png.rs", "output/png/", "output/animation.rs", "output/animation/", "snapshot/picture/"]),
     ("gif", &["output/animation.rs", "output/animation/"]),
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
@@ -205,29 +158,19 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
 const SINGLE: &[&str] = &["clarabel", "tempfile", "skrifa"];
 
 /// File names that do not say what the file contains.
-const EMPTY_NAMES: &[&str] = &[
-    "utils", "util", "common", "helpers", "helper", "core", "misc",
-];
+const EMPTY_NAMES: &[&str] = &["utils", "util", "common", "helpers", "helper", "core", "misc"];
 
 #[test]
 fn modules_use_only_allowed_modules_and_name_foreign_crates_only_in_listed_files() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     collect(&root, &mut files);
-    assert!(
-        files.len() > 20,
-        "only {} source files were found",
-        files.len()
-    );
+    assert!(files.len() > 20, "only {} source files were found", files.len());
     let layers = Layers::from_source(&root);
     let mut faults = Vec::new();
     let mut sources = Vec::new();
     for file in files {
-        let path = file
-            .strip_prefix(&root)
-            .expect("below src")
-            .to_string_lossy()
-            .replace('\\', "/");
+        let path = file.strip_prefix(&root).expect("below src").to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&file).expect("source is UTF-8");
         let Some(path) = without_groups(&path) else {
             continue;
@@ -236,25 +179,12 @@ fn modules_use_only_allowed_modules_and_name_foreign_crates_only_in_listed_files
         sources.push((path.to_owned(), bare(&text)));
     }
     for name in SINGLE {
-        let users: Vec<&str> = sources
-            .iter()
-            .filter(|s| names_crate(&s.1, name))
-            .map(|s| s.0.as_str())
-            .collect();
+        let users: Vec<&str> = sources.iter().filter(|s| names_crate(&s.1, name)).map(|s| s.0.as_str()).collect();
         if users.len() > 1 {
-            faults.push(format!(
-                "{name} is named in {} files: {}",
-                users.len(),
-                users.join(", ")
-            ));
+            faults.push(format!("{name} is named in {} files: {}", users.len(), users.join(", ")));
         }
     }
-    assert!(
-        faults.is_empty(),
-        "{} faults:\n{}",
-        faults.len(),
-        faults.join("\n")
-    );
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 
 /// All faults of one source file; `path` is relative to `src`.
@@ -263,15 +193,9 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     // A visibility names the full path of its own module.
     let code = bare(text).replace("pub(in crate::", "pub(in ");
     let own = path.split(['/', '.']).next().unwrap_or_default();
-    let stem = path
-        .rsplit('/')
-        .next()
-        .unwrap_or_default()
-        .trim_end_matches(".rs");
+    let stem = path.rsplit('/').next().unwrap_or_default().trim_end_matches(".rs");
     if EMPTY_NAMES.contains(&stem) || EMPTY_NAMES.contains(&own) {
-        faults.push(format!(
-            "{path}: the name does not say what the file contains"
-        ));
+        faults.push(format!("{path}: the name does not say what the file contains"));
     }
     if !matches!(own, "lib" | "main" | "internals") {
         match layers.allowed.get(own) {
@@ -287,25 +211,19 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     }
     // In the `mod.rs` of a top-level module, `super` is the crate root. In its other files, `super::super` is.
     let climbs = code.matches("super::super::").count();
-    let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs"))
-        - 1.min(path.matches('/').count());
+    let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs")) - 1.min(path.matches('/').count());
     if climbs > 0 && depth < 2 {
         faults.push(format!("{path}: super::super:: leaves the module"));
     }
     let (outside_tests, _) = code.split_once("#[cfg(test)]").unwrap_or((&code, ""));
-    if path.ends_with("/mod.rs")
-        && path.matches('/').count() == 1
-        && outside_tests.contains("super::")
-    {
+    if path.ends_with("/mod.rs") && path.matches('/').count() == 1 && outside_tests.contains("super::") {
         faults.push(format!("{path}: super:: leaves the module"));
     }
     for (at, _) in code.match_indices("::*") {
         let path_of = &code[..at];
         let used = path_of.rfind("use ").map_or("", |u| &path_of[u + 4..]);
         if used != "super" && !used.ends_with("prelude") {
-            faults.push(format!(
-                "{path}: a glob hides where names come from: {used}::*"
-            ));
+            faults.push(format!("{path}: a glob hides where names come from: {used}::*"));
         }
     }
     if outside_tests.contains("use super::*;") && stem != "tests" && !path.contains("/tests/") {
@@ -315,14 +233,9 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
         faults.push(format!("{path}: only clock.rs may use std::time::Instant"));
     }
     for (name, permitted) in CRATE_FILES {
-        let is_permitted = permitted
-            .iter()
-            .any(|d| *d == path || (d.ends_with('/') && path.starts_with(d)));
+        let is_permitted = permitted.iter().any(|d| *d == path || (d.ends_with('/') && path.starts_with(d)));
         if !is_permitted && names_crate(&code, name) {
-            faults.push(format!(
-                "{path}: {name} may only be named in {}",
-                permitted.join(", ")
-            ));
+            faults.push(format!("{path}: {name} may only be named in {}", permitted.join(", ")));
         }
     }
     faults
@@ -351,10 +264,7 @@ fn a_module_may_use_earlier_modules_of_its_group_and_lower_groups() {
 #[test]
 fn a_drawing_module_that_uses_the_mechanics_is_a_fault() {
     let bad = "use crate::analysis::Analysis;\nfn f() {}\n";
-    assert_eq!(
-        faults("drawing/arrow.rs", bad),
-        ["drawing/arrow.rs: drawing may not use analysis"]
-    );
+    assert_eq!(faults("drawing/arrow.rs", bad), ["drawing/arrow.rs: drawing may not use analysis"]);
     assert_eq!(faults("figure/forces.rs", bad), Vec::<String>::new());
 }
 
@@ -362,15 +272,9 @@ fn a_drawing_module_that_uses_the_mechanics_is_a_fault() {
 fn uses_in_braces_and_in_code_are_found() {
     let group = "use crate::{geometry::{Point, Vector}, program::Columns};";
     assert_eq!(modules_used(group), ["geometry", "program"]);
-    assert_eq!(
-        faults("proof.rs", group),
-        ["proof.rs: proof may not use program"]
-    );
+    assert_eq!(faults("proof.rs", group), ["proof.rs: proof may not use program"]);
     let call = "fn f() { let x = crate::solve::solve(1); }";
-    assert_eq!(
-        faults("scene/frame.rs", call),
-        ["scene/frame.rs: scene may not use solve"]
-    );
+    assert_eq!(faults("scene/frame.rs", call), ["scene/frame.rs: scene may not use solve"]);
 }
 
 #[test]
@@ -390,11 +294,8 @@ fn a_foreign_crate_in_another_file_is_a_fault() {
 
 #[test]
 fn a_clock_other_than_the_crates_own_is_a_fault() {
-    let sources = [
-        "use std::time::{Duration, Instant};",
-        "fn f() { std::time::Instant::now(); }",
-        "use web_time::Instant;",
-    ];
+    let sources =
+        ["use std::time::{Duration, Instant};", "fn f() { std::time::Instant::now(); }", "use web_time::Instant;"];
     for source in sources {
         assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
     }
@@ -420,21 +321,9 @@ fn words_that_only_look_like_uses_are_no_faults() {
 fn globs_paths_above_the_module_and_empty_names_are_faults() {
     assert_eq!(faults("scene/shape.rs", "use crate::geometry::*;").len(), 1);
     assert_eq!(faults("scene/shape.rs", "use super::*;").len(), 1);
-    assert_eq!(
-        faults(
-            "scene/shape.rs",
-            "#[cfg(test)]\nmod tests { use super::*; }"
-        ),
-        Vec::<String>::new()
-    );
-    assert_eq!(
-        faults("scene/mod.rs", "use super::geometry::Point;").len(),
-        1
-    );
-    assert_eq!(
-        faults("scene/shape.rs", "use super::super::geometry::Point;").len(),
-        1
-    );
+    assert_eq!(faults("scene/shape.rs", "#[cfg(test)]\nmod tests { use super::*; }"), Vec::<String>::new());
+    assert_eq!(faults("scene/mod.rs", "use super::geometry::Point;").len(), 1);
+    assert_eq!(faults("scene/shape.rs", "use super::super::geometry::Point;").len(), 1);
     assert_eq!(faults("scene/utils.rs", "").len(), 1);
     assert_eq!(faults("cellar/wine.rs", "").len(), 1);
 }

@@ -12,11 +12,7 @@ use crate::pictures::{gallery, scene};
 const NAMES: [&str; 3] = ["name", "robot-name", "amount"];
 
 fn drawn(scene: &Scene, kind: Kind, width: f64) -> Drawing {
-    figure::draw(
-        &Analysis::new(scene),
-        kind,
-        &Options::default().width(width),
-    )
+    figure::draw(&Analysis::new(scene), kind, &Options::default().width(width))
 }
 
 /// The boxes of the lines of a label.
@@ -25,9 +21,7 @@ fn boxes(label: &Group) -> Vec<Box4> {
 }
 
 fn crosses([a, b]: [PagePoint; 2], [c, d]: [PagePoint; 2]) -> bool {
-    let side = |p: PagePoint, q: PagePoint, r: PagePoint| {
-        (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)
-    };
+    let side = |p: PagePoint, q: PagePoint, r: PagePoint| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     side(a, b, c) * side(a, b, d) < -1e-6 && side(c, d, a) * side(c, d, b) < -1e-6
 }
 
@@ -43,11 +37,7 @@ fn leader(label: &Group) -> Option<[PagePoint; 2]> {
 fn leaders_cross_neither_each_other_nor_a_label() {
     let (mut count, mut complaints) = (0, Vec::new());
     for (name, scene) in gallery().into_iter().chain(contributed()) {
-        for (kind, width) in [
-            (Kind::Forces, COLUMN),
-            (Kind::Forces, 658.0),
-            (Kind::Kernel, COLUMN),
-        ] {
+        for (kind, width) in [(Kind::Forces, COLUMN), (Kind::Forces, 658.0), (Kind::Kernel, COLUMN)] {
             let drawing = drawn(&scene, kind, width);
             for panel in classes(&drawing.items, &["picture"]) {
                 let labels = classes(&panel.items, &NAMES);
@@ -71,20 +61,15 @@ fn leaders_cross_neither_each_other_nor_a_label() {
     let crowded = |complaint: &&String| complaint.starts_with("steps30");
     let (crowded, others): (Vec<_>, Vec<_>) = complaints.iter().partition(crowded);
     assert!(others.is_empty(), "{others:?}");
-    assert!(
-        crowded.len() * 20 <= count,
-        "{} of {count}: {crowded:?}",
-        crowded.len()
-    );
+    assert!(crowded.len() * 20 <= count, "{} of {count}: {crowded:?}", crowded.len());
 }
 
 /// Twelve loads stand so close together that their amounts do not fit beside each other. The amounts are in the order
 /// of the loads, and no leader crosses another leader or an amount.
 #[test]
 fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
-    let loads: Vec<String> = (1..=12)
-        .map(|k| format!(r#"{{ "block": "beam", "at": [{k}, 1], "force": [0, -{k}001] }}"#))
-        .collect();
+    let loads: Vec<String> =
+        (1..=12).map(|k| format!(r#"{{ "block": "beam", "at": [{k}, 1], "force": [0, -{k}001] }}"#)).collect();
     let scene = Scene::from_json(&format!(
         r#"{{ "drystone": 1,
             "ground": [ {{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }},
@@ -97,14 +82,10 @@ fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
     for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism] {
         let drawing = drawn(&scene, kind, COLUMN);
         let labels = classes(&drawing.items, &["amount"]);
-        let labels = labels
-            .iter()
-            .filter(|l| !texts(l)[0].words.starts_with("largest"));
+        let labels = labels.iter().filter(|l| !texts(l)[0].words.starts_with("largest"));
         let labels: Vec<&Group> = labels.copied().collect();
-        let mut amounts: Vec<(f64, String)> = labels
-            .iter()
-            .map(|l| (texts(l)[0].at.x, texts(l)[0].words.clone()))
-            .collect();
+        let mut amounts: Vec<(f64, String)> =
+            labels.iter().map(|l| (texts(l)[0].at.x, texts(l)[0].words.clone())).collect();
         amounts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let words: Vec<&str> = amounts.iter().map(|a| a.1.as_str()).collect();
         let expected: Vec<String> = (1..=12).map(|k| format!("{k} kN")).collect();
@@ -126,10 +107,7 @@ fn a_name_that_another_block_could_have_has_a_leader() {
     let (mut outside, mut with_leader) = (0, 0);
     for (name, scene) in contributed() {
         let drawing = drawn(&scene, Kind::Kernel, COLUMN);
-        for (panel, frame) in classes(&drawing.items, &["picture"])
-            .iter()
-            .zip(scene.frames())
-        {
+        for (panel, frame) in classes(&drawing.items, &["picture"]).iter().zip(scene.frames()) {
             let camera = panel.camera.expect("a picture has one");
             for label in classes(&panel.items, &["name"]) {
                 let lines = texts(label);
@@ -139,14 +117,9 @@ fn a_name_that_another_block_could_have_has_a_leader() {
                 let Some(own) = frame.placed.iter().find(own) else {
                     continue;
                 };
-                let [left, top, right, bottom] =
-                    boxes(label).into_iter().reduce(union).expect("words");
+                let [left, top, right, bottom] = boxes(label).into_iter().reduce(union).expect("words");
                 let middle = PagePoint::new((left + right) / 2.0, (top + bottom) / 2.0);
-                if scene.blocks()[own.0]
-                    .body
-                    .polygon
-                    .contains(camera.back(middle))
-                {
+                if scene.blocks()[own.0].body.polygon.contains(camera.back(middle)) {
                     continue;
                 }
                 outside += 1;
@@ -177,12 +150,7 @@ fn a_name_that_another_block_could_have_has_a_leader() {
 }
 
 fn union(a: Box4, b: Box4) -> Box4 {
-    [
-        a[0].min(b[0]),
-        a[1].min(b[1]),
-        a[2].max(b[2]),
-        a[3].max(b[3]),
-    ]
+    [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
 /// The lines of text in the label of a block.
@@ -222,15 +190,9 @@ fn both_points_at_equal_height_have_a_name_in_a_free_body() {
     for width in [COLUMN, 658.0] {
         let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));
         let drawing = drawing.expect("placed");
-        let page = Group {
-            items: drawing.items,
-            ..Group::default()
-        };
+        let page = Group { items: drawing.items, ..Group::default() };
         let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
-        assert!(
-            !words.iter().any(|w| w.contains("no room")),
-            "{width}: {words:?}"
-        );
+        assert!(!words.iter().any(|w| w.contains("no room")), "{width}: {words:?}");
     }
 }
 
@@ -249,14 +211,10 @@ fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
     let texts: Vec<_> = list.iter().flat_map(|group| texts(group)).collect();
     let words: Vec<&str> = texts.iter().map(|t| t.words.as_str()).collect();
     let list_text = words.join(" ");
-    assert!(
-        !list_text.contains('…') && list_text.contains("wall of names"),
-        "{list_text}"
-    );
+    assert!(!list_text.contains('…') && list_text.contains("wall of names"), "{list_text}");
     for text in &texts {
         let [left, top, right, bottom] = ink(text);
-        let on_page =
-            left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
+        let on_page = left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
         assert!(on_page, "{} is cut", text.words);
     }
 }
@@ -269,25 +227,15 @@ fn the_key_does_not_repeat_the_word_robot() {
                  "robots": [{{ "id": "{id}", "holds": "a", "limits": {{ "force": 100 }} }}] }}"#
         )
     };
-    for (id, entry) in [
-        ("robot", "robot"),
-        ("Robot 2", "Robot 2"),
-        ("r0", "robot r0"),
-    ] {
+    for (id, entry) in [("robot", "robot"), ("Robot 2", "Robot 2"), ("r0", "robot r0")] {
         let scene = Scene::from_json(&text(id)).expect("sound");
         let drawing = drawn(&scene, Kind::Forces, 658.0);
         let all = |items: &[Item]| {
-            let page = Group {
-                items: items.to_vec(),
-                ..Group::default()
-            };
+            let page = Group { items: items.to_vec(), ..Group::default() };
             texts(&page)
         };
         let found = all(&drawing.items);
         assert!(found.iter().any(|t| t.words == entry), "{id}");
-        assert!(
-            !found.iter().any(|t| t.words.contains("robot robot")),
-            "{id}"
-        );
+        assert!(!found.iter().any(|t| t.words.contains("robot robot")), "{id}");
     }
 }

@@ -58,10 +58,7 @@ struct Acting {
 /// The forces of bodies and robots on a block, and separately its weight and loads.
 fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2] {
     let block = &scene.blocks()[id.0];
-    let at = |p: Point, force: Vector, torque: f64| Acting {
-        force,
-        moment: cross(p - block.centroid, force) + torque,
-    };
+    let at = |p: Point, force: Vector, torque: f64| Acting { force, moment: cross(p - block.centroid, force) + torque };
     let (mut pressing, mut loads) = (Vec::new(), Vec::new());
     for contact in &found.contacts {
         let sign = match contact.interface.bodies {
@@ -76,11 +73,7 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
         let parts = [
             at(p, normal * n, 0.0),
             at(q, normal * m, 0.0),
-            at(
-                p,
-                Vector::new(-normal.y, normal.x) * contact.friction_force,
-                0.0,
-            ),
+            at(p, Vector::new(-normal.y, normal.x) * contact.friction_force, 0.0),
         ];
         pressing.push(Acting {
             force: parts.iter().map(|a| a.force).sum::<Vector>() * sign,
@@ -100,23 +93,13 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
 /// All forces whose line of action may be drawn in a block: each load, each force of a body or robot, and the latter
 /// combined with any of the loads.
 fn lines([pressing, loads]: &[Vec<Acting>; 2]) -> Vec<Acting> {
-    let sum = |a: Acting, b: &Acting| Acting {
-        force: a.force + b.force,
-        moment: a.moment + b.moment,
-    };
+    let sum = |a: Acting, b: &Acting| Acting { force: a.force + b.force, moment: a.moment + b.moment };
     let mut lines: Vec<Acting> = loads.clone();
     for one in pressing {
         // With three or more forces, it is not determined with which of them a load is combined.
-        let subsets = if pressing.len() <= 2 {
-            1 << loads.len()
-        } else {
-            1
-        };
+        let subsets = if pressing.len() <= 2 { 1 << loads.len() } else { 1 };
         for subset in 0..subsets {
-            let chosen = loads
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| (subset >> i) & 1 == 1);
+            let chosen = loads.iter().enumerate().filter(|(i, _)| (subset >> i) & 1 == 1);
             lines.push(chosen.fold(*one, |a, (_, b)| sum(a, b)));
         }
     }
@@ -146,21 +129,11 @@ fn every_piece_of_a_line_of_thrust_lies_on_a_true_line_of_action() {
 }
 
 /// Asserts that a drawn line lies on the line of action of a force on its block.
-fn assert_on_a_line(
-    name: &str,
-    scene: &Scene,
-    found: &FrameAnalysis,
-    drawn: &Group,
-    camera: &Camera,
-) {
+fn assert_on_a_line(name: &str, scene: &Scene, found: &FrameAnalysis, drawn: &Group, camera: &Camera) {
     let title = &drawn.title;
     let on = title.strip_prefix("Force on block ").expect("it is titled");
     let on = on.split(" from ").next().expect("the block");
-    let number = scene
-        .blocks()
-        .iter()
-        .position(|b| b.id == on)
-        .expect("a block");
+    let number = scene.blocks().iter().position(|b| b.id == on).expect("a block");
     let block = &scene.blocks()[number];
     let ends: Vec<Point> = outline(drawn).points().map(|p| camera.back(p)).collect();
     let size = block.body.polygon.bounds().diagonal();
@@ -175,10 +148,7 @@ fn assert_on_a_line(
     let most = lines.iter().map(|l| l.force.norm()).fold(0.0, f64::max);
     let real = lines.iter().filter(|l| l.force.norm() > 1e-9 * most);
     let nearest = real.map(off).fold(f64::INFINITY, f64::min);
-    assert!(
-        nearest < 1e-4 * size,
-        "{name}: {title} is {nearest} m off, at {ends:?}"
-    );
+    assert!(nearest < 1e-4 * size, "{name}: {title} is {nearest} m off, at {ends:?}");
 }
 
 #[test]
@@ -196,13 +166,7 @@ fn a_loaded_beam_has_no_line_along_its_soffit_and_shows_its_loads() {
     let arrows = all(&drawing.items, "forces");
     let loads = all(&arrows[0].items, "force");
     let titles: Vec<&str> = loads.iter().map(|l| l.title.as_str()).collect();
-    assert_eq!(
-        titles,
-        [
-            "Load on block beam: 4 kN at 270°",
-            "Load on block beam: 800 N at 0°"
-        ]
-    );
+    assert_eq!(titles, ["Load on block beam: 4 kN at 270°", "Load on block beam: 800 N at 0°"]);
 }
 
 /// A printed force with its unit, converted to newtons. `None` if the text is not a force.
@@ -227,10 +191,7 @@ fn newtons(words: &str) -> Option<f64> {
 fn arrow_length(outline: &Outline) -> f64 {
     let points: Vec<PagePoint> = outline.points().collect();
     assert_eq!(points.len(), 7);
-    let tail = PagePoint::new(
-        (points[0].x + points[6].x) / 2.0,
-        (points[0].y + points[6].y) / 2.0,
-    );
+    let tail = PagePoint::new((points[0].x + points[6].x) / 2.0, (points[0].y + points[6].y) / 2.0);
     let far = |p: &PagePoint| libm::hypot(p.x - tail.x, p.y - tail.y);
     let farthest = points.iter().map(far).fold(0.0, f64::max);
     let tip = far(&points[3]);
@@ -260,10 +221,7 @@ fn every_arrow_has_the_length_of_its_force_in_the_scale_of_its_panel() {
     ];
     for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
-        for (options, kind) in options
-            .iter()
-            .flat_map(|o| [(o, Kind::Forces), (o, Kind::Thrust)])
-        {
+        for (options, kind) in options.iter().flat_map(|o| [(o, Kind::Forces), (o, Kind::Thrust)]) {
             let drawing: Drawing = figure::draw(&analysis, kind, options);
             for frame in all(&drawing.items, "frame") {
                 let Some((length, amount)) = scale(frame) else {
@@ -284,8 +242,7 @@ fn every_arrow_has_the_length_of_its_force_in_the_scale_of_its_panel() {
                     // Three digits are printed. Small missing forces may have a separate scale.
                     let has_own_scale = arrow.title.starts_with("Missing");
                     // Loads whose arrows would be too short have a separate scale and are drawn longer.
-                    let has_own_scale =
-                        has_own_scale || (arrow.title.starts_with("Load") && found > expected);
+                    let has_own_scale = has_own_scale || (arrow.title.starts_with("Load") && found > expected);
                     assert!(
                         has_own_scale || (found - expected).abs() <= 0.006 * expected,
                         "{name}: {} is {found} px instead of {expected}",
@@ -321,10 +278,7 @@ fn forces_too_small_to_be_drawn_are_counted() {
         let analysis = Analysis::new(&scene);
         let options = Options::default();
         let drawing = figure::forces(&analysis, &options);
-        let page = Group {
-            items: drawing.items.clone(),
-            ..Group::default()
-        };
+        let page = Group { items: drawing.items.clone(), ..Group::default() };
         // Arrows that would be too small to read are not drawn. The key then counts them for all frames together.
         let key = all_text(&page).join(" ");
         if let Some((before, _)) = key.split_once(" too small to read, left out") {
@@ -372,11 +326,9 @@ fn the_arrows_of_a_force_polygon_join_tip_to_tail_and_close_if_the_structure_sta
                 let tail = ((p[0].x + p[6].x) / 2.0, (p[0].y + p[6].y) / 2.0);
                 [tail, (p[3].x, p[3].y)]
             };
-            let arrows: Vec<[(f64, f64); 2]> =
-                all(&polygon.items, "force").iter().map(ends).collect();
+            let arrows: Vec<[(f64, f64); 2]> = all(&polygon.items, "force").iter().map(ends).collect();
             let size = drawing.width;
-            let near =
-                |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
+            let near = |a: (f64, f64), b: (f64, f64)| libm::hypot(a.0 - b.0, a.1 - b.1) < 1e-6 * size;
             // If reactions would cover actions, the two are drawn apart and lines join the corresponding points.
             let joins: Vec<[(f64, f64); 2]> = all(&polygon.items, "join")
                 .iter()
@@ -386,15 +338,9 @@ fn the_arrows_of_a_force_polygon_join_tip_to_tail_and_close_if_the_structure_sta
                 })
                 .collect();
             let is_joined = |a: (f64, f64), b: (f64, f64)| {
-                near(a, b)
-                    || joins
-                        .iter()
-                        .any(|[p, q]| (near(a, *p) && near(b, *q)) || (near(a, *q) && near(b, *p)))
+                near(a, b) || joins.iter().any(|[p, q]| (near(a, *p) && near(b, *q)) || (near(a, *q) && near(b, *p)))
             };
-            assert!(
-                arrows.windows(2).all(|w| is_joined(w[0][1], w[1][0])),
-                "{name}"
-            );
+            assert!(arrows.windows(2).all(|w| is_joined(w[0][1], w[1][0])), "{name}");
             joined += usize::from(!joins.is_empty());
             let (Some(first), Some(last)) = (arrows.first(), arrows.last()) else {
                 continue;

@@ -3,9 +3,7 @@
 
 mod robots;
 
-use drystone::analysis::{
-    EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
-};
+use drystone::analysis::{EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -17,10 +15,7 @@ fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
 }
 
 fn margins(file: &Value) -> Margins {
-    frames(&scene(file))
-        .remove(0)
-        .margins
-        .expect("margins were requested")
+    frames(&scene(file)).remove(0).margins.expect("margins were requested")
 }
 
 fn thesis(name: &str) -> Vec<FrameAnalysis> {
@@ -38,15 +33,8 @@ fn step(name: &str, number: usize) -> Margins {
 fn near(margin: &Margin, expected: f64, within: f64) {
     match margin {
         Margin::Value { at, mechanism } => {
-            assert!(
-                (at - expected).abs() <= within,
-                "{at} instead of {expected}, off by {:e}",
-                at - expected
-            );
-            assert!(
-                !mechanism.is_empty() || expected == 0.0,
-                "{at} has no mechanism"
-            );
+            assert!((at - expected).abs() <= within, "{at} instead of {expected}, off by {:e}", at - expected);
+            assert!(!mechanism.is_empty() || expected == 0.0, "{at} has no mechanism");
         }
         other => panic!("{other:?} instead of {expected}"),
     }
@@ -97,8 +85,7 @@ fn figure_6_stands_up_to_a_kernel_of_a_quarter() {
     // In the first frame, the centre of gravity lies above a corner: the link stands, but its tilt margin to that
     // side is 0.
     let upright = step("figure-6-kernel-0", 0);
-    let least = [&upright.tilt.left, &upright.tilt.right]
-        .map(|m| m.at().expect("a tilt at which it falls"));
+    let least = [&upright.tilt.left, &upright.tilt.right].map(|m| m.at().expect("a tilt at which it falls"));
     assert_eq!(least[0].min(least[1]), 0.0);
     assert!(least[0].max(least[1]) > 1.0);
 }
@@ -146,16 +133,8 @@ fn a_load_grows_until_the_block_topples() {
 
 #[test]
 fn structures_that_fall_at_any_value_have_no_margin() {
-    let flying = margins(&on_floor(
-        0.5,
-        vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)],
-    ));
-    for margin in [
-        &flying.friction,
-        &flying.tilt.left,
-        &flying.horizontal_load.right,
-        &flying.kernel,
-    ] {
+    let flying = margins(&on_floor(0.5, vec![block("a", rectangle(0.0, 1.0, 1.0, 1.0), 6.0)]));
+    for margin in [&flying.friction, &flying.tilt.left, &flying.horizontal_load.right, &flying.kernel] {
         assert_eq!(*margin, Margin::None);
     }
     assert_eq!(flying.load_factor, Margin::NotApplicable);
@@ -193,10 +172,7 @@ fn margins_are_an_effect_on_request() {
     let file = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0)]);
     let scene = scene(&file);
     let report = |frame: &FrameAnalysis| {
-        let effect = frame
-            .effects
-            .iter()
-            .find(|e| e.effect == EffectName::Margins);
+        let effect = frame.effects.iter().find(|e| e.effect == EffectName::Margins);
         let effect = effect.expect("every effect is listed");
         (effect.simulated, effect.why.clone())
     };
@@ -213,20 +189,14 @@ fn margins_are_an_effect_on_request() {
 fn an_equal_frame_has_the_margins_of_the_earlier_one() {
     let mut file = on_floor(
         0.5,
-        vec![
-            block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0),
-            block("b", rectangle(0.25, 1.0, 1.0, 1.0), 6.0),
-        ],
+        vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0), block("b", rectangle(0.25, 1.0, 1.0, 1.0), 6.0)],
     );
     file["steps"] = json!([{ "place": ["a", "b"] }, { "remove": ["b"] }, { "place": ["b"] }]);
     let frames = frames(&scene(&file));
     assert_ne!(frames[0].margins, frames[1].margins);
     assert_eq!(frames[0].margins, frames[2].margins);
     let why = |k: usize| {
-        let effect = frames[k]
-            .effects
-            .iter()
-            .find(|e| e.effect == EffectName::Margins);
+        let effect = frames[k].effects.iter().find(|e| e.effect == EffectName::Margins);
         effect.expect("every effect is listed").why.clone()
     };
     assert!(!why(0).contains(" 0 verdicts"), "{}", why(0));
@@ -251,34 +221,20 @@ fn a_block_that_falls_has_no_tilt_margin_even_if_it_would_stand_tilted() {
 fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
     let mut compared = 0;
-    for name in [
-        "figure-3b",
-        "figure-5",
-        "figure-6-kernel-02",
-        "figure-8-left",
-    ] {
+    for name in ["figure-3b", "figure-5", "figure-6-kernel-02", "figure-8-left"] {
         let text = std::fs::read_to_string(format!("{folder}/{name}.json")).expect("a scene");
         let file: Value = serde_json::from_str(&text).expect("JSON");
         for (number, frame) in thesis(name).iter().enumerate() {
             let found = frame.margins.as_ref().expect("margins were requested");
-            let mut agrees = |margin: &Margin,
-                              more_is_worse: bool,
-                              change: &dyn Fn(f64) -> Value| {
+            let mut agrees = |margin: &Margin, more_is_worse: bool, change: &dyn Fn(f64) -> Value| {
                 let Some(at) = margin.at().filter(|at| *at > 0.0) else {
                     return;
                 };
                 for (share, inside) in [(1.0 - 1e-4, more_is_worse), (1.0 + 1e-4, !more_is_worse)] {
                     let scene = scene(&change(at * share));
                     let verdict = Analysis::new(&scene).frames[number].verdict;
-                    let expected = if inside {
-                        Verdict::Stable
-                    } else {
-                        Verdict::Unstable
-                    };
-                    assert_eq!(
-                        verdict, expected,
-                        "{name}, frame {number}: {at} times {share}"
-                    );
+                    let expected = if inside { Verdict::Stable } else { Verdict::Unstable };
+                    assert_eq!(verdict, expected, "{name}, frame {number}: {at} times {share}");
                     compared += 1;
                 }
             };
@@ -293,10 +249,7 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
             for (margin, side) in [(&found.tilt.left, -1.0), (&found.tilt.right, 1.0)] {
                 agrees(margin, true, &|degrees| {
                     let angle = degrees.to_radians();
-                    with(
-                        "gravity",
-                        json!([side * libm::sin(angle), -libm::cos(angle)]),
-                    )
+                    with("gravity", json!([side * libm::sin(angle), -libm::cos(angle)]))
                 });
             }
         }
@@ -306,10 +259,7 @@ fn a_scene_stands_just_inside_each_margin_and_falls_just_beyond_it() {
 
 /// The number of verdicts that were computed for the margins.
 fn verdicts(frame: &FrameAnalysis) -> usize {
-    let effect = frame
-        .effects
-        .iter()
-        .find(|e| e.effect == EffectName::Margins);
+    let effect = frame.effects.iter().find(|e| e.effect == EffectName::Margins);
     let why = &effect.expect("every effect is listed").why;
     let mut words = why.split_whitespace();
     let number = words.find_map(|word| word.parse().ok());
@@ -335,15 +285,10 @@ fn a_margin_needs_few_verdicts_of_verdicts() {
 fn a_margin_requested_alone_has_the_same_value() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
-    let options = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &options).frames.remove(0);
     assert!(verdicts(&alone) < verdicts(&all));
-    let (all, alone) = (
-        all.margins.expect("margins were requested"),
-        alone.margins.expect("margins were requested"),
-    );
+    let (all, alone) = (all.margins.expect("margins were requested"), alone.margins.expect("margins were requested"));
     let [a, b] = [&all, &alone].map(|found| found.friction.at().expect("it slides"));
     assert!((a - b).abs() < 1e-7, "{a} and {b}");
     assert_eq!(alone.kernel, Margin::NotAsked);

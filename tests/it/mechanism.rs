@@ -80,10 +80,7 @@ fn polygon(group: &Group, camera: &Camera) -> Polygon {
         Item::Path(path) => Some(&path.outline),
         _ => None,
     });
-    let corners = outline
-        .expect("an outline")
-        .points()
-        .map(|p| camera.back(p));
+    let corners = outline.expect("an outline").points().map(|p| camera.back(p));
     Polygon::new(corners.collect(), Vec::new()).expect("a rigid motion keeps it simple")
 }
 
@@ -106,8 +103,7 @@ fn bodies_do_not_penetrate_at_the_drawn_amplitude() {
         bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[..i] {
-                let shared = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0)
-                    .map_or(0.0, |o| o.area);
+                let shared = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0).map_or(0.0, |o| o.area);
                 let share = shared / a.area().min(b.area());
                 assert!(share < 0.005, "{name}: {share} of the smaller body");
                 compared += 1;
@@ -126,11 +122,7 @@ fn sliding_bodies_stay_on_their_joints() {
     let moved = polygon(all(&picture.items, "displaced")[0], &camera);
     // The slope rises by 4 in 9.
     let normal = Vector::new(-4.0, 9.0).normalize();
-    let heights: Vec<f64> = moved
-        .outline()
-        .iter()
-        .map(|p| p.coords.dot(&normal))
-        .collect();
+    let heights: Vec<f64> = moved.outline().iter().map(|p| p.coords.dot(&normal)).collect();
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(lowest.abs() < 1e-5, "{heights:?}");
     let svg = drystone::output::svg::write(&drawing);
@@ -142,15 +134,8 @@ fn an_animated_mechanism_moves_and_all_its_pages_have_the_same_size() {
     let scene = scene("tests/scenes/arch13thin.json");
     let analysis = Analysis::new(&scene);
     let film = figure::film(&analysis, Kind::Mechanism, &Options::default(), 2.0);
-    assert_eq!(
-        film.last().map(|(_, seconds)| *seconds),
-        Some(1.0),
-        "the last picture is shown for a second"
-    );
-    let moving: f64 = film[..film.len() - 1]
-        .iter()
-        .map(|(_, seconds)| seconds)
-        .sum();
+    assert_eq!(film.last().map(|(_, seconds)| *seconds), Some(1.0), "the last picture is shown for a second");
+    let moving: f64 = film[..film.len() - 1].iter().map(|(_, seconds)| seconds).sum();
     assert!((moving - 2.0).abs() < 1e-9, "{moving} s");
     let pages: Vec<_> = film.into_iter().map(|(page, _)| page).collect();
     assert!(pages.len() >= 10);
@@ -159,18 +144,10 @@ fn an_animated_mechanism_moves_and_all_its_pages_have_the_same_size() {
         let camera = picture.camera.expect("it shows the scene");
         polygon(all(&picture.items, "displaced")[3], &camera).centroid()
     };
-    let distances: Vec<f64> = (0..pages.len())
-        .map(|n| (first(n) - first(0)).norm())
-        .collect();
+    let distances: Vec<f64> = (0..pages.len()).map(|n| (first(n) - first(0)).norm()).collect();
     assert!(distances.windows(2).all(|w| w[1] > w[0]), "{distances:?}");
-    let (first_step, middle) = (
-        distances[1],
-        distances[distances.len() / 2 + 1] - distances[distances.len() / 2],
-    );
-    assert!(
-        middle > 3.0 * first_step,
-        "the motion does not begin slowly: {distances:?}"
-    );
+    let (first_step, middle) = (distances[1], distances[distances.len() / 2 + 1] - distances[distances.len() / 2]);
+    assert!(middle > 3.0 * first_step, "the motion does not begin slowly: {distances:?}");
     let size = |n: usize| (pages[n].width, pages[n].height);
     assert!((1..pages.len()).all(|n| size(n) == size(0)));
 }
@@ -183,13 +160,9 @@ fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
     let options = drystone::analysis::Options::default().margins(true);
     let analysis = Analysis::with(&scene, &options);
-    let (turn, motions) = analysis
-        .edge(0, drystone::analysis::Toward::Tilt)
-        .expect("it topples");
+    let (turn, motions) = analysis.edge(0, drystone::analysis::Toward::Tilt).expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
-    let [motion] = &motions[..] else {
-        panic!("{motions:?}")
-    };
+    let [motion] = &motions[..] else { panic!("{motions:?}") };
     // The block turns about the lower corner on the side towards which gravity tilts, so this corner is at rest.
     let corner = Point::new(if turn > 0.0 { 1.0 } else { 0.0 }, 0.0);
     let arm = corner - scene.blocks()[0].centroid;
@@ -200,10 +173,7 @@ fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     assert_eq!(all(&drawing.items, "ghosts").len(), 2);
     assert_eq!(all(&drawing.items, "gravity").len(), 1);
     let svg = drystone::output::svg::write(&drawing);
-    assert!(
-        svg.contains("falls once gravity is turned by 14° to "),
-        "{svg}"
-    );
+    assert!(svg.contains("falls once gravity is turned by 14° to "), "{svg}");
     // Without margins, the figure states that they were not computed.
     let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
     assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
@@ -279,10 +249,8 @@ fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
             .map(|group| polygon(group, &camera))
             .collect();
         bodies.extend(scene.ground().iter().map(|g| g.body.polygon.clone()));
-        let slides: Vec<&str> = all(&picture.items, "slip")
-            .iter()
-            .filter_map(|slip| slip.title.strip_prefix("Slip between "))
-            .collect();
+        let slides: Vec<&str> =
+            all(&picture.items, "slip").iter().filter_map(|slip| slip.title.strip_prefix("Slip between ")).collect();
         for hinge in all(&picture.items, "hinge") {
             let pair = hinge.title.strip_prefix("Hinge between ").expect("titled");
             assert!(!slides.contains(&pair), "{name}: {pair} also slides");
@@ -290,11 +258,7 @@ fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
                 Item::Path(path) => Some(&path.outline),
                 _ => None,
             });
-            let ring: Vec<Point> = ring
-                .expect("a ring")
-                .points()
-                .map(|p| camera.back(p))
-                .collect();
+            let ring: Vec<Point> = ring.expect("a ring").points().map(|p| camera.back(p)).collect();
             let sum: Vector = ring.iter().map(|p| p.coords).sum();
             let centre = Point::from(sum / ring.len() as f64);
             let near = |body: &&Polygon| {
@@ -306,10 +270,7 @@ fn hinges_are_drawn_on_both_bodies_and_never_on_a_joint_that_slides() {
                 far.fold(f64::INFINITY, f64::min) * camera.length(1.0) < 1.5
             };
             let touching = bodies.iter().filter(near).count();
-            assert!(
-                touching >= 2,
-                "{name}: the hinge between {pair} lies on fewer than two bodies"
-            );
+            assert!(touching >= 2, "{name}: the hinge between {pair} lies on fewer than two bodies");
         }
     }
 }
@@ -319,9 +280,7 @@ fn the_headline_states_the_friction_or_the_load_at_which_it_would_stand() {
     let slide = scene("tests/scenes/slide.json");
     let kinds = Kind::Mechanism.stated_margins(&Analysis::new(&slide));
     let kinds = kinds.expect("it has a headline");
-    let options = drystone::analysis::Options::default()
-        .margins(true)
-        .margin_kinds(kinds);
+    let options = drystone::analysis::Options::default().margins(true).margin_kinds(kinds);
     let svg = |scene: &Scene| {
         let analysis = Analysis::with(scene, &options);
         let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());
@@ -336,9 +295,6 @@ fn the_headline_states_the_friction_or_the_load_at_which_it_would_stand() {
         "loads": [ { "block": "a", "force": [4.2, 0], "at": [0, 2] } ] }"#;
     let pushed = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
     let svg = svg(&pushed);
-    assert!(
-        svg.contains("falls: carries 47\u{a0}% of its load"),
-        "{svg}"
-    );
+    assert!(svg.contains("falls: carries 47\u{a0}% of its load"), "{svg}");
     assert!(svg.contains("Load on block a: 4.2 N"), "the load is drawn");
 }

@@ -131,9 +131,7 @@ fn contradict(scene: &mut Map<String, Value>, random: &mut Random) {
     let ids = |key: &str| -> Vec<String> {
         let list = scene.get(key).and_then(Value::as_array);
         let entries = list.into_iter().flatten();
-        entries
-            .filter_map(|e| e.get("id")?.as_str().map(str::to_owned))
-            .collect()
+        entries.filter_map(|e| e.get("id")?.as_str().map(str::to_owned)).collect()
     };
     let (blocks, robots) = (ids("blocks"), ids("robots"));
     if blocks.is_empty() {
@@ -145,8 +143,10 @@ fn contradict(scene: &mut Map<String, Value>, random: &mut Random) {
         for robot in &robots {
             hold.insert(robot.clone(), json!(random.choose(&blocks)));
         }
-        steps.push(json!({ "place": [random.choose(&blocks), random.choose(&blocks)], "remove": [random.choose(&blocks)],
-            "hold": hold, "release": robots.iter().take(random.below(3)).collect::<Vec<_>>() }));
+        steps.push(
+            json!({ "place": [random.choose(&blocks), random.choose(&blocks)], "remove": [random.choose(&blocks)],
+            "hold": hold, "release": robots.iter().take(random.below(3)).collect::<Vec<_>>() }),
+        );
     }
     scene.insert("steps".into(), json!(steps));
 }
@@ -179,22 +179,14 @@ fn examine(text: &str) -> Result<bool, String> {
         Err(problems) => {
             for problem in &problems.list {
                 if problem.message.is_empty() || problem.message.contains('\n') {
-                    return Err(format!(
-                        "a problem without a message or with two lines: {problem:?}"
-                    ));
+                    return Err(format!("a problem without a message or with two lines: {problem:?}"));
                 }
                 let span = problem.span.clone().unwrap_or(0..0);
                 if text.get(span.clone()).is_none() {
-                    return Err(format!(
-                        "the position of a problem is outside the text: {span:?}"
-                    ));
+                    return Err(format!("the position of a problem is outside the text: {span:?}"));
                 }
             }
-            return if problems.list.is_empty() {
-                Err("refused without a problem".into())
-            } else {
-                Ok(false)
-            };
+            return if problems.list.is_empty() { Err("refused without a problem".into()) } else { Ok(false) };
         }
     };
     let analysis = Analysis::new(&scene);
@@ -205,12 +197,7 @@ fn examine(text: &str) -> Result<bool, String> {
     }
     let json = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
     let value: Value = serde_json::from_str(&json).map_err(|e| format!("no JSON: {e}"))?;
-    if let Some(null) = value["frames"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .find(|f| f["total_force"].is_null())
-    {
+    if let Some(null) = value["frames"].as_array().into_iter().flatten().find(|f| f["total_force"].is_null()) {
         return Err(format!("a sum of forces that is no number: {null}"));
     }
     let drawing = figure::forces(&analysis, &figure::Options::default());
@@ -255,8 +242,7 @@ fn mutants_are_refused_with_messages_or_analysed() {
             let named = end.fold(7_u64, |h, b| h.wrapping_mul(131).wrapping_add(b.into()));
             let seed = number ^ named;
             let text = mutant(original, seed).to_string();
-            let outcome = catch_unwind(AssertUnwindSafe(|| examine(&text)))
-                .unwrap_or_else(|_| Err("a panic".into()));
+            let outcome = catch_unwind(AssertUnwindSafe(|| examine(&text))).unwrap_or_else(|_| Err("a panic".into()));
             match outcome {
                 Ok(passed) => sound += usize::from(passed),
                 Err(why) => panic!("{name}, seed {seed}: {why}\n{text}"),
@@ -279,13 +265,7 @@ fn numbers_whose_products_overflow_or_vanish_are_refused() {
             "blocks": [{ "id": "a", "polygon": [[0, 0], [size, 0], [size, size], [0, size]], "weight": weight }] })
         .to_string()
     };
-    for (size, weight) in [
-        (1e-31, 1.0),
-        (1e-61, 1.0),
-        (1e-160, 1.0),
-        (1.0, 1e-61),
-        (1.0, 5e-324),
-    ] {
+    for (size, weight) in [(1e-31, 1.0), (1e-61, 1.0), (1e-160, 1.0), (1.0, 1e-61), (1.0, 5e-324)] {
         let refused = Scene::from_json(&scene(size, weight)).expect_err("too small");
         assert!(refused.to_string().contains("check the units"), "{refused}");
     }
@@ -295,9 +275,5 @@ fn numbers_whose_products_overflow_or_vanish_are_refused() {
                    { "id": "b", "polygon": [[1.5e-30, 1e-30], [3e-30, 1e-30], [3e-30, 2e-30], [1.5e-30, 2e-30]] }] });
     let scene = Scene::from_json(&least.to_string()).expect("just large enough");
     assert!(scene.blocks().iter().all(|block| block.weight > 0.0));
-    assert_eq!(
-        Analysis::new(&scene).frames[0].verdict,
-        Verdict::Unstable,
-        "it overhangs by two thirds"
-    );
+    assert_eq!(Analysis::new(&scene).frames[0].verdict, Verdict::Unstable, "it overhangs by two thirds");
 }

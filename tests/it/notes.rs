@@ -17,24 +17,15 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
     let scene = |rest: &str| format!("{{ \"drystone\": 1, {GROUND},\n{rest} }}");
     let block = format!("\"blocks\": [{{ \"id\": \"a\", {square}, \"weight\": 5 }}]");
     vec![
+        (scene(&format!("\"friction\": 2.5, {block}")), NoteCode::FrictionHigh, "friction", 2),
         (
-            scene(&format!("\"friction\": 2.5, {block}")),
-            NoteCode::FrictionHigh,
-            "friction",
-            2,
-        ),
-        (
-            scene(&format!(
-                "\"materials\": {{ \"ice\": {{ \"friction\": 30 }} }}, {block}"
-            )),
+            scene(&format!("\"materials\": {{ \"ice\": {{ \"friction\": 30 }} }}, {block}")),
             NoteCode::FrictionHigh,
             "materials.ice.friction",
             2,
         ),
         (
-            scene(&format!(
-                "{block},\n\"robots\": [{{ \"holds\": \"a\",\n\"at\": [1, 1.5] }}]"
-            )),
+            scene(&format!("{block},\n\"robots\": [{{ \"holds\": \"a\",\n\"at\": [1, 1.5] }}]")),
             NoteCode::GripOutside,
             "robots[0].at",
             4,
@@ -48,19 +39,12 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             4,
         ),
         (
-            scene(&format!(
-                "{block}, \"loads\": [{{ \"block\": \"a\", \"force\": [1, 0], \"at\": [0.5, 2] }}]"
-            )),
+            scene(&format!("{block}, \"loads\": [{{ \"block\": \"a\", \"force\": [1, 0], \"at\": [0.5, 2] }}]")),
             NoteCode::LoadOutside,
             "loads[0].at",
             2,
         ),
-        (
-            scene(&format!("{block}, \"robots\": [{{}}]")),
-            NoteCode::UnusedRobot,
-            "robots[0]",
-            2,
-        ),
+        (scene(&format!("{block}, \"robots\": [{{}}]")), NoteCode::UnusedRobot, "robots[0]", 2),
         (
             scene(&format!(
                 "\"blocks\": [{{ \"id\": \"a\", {square}, \"weight\": 5 }},\n{{ \"id\": \"b\", {square}, \"at\": [2, 0], \"weight\": 5 }}], \"steps\": [{{ \"place\": [\"a\"] }}]"
@@ -70,9 +54,7 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             3,
         ),
         (
-            scene(&format!(
-                "\"blocks\": [{{ {square} }}],\n\"loads\": [{{ \"block\": \"1\", \"force\": [0, -500] }}]"
-            )),
+            scene(&format!("\"blocks\": [{{ {square} }}],\n\"loads\": [{{ \"block\": \"1\", \"force\": [0, -500] }}]")),
             NoteCode::DefaultDensity,
             "blocks[0]",
             2,
@@ -85,18 +67,8 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             "blocks[0]",
             2,
         ),
-        (
-            scene(&format!("\"blocks\": [{{ {square} }}]")),
-            NoteCode::DefaultDensity,
-            "blocks[0]",
-            2,
-        ),
-        (
-            format!("{{ \"drystone\": 1, {block} }}"),
-            NoteCode::NoGround,
-            "ground",
-            1,
-        ),
+        (scene(&format!("\"blocks\": [{{ {square} }}]")), NoteCode::DefaultDensity, "blocks[0]", 2),
+        (format!("{{ \"drystone\": 1, {block} }}"), NoteCode::NoGround, "ground", 1),
         (
             scene(
                 "\"density\": 2500, \"blocks\": [{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]] },\n{ \"polygon\": [[1.004, 0], [2, 0], [2, 1], [1.004, 1]] }]",
@@ -122,18 +94,8 @@ fn every_note_has_its_path_and_line_and_can_be_silenced() {
     for (text, code, path, line) in cases() {
         let found = notes(&text);
         assert_eq!(found.len(), 1, "{text}\n{found:?}");
-        assert_eq!(
-            (found[0].code, found[0].path.as_str(), found[0].line),
-            (code, path, line),
-            "{text}"
-        );
-        assert!(
-            found[0]
-                .hint
-                .contains(&format!("\"silence\": [\"{code}\"]")),
-            "{}",
-            found[0].hint
-        );
+        assert_eq!((found[0].code, found[0].path.as_str(), found[0].line), (code, path, line), "{text}");
+        assert!(found[0].hint.contains(&format!("\"silence\": [\"{code}\"]")), "{}", found[0].hint);
         missing.retain(|c| *c != code);
         let silent = text.replacen('{', &format!("{{ \"silence\": [\"{code}\"],"), 1);
         assert_eq!(notes(&silent), [], "{silent}");
@@ -167,16 +129,10 @@ fn a_note_changes_no_verdict_and_an_unknown_code_is_a_problem() {
     );
     let scene = Scene::from_json(&text).expect("sound");
     let analysis = Analysis::new(&scene);
-    assert_eq!(
-        (analysis.verdict(), analysis.notes.len()),
-        (Verdict::Stable, 1)
-    );
+    assert_eq!((analysis.verdict(), analysis.notes.len()), (Verdict::Stable, 1));
     let wrong = text.replacen('{', "{ \"silence\": [\"friction\"],", 1);
     let problems = Scene::from_json(&wrong).expect_err("refused");
-    assert_eq!(
-        (problems.list[0].code, problems.list[0].path.as_str()),
-        (Code::UnknownChoice, "silence[0]")
-    );
+    assert_eq!((problems.list[0].code, problems.list[0].path.as_str()), (Code::UnknownChoice, "silence[0]"));
 }
 
 #[test]
@@ -193,9 +149,5 @@ fn of_many_near_misses_at_most_ten_are_noted() {
     );
     let found = notes(&text);
     assert_eq!(found.len(), 10);
-    assert!(
-        found[9].message.contains("there are more"),
-        "{}",
-        found[9].message
-    );
+    assert!(found[9].message.contains("there are more"), "{}", found[9].message);
 }

@@ -26,10 +26,7 @@ fn words_of(page: &str) -> String {
 fn table(page: &str, mark: &str, rows: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
     let text = std::fs::read_to_string(&path).expect("the page is there");
-    let (begin, end) = (
-        format!("<!-- {mark} -->\n"),
-        format!("<!-- end of {mark} -->"),
-    );
+    let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end of {mark} -->"));
     let from = text.find(&begin).expect("the mark is there") + begin.len();
     let to = text.find(&end).expect("the end is there");
     let wanted = format!("\n{rows}\n");
@@ -38,11 +35,7 @@ fn table(page: &str, mark: &str, rows: &str) {
         std::fs::write(&path, new).expect("the page can be written");
         return;
     }
-    assert_eq!(
-        &text[from..to],
-        wanted,
-        "{page}: run once with UPDATE_SNAPSHOTS=1"
-    );
+    assert_eq!(&text[from..to], wanted, "{page}: run once with UPDATE_SNAPSHOTS=1");
 }
 
 /// The permitted values of a key of the scene format, in words.
@@ -70,10 +63,7 @@ fn words(schema: &Value, definitions: &Value) -> String {
     }
     let kind = schema["type"].as_str().or_else(|| {
         let kinds = schema["type"].as_array()?;
-        kinds
-            .iter()
-            .filter_map(Value::as_str)
-            .find(|k| *k != "null")
+        kinds.iter().filter_map(Value::as_str).find(|k| *k != "null")
     });
     match kind.expect("a type") {
         "number" => "number".into(),
@@ -126,10 +116,8 @@ fn title(name: &str) -> &str {
 
 /// The table of an object's keys.
 fn object_table(schema: &Value, definitions: &Value) -> String {
-    let required: Vec<&str> = schema["required"]
-        .as_array()
-        .map(|keys| keys.iter().filter_map(Value::as_str).collect())
-        .unwrap_or_default();
+    let required: Vec<&str> =
+        schema["required"].as_array().map(|keys| keys.iter().filter_map(Value::as_str).collect()).unwrap_or_default();
     let mut rows = String::from("| key | value | default | meaning |\n|---|---|---|---|\n");
     let keys = schema["properties"].as_object().expect("keys");
     for (key, value) in keys {
@@ -141,18 +129,11 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
             Value::Null => "none".into(),
             Value::Array(list) if list.is_empty() => "none".into(),
             Value::Object(map) if map.is_empty() => "none".into(),
-            other => format!(
-                "`{}`",
-                other.to_string().replace(".0", "").replace(',', ", ")
-            ),
+            other => format!("`{}`", other.to_string().replace(".0", "").replace(',', ", ")),
         };
         // The default in the description must be that of the schema.
-        if let (Some(stated), false) = (
-            meaning.split(" Default ").nth(1),
-            value["default"].is_null(),
-        ) {
-            let stated: Value =
-                serde_json::from_str(stated.trim_end_matches('.')).unwrap_or(Value::Null);
+        if let (Some(stated), false) = (meaning.split(" Default ").nth(1), value["default"].is_null()) {
+            let stated: Value = serde_json::from_str(stated.trim_end_matches('.')).unwrap_or(Value::Null);
             let (stated, expected) = (stated.to_string(), value["default"].to_string());
             let [stated, expected] = [stated, expected].map(|text| text.replace(".0", ""));
             assert_eq!(stated, expected, "{key}");
@@ -169,10 +150,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
                 "coefficient",
                 "kernel",
             ];
-            assert!(
-                units.iter().any(|u| meaning.contains(u)),
-                "{key} has no unit: {meaning}"
-            );
+            assert!(units.iter().any(|u| meaning.contains(u)), "{key} has no unit: {meaning}");
         }
         let cell = |text: &str| text.replace('|', "\\|");
         let kind = cell(&words(value, definitions));
@@ -202,35 +180,23 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
         "ContactEntry",
     ];
     for name in order {
-        let about = definitions[name]["description"]
-            .as_str()
-            .expect("described");
+        let about = definitions[name]["description"].as_str().expect("described");
         let rows = object_table(&definitions[name], definitions);
         text += &format!("\n## {}\n\n{about}\n\n{rows}", title(name));
     }
     let objects = definitions.as_object().expect("definitions").iter();
     let listed: BTreeSet<&str> = order.into_iter().collect();
-    let all: BTreeSet<&str> = (objects.filter(|d| d.1["type"] == "object"))
-        .map(|d| d.0.as_str())
-        .collect();
+    let all: BTreeSet<&str> = (objects.filter(|d| d.1["type"] == "object")).map(|d| d.0.as_str()).collect();
     assert_eq!(listed, all, "every object has a table");
     table("src/doc/format.md", "keys", &text);
 }
 
 fn key_table(keys: &[Key]) -> String {
-    let mut rows =
-        String::from("| key | value | unit | present | meaning |\n|---|---|---|---|---|\n");
+    let mut rows = String::from("| key | value | unit | present | meaning |\n|---|---|---|---|---|\n");
     for key in keys {
-        let when = if key.when.is_empty() {
-            "always"
-        } else {
-            key.when
-        };
+        let when = if key.when.is_empty() { "always" } else { key.when };
         let kind = key.kind.words();
-        rows += &format!(
-            "| `{}` | {kind} | {} | {when} | {} |\n",
-            key.path, key.unit, key.meaning
-        );
+        rows += &format!("| `{}` | {kind} | {} | {when} | {} |\n", key.path, key.unit, key.meaning);
     }
     rows
 }
@@ -238,11 +204,7 @@ fn key_table(keys: &[Key]) -> String {
 #[test]
 fn the_result_page_describes_every_key_and_code() {
     table("src/doc/result.md", "keys", &key_table(KEYS));
-    table(
-        "src/doc/result.md",
-        "refusal keys",
-        &key_table(REFUSAL_KEYS),
-    );
+    table("src/doc/result.md", "refusal keys", &key_table(REFUSAL_KEYS));
     let mut rows = String::from("| code | meaning |\n|---|---|\n");
     for code in Code::ALL {
         rows += &format!("| `{code}` | {} |\n", code.meaning());
@@ -258,8 +220,7 @@ fn the_result_page_describes_every_key_and_code() {
 /// Whether a value has the type of its key.
 fn fits(kind: Type, value: &Value) -> bool {
     let number = |v: &Value| v.is_number() || v.is_null();
-    let list =
-        |v: &Value, each: &dyn Fn(&Value) -> bool| v.as_array().is_some_and(|l| l.iter().all(each));
+    let list = |v: &Value, each: &dyn Fn(&Value) -> bool| v.as_array().is_some_and(|l| l.iter().all(each));
     let two = |v: &Value| v.as_array().is_some_and(|l| l.len() == 2);
     let pair = |v: &Value| two(v) && list(v, &number);
     let motion = |m: &Value| m["block"].is_string() && pair(&m["velocity"]) && number(&m["spin"]);
@@ -303,13 +264,8 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
     let entries = object.as_object().expect("an object");
     for (name, value) in entries {
         let here = format!("{path}{name}");
-        let key = (keys.iter().find(|k| k.path == here))
-            .unwrap_or_else(|| panic!("{here} is not described"));
-        assert!(
-            fits(key.kind, value),
-            "{here}: {value} is not a {:?}",
-            key.kind
-        );
+        let key = (keys.iter().find(|k| k.path == here)).unwrap_or_else(|| panic!("{here} is not described"));
+        assert!(fits(key.kind, value), "{here}: {value} is not a {:?}", key.kind);
         seen.insert(key.path);
         match key.kind {
             Type::Object => walk(value, &format!("{here}."), keys, seen),
@@ -328,16 +284,9 @@ fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static s
     }
     let parent = |key: &Key| key.path.rsplit_once('.').map_or("", |p| p.0).to_owned();
     let own = path.trim_end_matches('.');
-    for key in keys
-        .iter()
-        .filter(|k| k.when.is_empty() && parent(k) == own)
-    {
+    for key in keys.iter().filter(|k| k.when.is_empty() && parent(k) == own) {
         let last = key.path.rsplit('.').next().unwrap_or_default();
-        assert!(
-            entries.contains_key(last),
-            "{} is always present, but not in {object}",
-            key.path
-        );
+        assert!(entries.contains_key(last), "{} is always present, but not in {object}", key.path);
     }
 }
 
@@ -388,46 +337,28 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
         files.sort();
         let large = ["wall200", "steps30", "tinyhuge", "archri4"];
         files.retain(|p| !large.iter().any(|l| p.to_string_lossy().contains(l)));
-        texts.extend(
-            files
-                .iter()
-                .map(|p| std::fs::read_to_string(p).expect("readable")),
-        );
+        texts.extend(files.iter().map(|p| std::fs::read_to_string(p).expect("readable")));
     }
     for (number, text) in texts.iter().enumerate() {
         let scene = Scene::from_json(text).expect("sound");
-        let mut options = Options::default()
-            .margins(true)
-            .wedging(true)
-            .sensitivity(MarginKind::LoadFactor);
+        let mut options = Options::default().margins(true).wedging(true).sensitivity(MarginKind::LoadFactor);
         // For a few scenes, the forces that the first block can carry are requested too.
         if number < 6 {
             let first = scene.block_named(&scene.blocks()[0].id);
             options.capacity = first.map(CapacityRequest::of_block);
         }
         let analysis = Analysis::with(&scene, &options);
-        let json =
-            to_json_with_blocks(Some("a.json"), &analysis, Timing::Included, Layout::OneLine);
-        walk(
-            &serde_json::from_str(&json).expect("JSON"),
-            "",
-            KEYS,
-            &mut seen,
-        );
+        let json = to_json_with_blocks(Some("a.json"), &analysis, Timing::Included, Layout::OneLine);
+        walk(&serde_json::from_str(&json).expect("JSON"), "", KEYS, &mut seen);
     }
-    let missing: Vec<&str> = KEYS
-        .iter()
-        .map(|k| k.path)
-        .filter(|p| !seen.contains(p))
-        .collect();
+    let missing: Vec<&str> = KEYS.iter().map(|k| k.path).filter(|p| !seen.contains(p)).collect();
     assert!(missing.is_empty(), "no scene shows {missing:?}");
 }
 
 #[test]
 fn a_refused_file_has_the_described_keys() {
     let problems = Scene::from_json(r#"{ "drystone": 1, "bloks": [] }"#).expect_err("refused");
-    let json: Value =
-        serde_json::from_str(&refusal("é.json", &problems.list, Layout::Lines)).expect("JSON");
+    let json: Value = serde_json::from_str(&refusal("é.json", &problems.list, Layout::Lines)).expect("JSON");
     let mut seen = BTreeSet::new();
     walk(&json, "", REFUSAL_KEYS, &mut seen);
     assert_eq!(seen.len(), REFUSAL_KEYS.len());
@@ -452,12 +383,6 @@ fn the_schema_of_results_has_the_same_keys() {
             let described = here["description"].as_str().expect("described");
             assert!(described.contains(key.unit), "{}: {described}", key.path);
         }
-        assert!(
-            object["required"]
-                .as_array()
-                .expect("some")
-                .contains(&keys[0].path.into())
-                || number == 1
-        );
+        assert!(object["required"].as_array().expect("some").contains(&keys[0].path.into()) || number == 1);
     }
 }

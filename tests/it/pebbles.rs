@@ -21,10 +21,7 @@ fn written(x: f64, decimals: Option<usize>) -> f64 {
 }
 
 fn rounded(outline: &Outline, decimals: Option<usize>) -> Outline {
-    outline
-        .iter()
-        .map(|p| p.map(|x| written(x, decimals)))
-        .collect()
+    outline.iter().map(|p| p.map(|x| written(x, decimals))).collect()
 }
 
 /// A scene of one stone on flat ground, which extends from −`reach` to `reach`.
@@ -69,19 +66,13 @@ fn without_repeats(outline: Outline) -> Outline {
 fn verdict(file: &Value) -> Result<(Verdict, String), String> {
     let scene = Scene::from_json(&file.to_string()).map_err(|problems| problems.to_string())?;
     let frame = Analysis::new(&scene).frames.remove(0);
-    assert!(
-        frame.proof.holds() || frame.verdict == Verdict::Undecided,
-        "{file}"
-    );
+    assert!(frame.proof.holds() || frame.verdict == Verdict::Undecided, "{file}");
     Ok((frame.verdict, frame.doubt()))
 }
 
 #[test]
 fn stones_with_edges_shorter_than_the_tolerance_stand() {
-    for text in [
-        include_str!("pebbles/many-corners.json"),
-        include_str!("pebbles/circle-200.json"),
-    ] {
+    for text in [include_str!("pebbles/many-corners.json"), include_str!("pebbles/circle-200.json")] {
         let file: Value = serde_json::from_str(text).expect("JSON");
         assert_eq!(verdict(&file).expect("sound").0, Verdict::Stable);
     }
@@ -140,14 +131,11 @@ fn a_tolerance_larger_than_the_block_does_not_change_its_outline() {
 /// The corners of the convex hull, anticlockwise, beginning with the leftmost corner.
 fn hull(mut points: Outline) -> Outline {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
+    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let chain = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
         let mut chain: Outline = Vec::new();
         for p in points {
-            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], *p) <= 0.0
-            {
+            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], *p) <= 0.0 {
                 chain.pop();
             }
             chain.push(*p);
@@ -165,10 +153,7 @@ fn centroid(outline: &Outline) -> [f64; 2] {
     let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
     for (i, a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];
-        let (a, b) = (
-            [a[0] - base[0], a[1] - base[1]],
-            [b[0] - base[0], b[1] - base[1]],
-        );
+        let (a, b) = ([a[0] - base[0], a[1] - base[1]], [b[0] - base[0], b[1] - base[1]]);
         let cross = a[0] * b[1] - a[1] * b[0];
         area += cross;
         x += cross * (a[0] + b[0]);
@@ -187,10 +172,7 @@ fn pebble(chance: &mut Random, radius: f64, corners: usize, rough: f64) -> Outli
         let (sin, cos) = libm::sincos(angle);
         [radius * off * cos, radius * off * flat * sin]
     };
-    angles
-        .into_iter()
-        .map(|angle| corner(angle, 1.0 - rough * chance.share()))
-        .collect()
+    angles.into_iter().map(|angle| corner(angle, 1.0 - rough * chance.share())).collect()
 }
 
 /// The stone, rotated and moved so that an edge of its hull lies on y = 0. With a probability of 70 %, the centre of
@@ -277,10 +259,7 @@ fn stands(stone: &Outline, slack: f64) -> bool {
 type Answer = (u64, Result<(Verdict, String), String>, [bool; 2]);
 
 #[test]
-#[allow(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[allow(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn few_random_pebbles_are_undecided() {
     let number = |name: &str, usual: u64| {
         let value = std::env::var(name).ok();
@@ -311,19 +290,10 @@ fn few_random_pebbles_are_undecided() {
             (Ok((verdict, _)), _) => wrong.push(format!("{number}: {verdict:?}")),
         }
     }
-    println!(
-        "{count} pebbles: {standing} stand, {} are undecided, {} are refused",
-        undecided.len(),
-        refused.len()
-    );
+    println!("{count} pebbles: {standing} stand, {} are undecided, {} are refused", undecided.len(), refused.len());
     let few = |list: &[String]| list[..list.len().min(20)].join("\n");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), few(&wrong));
-    assert!(
-        undecided.len() as u64 <= 1 + count / 300,
-        "{} undecided:\n{}",
-        undecided.len(),
-        few(&undecided)
-    );
+    assert!(undecided.len() as u64 <= 1 + count / 300, "{} undecided:\n{}", undecided.len(), few(&undecided));
     assert!(refused.len() as u64 <= count / 10, "{}", few(&refused));
 }
 
@@ -331,10 +301,8 @@ fn few_random_pebbles_are_undecided() {
 /// million times larger or smaller.
 #[test]
 fn a_stone_keeps_its_verdict_if_it_is_rotated_mirrored_or_scaled() {
-    let mut stones: Vec<(String, Outline)> = [20, 200, 2000]
-        .into_iter()
-        .map(|corners| (format!("circle of {corners}"), circle(0.1, corners)))
-        .collect();
+    let mut stones: Vec<(String, Outline)> =
+        [20, 200, 2000].into_iter().map(|corners| (format!("circle of {corners}"), circle(0.1, corners))).collect();
     stones.extend((0..60).map(|number| {
         let mut chance = Random::new(number);
         let corners = chance.whole(20, 80) as usize;

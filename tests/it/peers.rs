@@ -57,18 +57,10 @@ fn walls() -> Vec<GrowthLine> {
             continue;
         };
         let is_highlighted = program.starts_with("drystone");
-        let point = Point {
-            x: blocks,
-            y: milliseconds,
-            wrong: answer != "right",
-        };
+        let point = Point { x: blocks, y: milliseconds, wrong: answer != "right" };
         match lines.iter_mut().find(|line| line.name == name) {
             Some(line) => line.points.push(point),
-            None => lines.push(GrowthLine {
-                name,
-                is_highlighted,
-                points: vec![point],
-            }),
+            None => lines.push(GrowthLine { name, is_highlighted, points: vec![point] }),
         }
     }
     for line in &mut lines {
@@ -97,10 +89,7 @@ fn the_readmes_picture_of_other_programs_shows_the_table_that_was_measured() {
         fs::write(&shown, &drawn).expect("writable");
     }
     let kept = fs::read_to_string(&shown).expect("in the repository");
-    assert!(
-        kept == drawn,
-        "the picture differs from the table: inspect it, and run once with UPDATE_SNAPSHOTS=1"
-    );
+    assert!(kept == drawn, "the picture differs from the table: inspect it, and run once with UPDATE_SNAPSHOTS=1");
 }
 
 /// The statement of the README about the picture.
@@ -114,11 +103,7 @@ fn drystone_in_a_batch_is_faster_than_other_programs_at_ten_and_a_thousand_block
         let own = at(many, size).expect("measured");
         for other in lines.iter().filter(|line| !line.is_highlighted) {
             let others = at(other, size);
-            assert!(
-                others.is_none_or(|y| y > 2.0 * own),
-                "{} at {size}",
-                other.name
-            );
+            assert!(others.is_none_or(|y| y > 2.0 * own), "{} at {size}", other.name);
         }
     }
 }
@@ -127,12 +112,7 @@ fn drystone_in_a_batch_is_faster_than_other_programs_at_ten_and_a_thousand_block
 fn every_program_is_named_once_and_inside_the_picture() {
     let drawn = drawn();
     for line in walls() {
-        assert_eq!(
-            drawn.matches(&format!("\n{}\n", line.name)).count(),
-            1,
-            "{}",
-            line.name
-        );
+        assert_eq!(drawn.matches(&format!("\n{}\n", line.name)).count(), 1, "{}", line.name);
     }
     assert!(drawn.len() < 40_000, "{}", drawn.len());
 }

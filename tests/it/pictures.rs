@@ -17,26 +17,15 @@ pub(crate) fn gallery() -> Vec<(String, Scene)> {
     let folder = format!("{}/assets/thesis", env!("CARGO_MANIFEST_DIR"));
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("the gallery")
-        .map(|entry| {
-            entry
-                .expect("an entry")
-                .file_name()
-                .into_string()
-                .expect("a plain name")
-        })
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name"))
         .filter(|name| name.ends_with(".json"))
         .collect();
     names.sort();
-    names
-        .into_iter()
-        .map(|name| (name.clone(), scene(&format!("assets/thesis/{name}"))))
-        .collect()
+    names.into_iter().map(|name| (name.clone(), scene(&format!("assets/thesis/{name}")))).collect()
 }
 
 fn source() -> Options {
-    Options::default()
-        .style(ForceStyle::Components)
-        .normalisation(Normalisation::Source)
+    Options::default().style(ForceStyle::Components).normalisation(Normalisation::Source)
 }
 
 fn pair(value: &Value) -> (f64, f64) {
@@ -45,8 +34,7 @@ fn pair(value: &Value) -> (f64, f64) {
 
 #[test]
 fn arrows_are_those_of_the_thesis() {
-    let panels: Value =
-        serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
+    let panels: Value = serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     let mut compared = 0;
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
@@ -67,9 +55,7 @@ fn arrows_are_those_of_the_thesis() {
                     && a.colour.css() == colour
                     && (a.width - width).abs() < 1e-3
             });
-            let Some(found) = found else {
-                panic!("{name} has no arrow {arrow}; the remaining arrows are {ours:#?}")
-            };
+            let Some(found) = found else { panic!("{name} has no arrow {arrow}; the remaining arrows are {ours:#?}") };
             ours.remove(found);
             compared += 1;
         }
@@ -108,8 +94,7 @@ fn groups(items: &[Item], visit: &mut dyn FnMut(&Group)) {
 
 #[test]
 fn fills_are_those_of_the_thesis() {
-    let panels: Value =
-        serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
+    let panels: Value = serde_json::from_str(include_str!("../reference/panels.json")).expect("JSON");
     for (name, panel) in panels.as_object().expect("panels") {
         let scene = scene(panel["scene"].as_str().expect("a scene"));
         let options = Options::default().fill(Fill::Source);
@@ -118,11 +103,7 @@ fn fills_are_those_of_the_thesis() {
         let blocks = panel["blocks"].as_array().expect("blocks");
         assert_eq!(fills.len(), blocks.len(), "{name}");
         for ((title, fill), block) in fills.iter().zip(blocks) {
-            assert_eq!(
-                fill.css(),
-                block["fill"].as_str().expect("a fill"),
-                "{name}, {title}"
-            );
+            assert_eq!(fill.css(), block["fill"].as_str().expect("a fill"), "{name}, {title}");
         }
     }
 }
@@ -145,17 +126,10 @@ fn nothing_lies_beyond_the_page_and_words_fit() {
     for style in [Options::default(), source()] {
         for (name, scene) in gallery() {
             let drawing = figure::forces(&Analysis::new(&scene), &style);
-            let inside = |x: f64, y: f64| {
-                (0.0..=drawing.width).contains(&x) && (0.0..=drawing.height).contains(&y)
-            };
+            let inside = |x: f64, y: f64| (0.0..=drawing.width).contains(&x) && (0.0..=drawing.height).contains(&y);
             points(&drawing.items, &mut |outline| {
                 for p in outline.points() {
-                    assert!(
-                        inside(p.x, p.y),
-                        "{name}: {p:?} of {} × {}",
-                        drawing.width,
-                        drawing.height
-                    );
+                    assert!(inside(p.x, p.y), "{name}: {p:?} of {} × {}", drawing.width, drawing.height);
                 }
             });
             fn words(items: &[Item], visit: &mut dyn FnMut(&drystone::drawing::Text)) {
@@ -174,11 +148,7 @@ fn nothing_lies_beyond_the_page_and_words_fit() {
                     drystone::drawing::Anchor::Middle => text.at.x - wide / 2.0,
                     drystone::drawing::Anchor::End => text.at.x - wide,
                 };
-                assert!(
-                    inside(left, text.at.y) && inside(left + wide, text.at.y),
-                    "{name}: {}",
-                    text.words
-                );
+                assert!(inside(left, text.at.y) && inside(left + wide, text.at.y), "{name}: {}", text.words);
             });
         }
     }
@@ -221,9 +191,8 @@ fn arrows_between_two_blocks_are_opposite_and_the_ground_has_none() {
     for arrow in &arrows {
         assert!(matches!(arrow.on, drystone::scene::BodyId::Block(_)));
         if let ArrowKind::Contact(from @ drystone::scene::BodyId::Block(_)) = arrow.kind {
-            let partner = arrows.iter().find(|a| {
-                a.on == from && a.kind == ArrowKind::Contact(arrow.on) && a.at == arrow.at
-            });
+            let partner =
+                arrows.iter().find(|a| a.on == from && a.kind == ArrowKind::Contact(arrow.on) && a.at == arrow.at);
             let partner = partner.expect("the other block has its own arrow");
             assert_eq!(partner.force, -arrow.force);
             assert_ne!(partner.colour, arrow.colour);
@@ -273,28 +242,15 @@ fn slab(more: &str, block: &str) -> Scene {
 
 #[test]
 fn loads_and_robots_torques_have_their_arrows() {
-    let scene = slab(
-        r#""loads": [ { "block": "s", "force": [1, -2], "at": [3, 2], "torque": -1.5 } ],"#,
-        "",
-    );
+    let scene = slab(r#""loads": [ { "block": "s", "force": [1, -2], "at": [3, 2], "torque": -1.5 } ],"#, "");
     let analysis = Analysis::new(&scene);
     let marks = figure::marks(&analysis, 0, &Options::default(), 10.0);
-    let load = marks
-        .arrows
-        .iter()
-        .find(|a| a.kind == ArrowKind::Load)
-        .expect("a load's arrow");
-    assert_eq!(
-        (load.at, load.force),
-        (Point::new(3.0, 2.0), Vector::new(1.0, -2.0))
-    );
+    let load = marks.arrows.iter().find(|a| a.kind == ArrowKind::Load).expect("a load's arrow");
+    assert_eq!((load.at, load.force), (Point::new(3.0, 2.0), Vector::new(1.0, -2.0)));
     // The unit length is 0.6·√8 m here and stands for 10 N.
     assert!((load.vector - Vector::new(1.0, -2.0) * (0.06 * 8f64.sqrt())).norm() < 1e-12);
     assert_eq!(marks.turns.len(), 1);
-    assert_eq!(
-        (marks.turns[0].kind, marks.turns[0].torque),
-        (figure::TurnKind::Load, -1.5)
-    );
+    assert_eq!((marks.turns[0].kind, marks.turns[0].torque), (figure::TurnKind::Load, -1.5));
     assert!(marks.turns[0].arc < 0.0);
     assert!(drawn(&scene).contains("Torque of a load on block s: 1.5 N·m clockwise"));
 }
@@ -303,14 +259,9 @@ fn loads_and_robots_torques_have_their_arrows() {
 fn heights(drawing: &Drawing, title: &str) -> Vec<f64> {
     let mut found = Vec::new();
     groups(&drawing.items, &mut |group| {
-        if let (true, Some(Item::Path(path))) =
-            (group.title.starts_with(title), group.items.first())
-        {
+        if let (true, Some(Item::Path(path))) = (group.title.starts_with(title), group.items.first()) {
             let ys: Vec<f64> = path.outline.points().map(|p| p.y).collect();
-            found.push(
-                ys.iter().copied().fold(f64::MIN, f64::max)
-                    - ys.iter().copied().fold(f64::MAX, f64::min),
-            );
+            found.push(ys.iter().copied().fold(f64::MIN, f64::max) - ys.iter().copied().fold(f64::MAX, f64::min));
         }
     });
     found
@@ -327,10 +278,7 @@ fn with_one_scale_for_a_strip_equal_weights_have_equal_arrows() {
     let own = weights(figure::ArrowScale::Panel);
     let shared = weights(figure::ArrowScale::Strip);
     assert!(own.len() == 2 && own[0] > 1.5 * own[1], "{own:?}");
-    assert!(
-        shared.len() == 2 && (shared[0] - shared[1]).abs() < 1e-9,
-        "{shared:?}"
-    );
+    assert!(shared.len() == 2 && (shared[0] - shared[1]).abs() < 1e-9, "{shared:?}");
 }
 
 #[test]
@@ -341,15 +289,9 @@ fn without_a_limit_the_key_states_what_the_colours_mean() {
     let text = drawn(&from_json(two));
     assert!(text.contains(">8 N</text>") && text.contains("weight or largest normal force"));
     let full = Options::default().theme.amplitude(1.0).css();
-    assert!(
-        text.contains(&format!("fill=\"{full}\"")),
-        "the most loaded block is at the end of the scale"
-    );
+    assert!(text.contains(&format!("fill=\"{full}\"")), "the most loaded block is at the end of the scale");
     assert!(!text.contains("limit of"));
-    let limited = two.replace(
-        "\"ground\"",
-        r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#,
-    );
+    let limited = two.replace("\"ground\"", r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#);
     // A robot that holds nothing changes no colour, except with the fills of the thesis, which have a different key.
     let of_blocks = |text: &str, fill: &str| text.matches(&format!("fill=\"{fill}\"")).count();
     let with_robot = drawn(&from_json(&limited));
@@ -364,10 +306,7 @@ fn without_a_limit_the_key_states_what_the_colours_mean() {
 #[test]
 fn a_fill_given_in_the_scene_has_precedence() {
     let scene = slab("", r##", "fill": "#8b6b3d""##);
-    let fill = fills(
-        &figure::forces(&Analysis::new(&scene), &Options::default()),
-        0,
-    );
+    let fill = fills(&figure::forces(&Analysis::new(&scene), &Options::default()), 0);
     assert_eq!(fill, [("Block s".to_owned(), Colour::hex(0x8b6b3d))]);
 }
 
@@ -378,10 +317,7 @@ fn wide_ground_is_cut_and_the_structure_stays_large() {
     groups(&drawing.items, &mut |group| {
         if let ("block", Some(Item::Path(path))) = (group.class.as_str(), group.items.first()) {
             let xs: Vec<f64> = path.outline.points().map(|p| p.x).collect();
-            block = Some(
-                xs.iter().copied().fold(0.0, f64::max)
-                    - xs.iter().copied().fold(f64::MAX, f64::min),
-            );
+            block = Some(xs.iter().copied().fold(0.0, f64::max) - xs.iter().copied().fold(f64::MAX, f64::min));
         }
     });
     assert!(block.expect("a block") > 0.3 * drawing.width);
@@ -398,30 +334,18 @@ fn unusual_scenes_are_drawn() {
         r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[1e9,1e9],[1000000001,1e9],[1e9,1000000001]] },
              { "id": "b", "polygon": [[-1e9,0],[-999999999,0],[-1e9,1]] } ] }"#,
     );
-    let tiny = from_json(
-        r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[1e-6,0],[0,1e-6]] } ] }"#,
-    );
+    let tiny = from_json(r#"{ "drystone": 1, "blocks": [ { "id": "a", "polygon": [[0,0],[1e-6,0],[0,1e-6]] } ] }"#);
     for scene in [nothing, weightless, falling, far, tiny] {
         let svg = drawn(&scene);
         let picture = png::render(&svg, png::Size::Natural).expect("a picture");
-        assert!(
-            picture.len() > 500 && picture.len() < 1_000_000,
-            "{}",
-            scene.title()
-        );
+        assert!(picture.len() > 500 && picture.len() < 1_000_000, "{}", scene.title());
     }
 }
 
 #[test]
 fn very_many_blocks_are_drawn_together() {
-    let block = |i: usize| {
-        format!(
-            r#"{{ "id": "b{i}", "cells": [[{}, {}]], "weight": {} }}"#,
-            2 * (i % 50),
-            0,
-            1 + i % 7
-        )
-    };
+    let block =
+        |i: usize| format!(r#"{{ "id": "b{i}", "cells": [[{}, {}]], "weight": {} }}"#, 2 * (i % 50), 0, 1 + i % 7);
     // Blocks side by side, each on a separate part of the ground.
     let (mut blocks, mut ground) = (Vec::new(), Vec::new());
     for i in 0..1100 {

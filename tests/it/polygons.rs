@@ -26,10 +26,7 @@ fn block(left: f64, push: f64) -> Scene {
 
 /// All words of a drawing, and whether its force polygon has a dashed path.
 fn words_and_dashes(drawing: &Drawing) -> (String, bool) {
-    let page = Group {
-        items: drawing.items.clone(),
-        ..Group::default()
-    };
+    let page = Group { items: drawing.items.clone(), ..Group::default() };
     let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
     let sides = classes(&drawing.items, &["polygon"]);
     let forces = sides.iter().flat_map(|p| classes(&p.items, &["force"]));
@@ -42,32 +39,18 @@ fn words_and_dashes(drawing: &Drawing) -> (String, bool) {
 
 #[test]
 fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
-    let drawn = |scene: &Scene| {
-        words_and_dashes(&figure::draw(
-            &Analysis::new(scene),
-            Kind::Polygon,
-            &Options::default(),
-        ))
-    };
+    let drawn =
+        |scene: &Scene| words_and_dashes(&figure::draw(&Analysis::new(scene), Kind::Polygon, &Options::default()));
     let (stands, dashed) = drawn(&block(1.0, 2.0));
-    assert!(
-        stands.contains("the force polygon is closed") && !dashed,
-        "{stands}"
-    );
+    assert!(stands.contains("the force polygon is closed") && !dashed, "{stands}");
     // Three quarters of the block overhang, so the ground would have to pull.
     let (falls, dashed) = drawn(&block(-3.0, 0.0));
-    assert!(
-        falls.contains("closes only with the missing forces at the ground") && dashed,
-        "{falls}"
-    );
+    assert!(falls.contains("closes only with the missing forces at the ground") && dashed, "{falls}");
     assert!(!falls.contains("is closed"), "{falls}");
     // Missing forces inside the structure act in pairs, so that they are no sides of the polygon. It closes without them.
     let thin = scene(include_str!("../scenes/archri4.55.json"));
     let (inside, _) = drawn(&thin);
-    assert!(
-        inside.contains("closes, because the forces missing inside the structure act in pairs"),
-        "{inside}"
-    );
+    assert!(inside.contains("closes, because the forces missing inside the structure act in pairs"), "{inside}");
     assert!(!inside.contains("closes only"), "{inside}");
 }
 
@@ -81,14 +64,8 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
     let scene = crate::structure::scene(&file);
     let analysis = Analysis::with(&scene, &AnalysisOptions::default().margins(true));
     for (toward, expected) in [
-        (
-            Toward::Tilt,
-            "turned by 0.0° to the right, or by 31° to the left",
-        ),
-        (
-            Toward::HorizontalLoad,
-            "to the right, or by 60 % of each weight to the left",
-        ),
+        (Toward::Tilt, "turned by 0.0° to the right, or by 31° to the left"),
+        (Toward::HorizontalLoad, "to the right, or by 60 % of each weight to the left"),
     ] {
         let options = Options::default().toward(toward);
         let drawing = figure::draw(&analysis, Kind::Margin, &options);
@@ -110,10 +87,7 @@ fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
     assert_eq!(ghosts.len(), 2);
     assert_ne!(ghosts[0].items, ghosts[1].items);
     let (words, _) = words_and_dashes(&drawing);
-    assert!(
-        words.contains("how it would begin to fall at the other end"),
-        "{words}"
-    );
+    assert!(words.contains("how it would begin to fall at the other end"), "{words}");
 }
 
 #[test]
@@ -125,18 +99,11 @@ fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
     let drawing = figure::draw(&analysis, Kind::Margin, &options);
     let (words, _) = words_and_dashes(&drawing);
     // The block slides at 3 N, half of its weight.
-    assert!(
-        words.contains("falls once its loads are 1.5 times as large"),
-        "{words}"
-    );
+    assert!(words.contains("falls once its loads are 1.5 times as large"), "{words}");
     assert_eq!(Analysis::new(block(1.0, 2.99)).verdict(), Verdict::Stable);
     assert_eq!(Analysis::new(block(1.0, 3.01)).verdict(), Verdict::Unstable);
     assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
-    assert_eq!(
-        classes(&drawing.items, &["force"]).len(),
-        1,
-        "the load is shown"
-    );
+    assert_eq!(classes(&drawing.items, &["force"]).len(), 1, "the load is shown");
     // A structure that falls with its loads is drawn without its motion. The text states the loads with which it
     // would stand: up to 3 of the 4 N.
     let falls = block(1.0, 4.0);
@@ -158,9 +125,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
     );
     let drawing = figure::draw(&Analysis::new(&small), Kind::Forces, &Options::default());
     let turns = classes(&drawing.items, &["torque"]);
-    let [turn] = turns[..] else {
-        panic!("{} turning arrows", turns.len())
-    };
+    let [turn] = turns[..] else { panic!("{} turning arrows", turns.len()) };
     let across = turn.items.iter().find_map(|item| match item {
         Item::Path(path) => {
             let xs: Vec<f64> = path.outline.points().map(|p| p.x).collect();
@@ -171,18 +136,12 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
     });
     assert!(across.is_some_and(|wide| wide > 10.0), "{across:?}");
     let (words, _) = words_and_dashes(&drawing);
-    assert!(
-        words.contains("0.5") && words.contains("small ones drawn larger"),
-        "{words}"
-    );
+    assert!(words.contains("0.5") && words.contains("small ones drawn larger"), "{words}");
 }
 
 #[test]
 fn a_report_of_an_unstable_frame_says_that_missing_forces_are_included() {
-    let file = File {
-        name: "a.json",
-        text: "{}",
-    };
+    let file = File { name: "a.json", text: "{}" };
     let captions = |scene: &Scene| {
         let entry = Entry::new(file, &Analysis::new(scene), &ReportOptions::default());
         let parts = entry.sections.iter().flat_map(|s| &s.parts);
@@ -193,18 +152,9 @@ fn a_report_of_an_unstable_frame_says_that_missing_forces_are_included() {
         (notes.collect::<Vec<_>>().join(" / "), entry.row.friction)
     };
     let (falls, used) = captions(&block(1.0, 4.0));
-    assert!(
-        falls.contains("These forces are in equilibrium only together with the missing forces."),
-        "{falls}"
-    );
+    assert!(falls.contains("These forces are in equilibrium only together with the missing forces."), "{falls}");
     assert_eq!(used, None);
     let (stands, used) = captions(&block(1.0, 2.0));
-    assert!(
-        stands.contains("nearest to opening or sliding first") && !stands.contains("missing"),
-        "{stands}"
-    );
-    assert!(
-        used.is_some_and(|u| (u - 2.0 / 3.0).abs() < 1e-6),
-        "{used:?}"
-    );
+    assert!(stands.contains("nearest to opening or sliding first") && !stands.contains("missing"), "{stands}");
+    assert!(used.is_some_and(|u| (u - 2.0 / 3.0).abs() < 1e-6), "{used:?}");
 }

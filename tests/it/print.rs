@@ -53,14 +53,9 @@ fn sound(svg: &str, what: &str) {
     }
     for node in document.descendants().filter(|n| n.is_element()) {
         let labels = node.attribute("aria-labelledby").unwrap_or_default();
-        let clip = node
-            .attribute("clip-path")
-            .map(|c| c.trim_start_matches("url(#").trim_end_matches(')'));
+        let clip = node.attribute("clip-path").map(|c| c.trim_start_matches("url(#").trim_end_matches(')'));
         for name in labels.split_whitespace().chain(clip) {
-            assert!(
-                names.contains(name),
-                "{what} has no element with the id {name}"
-            );
+            assert!(names.contains(name), "{what} has no element with the id {name}");
         }
     }
 }
@@ -68,10 +63,7 @@ fn sound(svg: &str, what: &str) {
 #[test]
 fn every_svg_is_sound_in_every_form() {
     let mut drawings: Vec<(&str, Drawing)> = SCENES.map(|name| (name, figure(name))).into();
-    drawings.push((
-        "shapes",
-        figure::shapes(&drystone::drawing::Theme::default()),
-    ));
+    drawings.push(("shapes", figure::shapes(&drystone::drawing::Theme::default())));
     drawings.push(("hostile", hostile()));
     for (name, drawing) in drawings {
         for words in [Words::Names, Words::Embedded, Words::Outlines] {
@@ -79,25 +71,16 @@ fn every_svg_is_sound_in_every_form() {
             sound(&svg, name);
             assert_eq!(svg, written(&drawing, words), "{name}");
             assert_eq!(svg.contains("<text"), words != Words::Outlines, "{name}");
-            assert_eq!(
-                svg.contains("@font-face"),
-                words == Words::Embedded,
-                "{name}"
-            );
+            assert_eq!(svg.contains("@font-face"), words == Words::Embedded, "{name}");
         }
-        assert_eq!(
-            svg::write(&drawing),
-            written(&drawing, Words::Names),
-            "{name}"
-        );
+        assert_eq!(svg::write(&drawing), written(&drawing, Words::Names), "{name}");
     }
 }
 
 #[test]
 fn several_forms_of_a_figure_can_share_a_page() {
     let drawing = figure("thesis/figure-8-left");
-    let all =
-        [Words::Names, Words::Embedded, Words::Outlines].map(|words| written(&drawing, words));
+    let all = [Words::Names, Words::Embedded, Words::Outlines].map(|words| written(&drawing, words));
     sound(&format!("<div>{}</div>", all.concat()), "a page");
 }
 
@@ -120,11 +103,7 @@ fn text_as_outlines_is_at_the_position_of_the_text() {
             pixels(&png.expect("a picture")).0
         };
         let (names, outlines) = (picture(Words::Names), picture(Words::Outlines));
-        let apart: Vec<u8> = names
-            .iter()
-            .zip(&outlines)
-            .map(|(a, b)| a.abs_diff(*b))
-            .collect();
+        let apart: Vec<u8> = names.iter().zip(&outlines).map(|(a, b)| a.abs_diff(*b)).collect();
         let mean = apart.iter().map(|a| f64::from(*a)).sum::<f64>() / names.len() as f64;
         assert!(mean < 0.1, "{name}: {mean} of 255 on average");
         let most = apart.iter().copied().max();
@@ -142,18 +121,11 @@ fn embedded_fonts_have_the_letters_and_their_widths() {
     let mut fonts = 0;
     for rule in svg.split("@font-face").skip(1) {
         let rule = rule.split('}').next().expect("a rule ends");
-        let data = rule
-            .split("base64,")
-            .nth(1)
-            .and_then(|d| d.split(')').next());
+        let data = rule.split("base64,").nth(1).and_then(|d| d.split(')').next());
         let data = base64::engine::general_purpose::STANDARD.decode(data.expect("data"));
         let data = data.expect("base64");
         let font = skrifa::raw::FontRef::new(&data).expect("a font");
-        let face = match (
-            rule.contains("-serif"),
-            rule.contains("weight:400"),
-            rule.contains("italic"),
-        ) {
+        let face = match (rule.contains("-serif"), rule.contains("weight:400"), rule.contains("italic")) {
             (true, true, false) => drystone::drawing::Face::Serif,
             (true, true, true) => drystone::drawing::Face::SerifItalic,
             (true, false, _) => drystone::drawing::Face::SerifBold,
@@ -163,19 +135,11 @@ fn embedded_fonts_have_the_letters_and_their_widths() {
         let mut letters = 0;
         for (character, glyph) in font.charmap().mappings() {
             let character = char::from_u32(character).expect("a character");
-            let width = font
-                .glyph_metrics(Size::new(10.0), LocationRef::default())
-                .advance_width(glyph)
-                .expect("a width");
+            let width =
+                font.glyph_metrics(Size::new(10.0), LocationRef::default()).advance_width(glyph).expect("a width");
             let ours = drystone::drawing::text::width(&character.to_string(), face, 10.0);
-            assert!(
-                (f64::from(width) - ours).abs() < 1e-3,
-                "{face:?} {character}"
-            );
-            assert!(
-                font.outline_glyphs().get(glyph).is_some(),
-                "{face:?} {character}"
-            );
+            assert!((f64::from(width) - ours).abs() < 1e-3, "{face:?} {character}");
+            assert!(font.outline_glyphs().get(glyph).is_some(), "{face:?} {character}");
             letters += 1;
         }
         assert!((1..120).contains(&letters), "{face:?}: {letters} letters");
@@ -188,10 +152,7 @@ fn embedded_fonts_have_the_letters_and_their_widths() {
 /// The uncompressed streams of a PDF.
 fn streams(pdf: &[u8]) -> Vec<Vec<u8>> {
     let find = |from: usize, what: &[u8]| {
-        let at = pdf
-            .get(from..)?
-            .windows(what.len())
-            .position(|w| w == what)?;
+        let at = pdf.get(from..)?.windows(what.len()).position(|w| w == what)?;
         Some(from + at)
     };
     let mut found = Vec::new();
@@ -221,23 +182,11 @@ fn a_pdf_has_its_size_its_fonts_and_its_text_and_no_dates() {
         .split_whitespace()
         .map(|n| n.parse().expect("a number"))
         .collect();
-    let expected = [
-        0.0,
-        0.0,
-        238.1102,
-        238.1102 * drawing.height / drawing.width,
-    ];
+    let expected = [0.0, 0.0, 238.1102, 238.1102 * drawing.height / drawing.width];
     for (number, expected) in numbers.iter().zip(expected) {
         assert!((number - expected).abs() < 0.01, "{numbers:?}");
     }
-    for entry in [
-        "/FontFile",
-        "Libertinus",
-        "Inter",
-        "/ToUnicode",
-        "/Figure",
-        "/Alt",
-    ] {
+    for entry in ["/FontFile", "Libertinus", "Inter", "/ToUnicode", "/Figure", "/Alt"] {
         assert!(text.contains(entry), "no {entry}");
     }
     for date in ["CreationDate", "ModDate", "CreateDate", "ModifyDate"] {
@@ -252,10 +201,7 @@ fn a_pdf_has_its_size_its_fonts_and_its_text_and_no_dates() {
         .collect();
     for letter in "Robot 0 wants to place a new block: falls".chars() {
         let code = format!("<{:04X}>", u32::from(letter));
-        assert!(
-            unicode.to_uppercase().contains(&code),
-            "{letter:?} cannot be searched"
-        );
+        assert!(unicode.to_uppercase().contains(&code), "{letter:?} cannot be searched");
     }
 }
 
@@ -280,10 +226,7 @@ fn a_pdf_without_a_width_has_three_quarters_of_a_point_per_pixel() {
 
 #[test]
 fn unusual_drawings_become_pdf() {
-    for drawing in [
-        hostile(),
-        figure::shapes(&drystone::drawing::Theme::default()),
-    ] {
+    for drawing in [hostile(), figure::shapes(&drystone::drawing::Theme::default())] {
         assert!(pdf::write(&drawing, None).is_ok());
     }
 }
@@ -291,10 +234,7 @@ fn unusual_drawings_become_pdf() {
 #[test]
 fn a_png_for_print_states_its_size_and_a_transparent_page_stays_transparent() {
     let drawing = figure("thesis/figure-8-left");
-    let print = png::Size::Print {
-        width_mm: 84.0,
-        dpi: 300.0,
-    };
+    let print = png::Size::Print { width_mm: 84.0, dpi: 300.0 };
     let png = png::render(&svg::write(&drawing), print).expect("a picture");
     // 84 mm at 300 pixels per inch; 11 811 pixels per metre.
     assert_eq!(png[16..20], 992_u32.to_be_bytes());
@@ -302,14 +242,8 @@ fn a_png_for_print_states_its_size_and_a_transparent_page_stays_transparent() {
     let per_metre = 11_811_u32.to_be_bytes();
     assert_eq!(png[place + 4..place + 12], [per_metre, per_metre].concat());
 
-    let clear = Drawing {
-        background: None,
-        ..drawing.clone()
-    };
-    let coloured = Drawing {
-        background: Some(Colour::hex(0xf4f1ea)),
-        ..drawing
-    };
+    let clear = Drawing { background: None, ..drawing.clone() };
+    let coloured = Drawing { background: Some(Colour::hex(0xf4f1ea)), ..drawing };
     let corner = |drawing: &Drawing| {
         let svg = svg::write(drawing);
         let (data, channels) = pixels(&png::render(&svg, print).expect("a picture"));
@@ -327,11 +261,7 @@ fn a_figure_of_twenty_blocks_is_small() {
     for (name, file) in [("wall", wall), ("arch", arch)] {
         let svg = svg::write(&drawn(&crate::structure::scene(&file)));
         let png = png::render(&svg, png::Size::Width(800)).expect("a picture");
-        assert!(
-            blocks >= 18 && svg.len() < 50_000,
-            "{name}: SVG of {} bytes",
-            svg.len()
-        );
+        assert!(blocks >= 18 && svg.len() < 50_000, "{name}: SVG of {} bytes", svg.len());
         assert!(png.len() < 60_000, "{name}: PNG of {} bytes", png.len());
     }
 }

@@ -16,18 +16,12 @@ struct Case {
 
 fn cases() -> Vec<Case> {
     let text = std::fs::read_to_string(REFERENCE).expect("the cases are there");
-    let parts = text
-        .split("\n## ")
-        .map(|part| part.trim_start_matches("## "));
+    let parts = text.split("\n## ").map(|part| part.trim_start_matches("## "));
     parts
         .map(|part| {
             let (title, rest) = part.split_once('\n').expect("a title");
             let (scene, messages) = rest.split_once("\n--\n").expect("a scene and its messages");
-            Case {
-                title: title.into(),
-                scene: scene.into(),
-                messages: messages.trim().into(),
-            }
+            Case { title: title.into(), scene: scene.into(), messages: messages.trim().into() }
         })
         .collect()
 }
@@ -36,17 +30,11 @@ fn refused(text: &str) -> SceneError {
     let problems = Scene::from_json(text).expect_err("refused");
     assert!(!problems.list.is_empty());
     for problem in &problems.list {
-        assert!(
-            !problem.message.is_empty() && !problem.help.is_empty(),
-            "{problem}"
-        );
+        assert!(!problem.message.is_empty() && !problem.help.is_empty(), "{problem}");
         assert!(problem.line >= 1 && problem.column >= 1, "{problem}");
         let span = problem.span.clone().expect("a text has spans");
         let read = problems.text.as_deref().expect("the text is kept");
-        assert!(
-            read.get(span).is_some(),
-            "the span of {problem} does not lie in the text"
-        );
+        assert!(read.get(span).is_some(), "the span of {problem} does not lie in the text");
     }
     problems
 }
@@ -60,15 +48,9 @@ fn every_case_has_its_agreed_messages() {
     for case in &cases {
         let found = refused(&case.scene).to_string();
         if found != case.messages {
-            wrong.push(format!(
-                "{}:\n{}\n  instead of\n{}",
-                case.title, found, case.messages
-            ));
+            wrong.push(format!("{}:\n{}\n  instead of\n{}", case.title, found, case.messages));
         }
-        updated.push_str(&format!(
-            "## {}\n{}\n--\n{found}\n\n",
-            case.title, case.scene
-        ));
+        updated.push_str(&format!("## {}\n{}\n--\n{found}\n\n", case.title, case.scene));
     }
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
         std::fs::write(REFERENCE, updated).expect("the cases can be written");
@@ -98,26 +80,12 @@ fn every_code_of_a_problem_occurs() {
     ];
     assert_eq!(missing, elsewhere);
     let only = |problems: SceneError| problems.list[0].code;
-    assert_eq!(
-        only(Scene::from_slice(b"\xE9").expect_err("refused")),
-        Code::NotUtf8
-    );
+    assert_eq!(only(Scene::from_slice(b"\xE9").expect_err("refused")), Code::NotUtf8);
     let infinite = Scene::builder().kernel(f64::INFINITY);
-    assert_eq!(
-        only(infinite.build().expect_err("refused")),
-        Code::NotFinite
-    );
+    assert_eq!(only(infinite.build().expect_err("refused")), Code::NotFinite);
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
-    let text = format!(
-        r#"{{ "drystone": 1, "blocks": [{}] }}"#,
-        vec![block; 1000].join(",")
-    );
-    assert!(
-        refused(&text)
-            .list
-            .iter()
-            .any(|p| p.code == Code::MoreProblems)
-    );
+    let text = format!(r#"{{ "drystone": 1, "blocks": [{}] }}"#, vec![block; 1000].join(","));
+    assert!(refused(&text).list.iter().any(|p| p.code == Code::MoreProblems));
     // A block that is placed once and shown in 8 000 001 frames.
     let text = format!(
         r#"{{ "drystone": 1, "blocks": [{}], "steps": [{{ "place": [{}] }}{}] }}"#,
@@ -125,18 +93,10 @@ fn every_code_of_a_problem_occurs() {
             .map(|i| format!(r#"{{ "polygon": [[{i}, 0], [{i}.5, 0], [{i}, 1]] }}"#))
             .collect::<Vec<_>>()
             .join(","),
-        (1..=4000)
-            .map(|i| format!("\"{i}\""))
-            .collect::<Vec<_>>()
-            .join(","),
+        (1..=4000).map(|i| format!("\"{i}\"")).collect::<Vec<_>>().join(","),
         ",{}".repeat(2000),
     );
-    assert!(
-        refused(&text)
-            .list
-            .iter()
-            .any(|p| p.code == Code::TooManySteps)
-    );
+    assert!(refused(&text).list.iter().any(|p| p.code == Code::TooManySteps));
 }
 
 const SMALL: &str = r##"{ "drystone": 1, "title": "é", "grid": { "kind": "triangular", "side": 1e0 },
@@ -162,10 +122,7 @@ fn a_file_with_one_byte_changed_never_panics() {
             bytes[end] = byte;
             if let Err(problems) = Scene::from_slice(&bytes) {
                 assert!(!problems.list.is_empty());
-                assert!(
-                    !problems.to_string().contains("schema"),
-                    "{end} {byte}: {problems}"
-                );
+                assert!(!problems.to_string().contains("schema"), "{end} {byte}: {problems}");
             }
         }
     }
@@ -209,24 +166,12 @@ fn a_file_with_one_value_replaced_never_panics_and_has_a_precise_message() {
     ];
     for source in sources {
         let whole: Value = serde_json::from_str(&source).expect("JSON");
-        for other in [
-            json!(null),
-            json!(true),
-            json!(-1),
-            json!(1e300),
-            json!(0.5),
-            json!("x"),
-            json!([]),
-            json!({}),
-        ] {
+        for other in [json!(null), json!(true), json!(-1), json!(1e300), json!(0.5), json!("x"), json!([]), json!({})] {
             for scene in with_one_replaced(&whole, &other) {
                 let text = scene.to_string();
                 if let Err(problems) = Scene::from_json(&text) {
                     assert!(!problems.list.is_empty());
-                    assert!(
-                        !problems.to_string().contains("drystone schema"),
-                        "{text}\n{problems}"
-                    );
+                    assert!(!problems.to_string().contains("drystone schema"), "{text}\n{problems}");
                 }
             }
         }
@@ -238,25 +183,18 @@ fn very_deep_nesting_is_refused() {
     for opened in ["[", "{\"a\":", "{\"drystone\":1,\"blocks\":[{\"x\":"] {
         let problems = refused(&opened.repeat(100_000));
         assert_eq!(problems.list.len(), 1);
-        assert!(
-            problems.list[0].message.contains("more than 127 brackets"),
-            "{problems}"
-        );
+        assert!(problems.list[0].message.contains("more than 127 brackets"), "{problems}");
     }
 }
 
 #[test]
 fn bytes_that_are_not_text_are_refused_with_their_position() {
-    let problems =
-        Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
+    let problems = Scene::from_slice(b"{ \"drystone\": 1,\n  \"title\": \"caf\xE9\" }").expect_err("refused");
     assert_eq!(
         problems.to_string(),
         "line 2, column 16: the byte 0xE9 is not UTF-8 text\n  help: save the file in the encoding UTF-8"
     );
-    let utf16: Vec<u8> = [0xFF, 0xFE]
-        .into_iter()
-        .chain("{ }".encode_utf16().flat_map(u16::to_le_bytes))
-        .collect();
+    let utf16: Vec<u8> = [0xFF, 0xFE].into_iter().chain("{ }".encode_utf16().flat_map(u16::to_le_bytes)).collect();
     let problems = Scene::from_slice(&utf16).expect_err("refused");
     assert!(problems.to_string().contains("UTF-16"), "{problems}");
 }
@@ -266,8 +204,7 @@ fn a_byte_order_mark_is_not_part_of_the_text() {
     let marked = format!("\u{feff}{}", r#"{ "drystone": 1, "blocks": [] }"#);
     assert!(Scene::from_slice(marked.as_bytes()).is_ok());
     assert!(Scene::from_json(&marked).is_ok());
-    let problems = Scene::from_slice("\u{feff}{ \"drystone\": 2, \"blocks\": [] }".as_bytes())
-        .expect_err("refused");
+    let problems = Scene::from_slice("\u{feff}{ \"drystone\": 2, \"blocks\": [] }".as_bytes()).expect_err("refused");
     assert_eq!((problems.list[0].line, problems.list[0].column), (1, 15));
 }
 
@@ -283,41 +220,24 @@ fn a_scene_made_in_code_has_paths_but_no_lines() {
         "kernel: the number is inf\n  help: give a finite number\n\
          blocks[0].polygon[1]: the number is NaN\n  help: give a finite number"
     );
-    assert!(
-        problems.text.is_none()
-            && problems
-                .list
-                .iter()
-                .all(|p| p.span.is_none() && p.line == 0)
-    );
+    assert!(problems.text.is_none() && problems.list.iter().all(|p| p.span.is_none() && p.line == 0));
 }
 
 #[test]
 fn a_problem_points_at_the_text_that_it_describes() {
     let text = "{ \"drystone\": 1, \"krenel\": 0.5,\n  \"blocks\": [ { \"id\": \"a\",\n    \"weight\": -2 } ] }";
     let problems = refused(text);
-    let pointed: Vec<&str> = problems
-        .list
-        .iter()
-        .map(|p| &text[p.span.clone().expect("span")])
-        .collect();
+    let pointed: Vec<&str> = problems.list.iter().map(|p| &text[p.span.clone().expect("span")]).collect();
     assert_eq!(pointed, ["\"krenel\"", "{ \"id\": \"a\",", "-2"]);
 }
 
 #[test]
 fn a_thousand_blocks_in_one_place_are_refused_quickly_with_a_message() {
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
-    let text = format!(
-        "{{ \"drystone\": 1, \"blocks\": [{}] }}",
-        vec![block; 1000].join(",")
-    );
+    let text = format!("{{ \"drystone\": 1, \"blocks\": [{}] }}", vec![block; 1000].join(","));
     let problems = refused(&text);
     assert_eq!(problems.list.len(), 1001);
-    assert!(
-        problems
-            .to_string()
-            .contains("more overlaps than the 1000 in this list")
-    );
+    assert!(problems.to_string().contains("more overlaps than the 1000 in this list"));
     let lattice = text.replace(r#""polygon": [[0, 0], [1, 0], [0, 1]]"#, r#""shape": "up""#);
     let lattice = lattice.replacen('{', r#"{ "grid": { "kind": "triangular" },"#, 1);
     assert_eq!(refused(&lattice).list.len(), 1001);

@@ -43,19 +43,13 @@ struct Bench {
 
 impl Bench {
     fn empty() -> Bench {
-        Bench {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
+        Bench { folder: tempfile::tempdir().expect("a folder") }
     }
 
     /// A folder with the scenes `stands.json`, `falls.json` and the invalid `wrong.json`.
     fn new() -> Bench {
         let bench = Bench::empty();
-        for (name, text) in [
-            ("stands.json", STANDS),
-            ("falls.json", FALLS),
-            ("wrong.json", WRONG),
-        ] {
+        for (name, text) in [("stands.json", STANDS), ("falls.json", FALLS), ("wrong.json", WRONG)] {
             fs::write(bench.path(name), text).expect("writable");
         }
         bench
@@ -68,14 +62,8 @@ impl Bench {
     /// The command `drystone` with the words of a line as its arguments.
     fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
-        command
-            .args(line.split_whitespace())
-            .current_dir(self.folder.path());
-        command
-            .env_remove("NO_COLOR")
-            .env_remove("CLICOLOR_FORCE")
-            .env_remove("CLICOLOR")
-            .env("TERM", "xterm");
+        command.args(line.split_whitespace()).current_dir(self.folder.path());
+        command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE").env_remove("CLICOLOR").env("TERM", "xterm");
         command.stdin(Stdio::null());
         command
     }
@@ -86,12 +74,8 @@ impl Bench {
 
     fn run_with(&self, line: &str, input: &[u8]) -> Ran {
         let mut command = self.command(line);
-        let mut child = command
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("starts");
+        let mut child =
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
         let mut pipe = child.stdin.take().expect("piped");
         // If the command line is refused, the program ends before it reads its input. Then writing fails, which is no
         // error.
@@ -104,13 +88,7 @@ impl Bench {
     fn made(&self) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.folder.path())
             .expect("readable")
-            .map(|entry| {
-                entry
-                    .expect("readable")
-                    .file_name()
-                    .to_string_lossy()
-                    .into_owned()
-            })
+            .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
             .filter(|name| !["stands.json", "falls.json", "wrong.json"].contains(&name.as_str()))
             .collect();
         names.sort();

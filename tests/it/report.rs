@@ -42,11 +42,7 @@ impl Folder {
 
     /// Two scenes that stand or fall, and one with hostile text.
     fn three() -> Folder {
-        Folder::new(&[
-            ("in/a.json", STANDS),
-            ("in/b.json", FALLS),
-            ("in/deep/c.json", HOSTILE),
-        ])
+        Folder::new(&[("in/a.json", STANDS), ("in/b.json", FALLS), ("in/deep/c.json", HOSTILE)])
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -101,39 +97,21 @@ fn a_report_has_the_exit_codes_of_render_and_with_strict_those_of_check() {
 
 #[test]
 fn an_invalid_scene_is_listed_and_the_others_are_reported() {
-    let folder = Folder::new(&[
-        ("in/a.json", STANDS),
-        ("in/b.json", WRONG),
-        ("in/c.json", FALLS),
-    ]);
+    let folder = Folder::new(&[("in/a.json", STANDS), ("in/b.json", WRONG), ("in/c.json", FALLS)]);
     for form in ["html", "md", "json", "pdf"] {
         let Ran(code, errors) = folder.run(&format!("report in -o r.{form}"));
         assert_eq!(code, 2, "{errors}");
-        assert!(
-            errors.contains("blocks[0].weight") && errors.contains("-0.25"),
-            "{errors}"
-        );
+        assert!(errors.contains("blocks[0].weight") && errors.contains("-0.25"), "{errors}");
         assert!(folder.path(&format!("r.{form}")).exists());
     }
     let page = folder.text("r.html");
     let listed = page.find("in/b.json").expect("listed");
-    assert!(
-        listed < page.find("A lintel").expect("reported"),
-        "it is listed above the reported scenes"
-    );
-    for words in [
-        "blocks[0].weight",
-        "-0.25",
-        "Half a lintel",
-        "1 stands, 1 falls; 1 file is not a valid scene",
-    ] {
+    assert!(listed < page.find("A lintel").expect("reported"), "it is listed above the reported scenes");
+    for words in ["blocks[0].weight", "-0.25", "Half a lintel", "1 stands, 1 falls; 1 file is not a valid scene"] {
         assert!(page.contains(words), "{words}");
     }
     let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
-    assert_eq!(
-        json["summary"],
-        serde_json::json!({ "stable": 1, "unstable": 1, "undecided": 0, "refused": 1 })
-    );
+    assert_eq!(json["summary"], serde_json::json!({ "stable": 1, "unstable": 1, "undecided": 0, "refused": 1 }));
     let scenes = json["scenes"].as_array().expect("a list");
     assert_eq!(scenes[0]["file"], "in/a.json");
     assert_eq!(scenes[1]["frames"][0]["verdict"], "unstable");
@@ -159,9 +137,7 @@ fn the_same_scenes_give_the_same_bytes_and_times_are_written_only_on_request() {
     folder.done("report in/a.json -o t.md --timing --margins --full");
     let timed = folder.text("t.md");
     let row = |name: &str| {
-        let mut rows = timed
-            .lines()
-            .filter(|l| l.starts_with(&format!("| {name}")));
+        let mut rows = timed.lines().filter(|l| l.starts_with(&format!("| {name}")));
         rows.next().unwrap_or_default().to_owned()
     };
     assert!(timed.contains("| unknowns | time |"), "{timed}");
@@ -179,11 +155,7 @@ fn the_largest_force_is_that_of_stable_steps_including_robots() {
         "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
     let alone = r#"{ "drystone": 1, "title": "Alone",
         "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 40 }] }"#;
-    let folder = Folder::new(&[
-        ("in/a.json", held),
-        ("in/b.json", alone),
-        ("in/c.json", FALLS),
-    ]);
+    let folder = Folder::new(&[("in/a.json", held), ("in/b.json", alone), ("in/c.json", FALLS)]);
     folder.done("report in -o r.html");
     let text = folder.text("r.html");
     let table = text.split("<tbody>").nth(1).expect("a table");
@@ -196,10 +168,7 @@ fn the_largest_force_is_that_of_stable_steps_including_robots() {
     assert_eq!(row(">Alone<").matches("none stands").count(), 2, "{table}");
     // The first step falls. The second step, in which a robot holds the block, has forces.
     let half = row("Half a lintel");
-    assert!(
-        half.contains(" N<") && !half.contains("none stands"),
-        "{half}"
-    );
+    assert!(half.contains(" N<") && !half.contains("none stands"), "{half}");
 }
 
 #[test]
@@ -264,17 +233,11 @@ fn markdown_keeps_characters_that_no_font_has_and_figures_show_their_code_points
     let folder = Folder::new(&[("in/a.json", &named)]);
     folder.done("report in -o r.md");
     let text = folder.text("r.md");
-    assert!(
-        text.contains("| 石 / ") || text.contains(" / 石 |"),
-        "{text}"
-    );
+    assert!(text.contains("| 石 / ") || text.contains(" / 石 |"), "{text}");
     assert!(!text.contains("U+77F3"), "{text}");
     let figure = text.split("](<").nth(1).expect("a figure");
     let name = figure.split(">)").next().expect("closed");
-    assert!(
-        folder.text(name).contains("U+77F3"),
-        "the figure shows the code point"
-    );
+    assert!(folder.text(name).contains("U+77F3"), "the figure shows the code point");
 }
 
 #[test]
@@ -284,11 +247,7 @@ fn a_split_report_is_an_index_and_a_page_for_each_scene() {
     let index = folder.text("out/index.html");
     for name in ["0001-a-lintel.html", "0002-half-a-lintel.html"] {
         assert!(index.contains(&format!("href=\"{name}\"")), "{name}");
-        assert!(
-            folder
-                .text(&format!("out/{name}"))
-                .contains("href=\"index.html\"")
-        );
+        assert!(folder.text(&format!("out/{name}")).contains("href=\"index.html\""));
     }
     assert_eq!(fs::read_dir(folder.path("out")).expect("there").count(), 4);
 }
@@ -317,18 +276,12 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
         ("-o a.md --interactive pkg", "only an HTML report"),
         ("-o out --split --interactive pkg", "cannot be used with"),
         ("-o b.html --interactive none", "build.sh"),
-        (
-            "-o b.html --interactive old.js",
-            "belongs to drystone 0.0.1",
-        ),
+        ("-o b.html --interactive old.js", "belongs to drystone 0.0.1"),
         ("-o b.html --interactive ends.js", "is not the script"),
         ("-o b.html --interactive other.js", "is not the script"),
     ] {
         let Ran(code, errors) = folder.run(&format!("report a.json {line}"));
-        assert!(
-            code == 2 && errors.contains(part),
-            "{line}: {code} {errors}"
-        );
+        assert!(code == 2 && errors.contains(part), "{line}: {code} {errors}");
     }
     assert!(!folder.path("b.html").exists());
 }
@@ -336,10 +289,7 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
 #[test]
 fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
     let heavier = STANDS.replace("\"weight\": 11", "\"weight\": 22");
-    let shifted = heavier.replace(
-        "[5, 0], [6, 0], [6, 3], [5, 3]",
-        "[4, 0], [5, 0], [5, 3], [4, 3]",
-    );
+    let shifted = heavier.replace("[5, 0], [6, 0], [6, 3], [5, 3]", "[4, 0], [5, 0], [5, 3], [4, 3]");
     let folder = Folder::new(&[
         ("a/x.json", STANDS),
         ("b/x.json", &shifted),
@@ -368,12 +318,7 @@ fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
     let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
     let pair = &json["comparisons"][0];
     assert_eq!(pair["scenes"].as_array().map(Vec::len), Some(2));
-    assert!(
-        pair["changes"][0]
-            .as_str()
-            .is_some_and(|words| words.contains("right")),
-        "{pair}"
-    );
+    assert!(pair["changes"][0].as_str().is_some_and(|words| words.contains("right")), "{pair}");
 }
 
 #[test]
@@ -388,12 +333,9 @@ fn a_comparison_lists_loads_robots_and_steps_of_only_one_scene() {
     };
     let first = scene(-60.0, "");
     let lighter = scene(-30.0, ", \"kernel\": 0.2").replace("0.7", "0.5");
-    let steps = ", \"steps\": [{ \"title\": \"One\", \"place\": [\"a\"] }, { \"title\": \"Both\", \"place\": [\"b\"] }]";
-    let folder = Folder::new(&[
-        ("a.json", &first),
-        ("b.json", &lighter),
-        ("c.json", &scene(-60.0, steps)),
-    ]);
+    let steps =
+        ", \"steps\": [{ \"title\": \"One\", \"place\": [\"a\"] }, { \"title\": \"Both\", \"place\": [\"b\"] }]";
+    let folder = Folder::new(&[("a.json", &first), ("b.json", &lighter), ("c.json", &scene(-60.0, steps))]);
     folder.done("report --compare a.json b.json -o b.html");
     let page = folder.text("b.html");
     for words in [
@@ -409,10 +351,7 @@ fn a_comparison_lists_loads_robots_and_steps_of_only_one_scene() {
     assert_eq!(page.matches("friction coefficient 0.7 → 0.5").count(), 1);
     folder.done("report --compare c.json a.json -o c.html");
     let page = folder.text("c.html");
-    assert!(
-        page.contains("(a) ") && !page.contains("() <bdi>"),
-        "{page}"
-    );
+    assert!(page.contains("(a) ") && !page.contains("() <bdi>"), "{page}");
 }
 
 #[test]
@@ -425,11 +364,8 @@ fn a_comparison_is_in_the_units_of_both_scenes_or_says_that_it_is_in_si_units() 
         )
     };
     let small = r#", "units": { "length": "mm", "force": "kN" }"#;
-    let folder = Folder::new(&[
-        ("a.json", &scene(2.0, small)),
-        ("b.json", &scene(3.0, small)),
-        ("si.json", &scene(3.0, "")),
-    ]);
+    let folder =
+        Folder::new(&[("a.json", &scene(2.0, small)), ("b.json", &scene(3.0, small)), ("si.json", &scene(3.0, ""))]);
     folder.done("report --compare a.json b.json -o same.md");
     let page = folder.text("same.md");
     for words in [
@@ -444,12 +380,9 @@ fn a_comparison_is_in_the_units_of_both_scenes_or_says_that_it_is_in_si_units() 
     assert!(!page.contains(note), "{page}");
     folder.done("report --compare a.json si.json -o other.md");
     let page = folder.text("other.md");
-    for words in [
-        note,
-        "weight of all blocks, N | 2000 | 3 ",
-        "(0, -2000) N at (0.1, 0.1) m",
-        "(0, -3) N at (100, 100) m",
-    ] {
+    for words in
+        [note, "weight of all blocks, N | 2000 | 3 ", "(0, -2000) N at (0.1, 0.1) m", "(0, -3) N at (100, 100) m"]
+    {
         assert!(page.contains(words), "{words} in {page}");
     }
 }
@@ -461,19 +394,10 @@ fn a_pdf_has_all_pages_and_a_study_has_its_chart() {
     let pdf = fs::read(folder.path("r.pdf")).expect("there");
     assert!(pdf.starts_with(b"%PDF-"));
     let pages = String::from_utf8_lossy(&pdf).matches("/Type/Page/").count()
-        + String::from_utf8_lossy(&pdf)
-            .matches("/Type /Page\n")
-            .count();
-    assert!(
-        pages >= 5,
-        "{pages} pages: the first, and at least one for each step"
-    );
+        + String::from_utf8_lossy(&pdf).matches("/Type /Page\n").count();
+    assert!(pages >= 5, "{pages} pages: the first, and at least one for each step");
     folder.done("report in/a.json -o s.html --accuracy-study");
-    assert!(
-        folder
-            .text("s.html")
-            .contains("What accuracy costs on this scene")
-    );
+    assert!(folder.text("s.html").contains("What accuracy costs on this scene"));
 }
 
 #[test]
@@ -485,9 +409,6 @@ fn a_report_counts_the_moving_blocks_that_its_picture_draws_and_names_joints_tha
     folder.done("render a.json --kind mechanism -o a.svg");
     let drawn = folder.text("a.svg").matches("class=\"displaced\"").count();
     assert!(drawn > 0);
-    assert!(
-        report.contains(&format!("{drawn} blocks move, with")),
-        "{report}"
-    );
+    assert!(report.contains(&format!("{drawn} blocks move, with")), "{report}");
     assert!(report.contains("sliding and tipping joint"), "{report}");
 }

@@ -9,10 +9,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn near(p: Point, x: f64, y: f64) {
-    assert!(
-        (p - Point::new(x, y)).norm() < 1e-12,
-        "{p} is not ({x}, {y})"
-    );
+    assert!((p - Point::new(x, y)).norm() < 1e-12, "{p} is not ({x}, {y})");
 }
 
 fn placed(frame: &Frame) -> Vec<usize> {
@@ -26,38 +23,23 @@ fn everything_but_version_and_blocks_has_a_default() {
     );
     assert_eq!(scene.title(), "");
     assert_eq!(scene.gravity(), Vector::new(0.0, -9.81));
-    assert_eq!(
-        (scene.kernel(), scene.corner_contacts(), scene.exact()),
-        (0.0, false, false)
-    );
+    assert_eq!((scene.kernel(), scene.corner_contacts(), scene.exact()), (0.0, false, false));
     assert!(scene.lattice().is_none() && scene.robots().is_empty() && scene.loads().is_empty());
     let block = &scene.blocks()[0];
-    assert_eq!(
-        (block.id.as_str(), block.body.friction, block.body.fill),
-        ("1", 0.7, None)
-    );
+    assert_eq!((block.id.as_str(), block.body.friction, block.body.fill), ("1", 0.7, None));
     assert!((block.weight - 3.0 * 9.81).abs() < 1e-12);
     near(block.centroid, 1.0, 2.0 / 3.0);
     assert_eq!(scene.frames().len(), 1);
     assert_eq!(placed(&scene.frames()[0]), [0, 1]);
-    let empty = Scene::from_json(
-        r#"{ "drystone": 1, "blocks": [], "$schema": "scene.schema.json", "title": null }"#,
-    );
-    assert!(
-        empty.expect("a scene without blocks is valid").frames()[0]
-            .placed
-            .is_empty()
-    );
+    let empty = Scene::from_json(r#"{ "drystone": 1, "blocks": [], "$schema": "scene.schema.json", "title": null }"#);
+    assert!(empty.expect("a scene without blocks is valid").frames()[0].placed.is_empty());
 }
 
 #[test]
 fn the_most_specific_weight_has_precedence() {
     let square = r#""polygon": [[0, 0], [2, 0], [2, 1], [0, 1]]"#;
     for (given, weight) in [
-        (
-            r#""weight": 7, "mass": 5, "density": 3, "material": "oak""#,
-            7.0,
-        ),
+        (r#""weight": 7, "mass": 5, "density": 3, "material": "oak""#, 7.0),
         (r#""mass": 5, "density": 3, "material": "oak""#, 5.0 * 2.5),
         (r#""density": 3, "material": "oak""#, 3.0 * 2.0 * 0.5 * 2.5),
         (r#""material": "oak""#, 11.0 * 2.0 * 0.5 * 2.5),
@@ -69,11 +51,7 @@ fn the_most_specific_weight_has_precedence() {
             r#"{{ "drystone": 1, "gravity": [1.5, -2], "density": 13, "thickness": 0.5,
             "materials": {{ "oak": {{ "density": 11 }}, "plain": {{}} }}, "blocks": [{{ {square}, {given} }}] }}"#
         ));
-        assert!(
-            (scene.blocks()[0].weight - weight).abs() < 1e-12,
-            "{given}: {}",
-            scene.blocks()[0].weight
-        );
+        assert!((scene.blocks()[0].weight - weight).abs() < 1e-12, "{given}: {}", scene.blocks()[0].weight);
     }
 }
 
@@ -92,11 +70,7 @@ fn friction_is_that_of_the_pair_or_else_the_smaller_of_both_bodies() {
     );
     let (ground, block) = (BodyId::Ground(0), |i| BodyId::Block(BlockId(i)));
     assert_eq!(scene.friction_between(block(0), ground), 0.3);
-    assert_eq!(
-        scene.friction_between(ground, block(1)),
-        0.3,
-        "the pair has precedence over the coefficient of a body"
-    );
+    assert_eq!(scene.friction_between(ground, block(1)), 0.3, "the pair has precedence over the coefficient of a body");
     assert_eq!(scene.friction_between(block(2), ground), 0.02);
     assert_eq!(scene.friction_between(block(3), ground), 0.1);
     assert_eq!(scene.friction_between(block(0), block(1)), 0.5);
@@ -147,11 +121,7 @@ fn a_polygon_in_a_lattice_scene_makes_it_inexact_and_may_lie_between_lattice_poi
     );
     assert!(!scene.exact() && scene.tolerance().gap > 0.0);
     let h = 3f64.sqrt();
-    near(
-        scene.blocks()[0].centroid,
-        5.0 - 1.0 / 3.0,
-        2.0 * h - 0.5 / 3.0,
-    );
+    near(scene.blocks()[0].centroid, 5.0 - 1.0 / 3.0, 2.0 * h - 0.5 / 3.0);
 }
 
 #[test]
@@ -169,51 +139,15 @@ fn shapes_on_a_square_lattice_are_rotated_by_right_angles() {
 #[test]
 fn missing_limits_have_their_defaults() {
     let limits = |text: &str| {
-        let text =
-            format!(r#"{{ "drystone": 1, "blocks": [], "robots": [{{ "id": "r"{text} }}] }}"#);
+        let text = format!(r#"{{ "drystone": 1, "blocks": [], "robots": [{{ "id": "r"{text} }}] }}"#);
         scene(&text).robots()[0].limits
     };
     let free = f64::INFINITY;
-    assert_eq!(
-        limits(""),
-        Limits {
-            fx: free,
-            fy: free,
-            torque: 0.0
-        }
-    );
-    assert_eq!(
-        limits(r#", "limits": {}"#),
-        Limits {
-            fx: free,
-            fy: free,
-            torque: 0.0
-        }
-    );
-    assert_eq!(
-        limits(r#", "limits": { "force": 5 }"#),
-        Limits {
-            fx: 5.0,
-            fy: 5.0,
-            torque: 0.0
-        }
-    );
-    assert_eq!(
-        limits(r#", "limits": { "force": 5, "fy": 9, "torque": 2 }"#),
-        Limits {
-            fx: 5.0,
-            fy: 9.0,
-            torque: 2.0
-        }
-    );
-    assert_eq!(
-        limits(r#", "limits": { "fy": 0 }"#),
-        Limits {
-            fx: free,
-            fy: 0.0,
-            torque: 0.0
-        }
-    );
+    assert_eq!(limits(""), Limits { fx: free, fy: free, torque: 0.0 });
+    assert_eq!(limits(r#", "limits": {}"#), Limits { fx: free, fy: free, torque: 0.0 });
+    assert_eq!(limits(r#", "limits": { "force": 5 }"#), Limits { fx: 5.0, fy: 5.0, torque: 0.0 });
+    assert_eq!(limits(r#", "limits": { "force": 5, "fy": 9, "torque": 2 }"#), Limits { fx: 5.0, fy: 9.0, torque: 2.0 });
+    assert_eq!(limits(r#", "limits": { "fy": 0 }"#), Limits { fx: free, fy: 0.0, torque: 0.0 });
 }
 
 #[test]
@@ -232,24 +166,10 @@ fn steps_are_applied_in_order() {
     assert_eq!(scene.frames().len(), 3);
     let frame = &scene.frames()[0];
     assert_eq!((frame.title.as_str(), placed(frame)), ("", vec![1, 0]));
-    assert_eq!(
-        frame
-            .holds
-            .iter()
-            .map(|h| (h.robot.0, h.block.0))
-            .collect::<Vec<_>>(),
-        [(0, 1), (1, 0)]
-    );
+    assert_eq!(frame.holds.iter().map(|h| (h.robot.0, h.block.0)).collect::<Vec<_>>(), [(0, 1), (1, 0)]);
     near(frame.holds[0].at, 2.5, 0.5);
     near(frame.holds[1].at, 1.0, 1.0);
-    assert_eq!(
-        frame
-            .plans
-            .iter()
-            .map(|p| (p.robot.0, p.block.0))
-            .collect::<Vec<_>>(),
-        [(0, 2), (1, 2)]
-    );
+    assert_eq!(frame.plans.iter().map(|p| (p.robot.0, p.block.0)).collect::<Vec<_>>(), [(0, 2), (1, 2)]);
     let frame = &scene.frames()[1];
     assert_eq!(
         (frame.title.as_str(), placed(frame)),
@@ -270,14 +190,7 @@ fn without_steps_every_robot_holds_the_block_of_its_key() {
         r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]] }],
         "robots": [{}, { "holds": "a", "at": [0.25, 3] }, { "id": "x", "holds": "a" }] }"#,
     );
-    assert_eq!(
-        scene
-            .robots()
-            .iter()
-            .map(|r| r.id.as_str())
-            .collect::<Vec<_>>(),
-        ["r0", "r1", "x"]
-    );
+    assert_eq!(scene.robots().iter().map(|r| r.id.as_str()).collect::<Vec<_>>(), ["r0", "r1", "x"]);
     let holds = &scene.frames()[0].holds;
     assert_eq!(holds.iter().map(|h| h.robot.0).collect::<Vec<_>>(), [1, 2]);
     near(holds[0].at, 0.25, 3.0);
@@ -295,27 +208,17 @@ fn bodies_may_touch_and_parts_of_the_ground_may_overlap() {
         r#"{ "drystone": 1, "grid": { "kind": "square" }, "blocks": [{ "cells": [[0, 0]] }, { "cells": [[0, 0], [0, 1]] }, { "cells": [[0, 0]] }],
         "steps": [{ "place": ["1"], "plan": {} }, { "remove": ["1"], "place": ["2"] }] }"#,
     );
-    assert_eq!(
-        placed(&exchanged.frames()[1]),
-        [1],
-        "blocks that are never placed at the same time may overlap"
-    );
+    assert_eq!(placed(&exchanged.frames()[1]), [1], "blocks that are never placed at the same time may overlap");
 }
 
 #[test]
 fn the_starter_scene_is_short_and_has_robots_materials_loads_and_steps() {
     let scene = scene(starter());
     assert!(starter().lines().count() <= 60);
-    assert!(
-        !scene.robots().is_empty() && !scene.materials().is_empty() && !scene.loads().is_empty()
-    );
+    assert!(!scene.robots().is_empty() && !scene.materials().is_empty() && !scene.loads().is_empty());
     assert!(scene.frames().len() >= 3 && scene.frames().iter().all(|f| !f.title.is_empty()));
     assert!(scene.lattice().is_none());
-    let verdicts: Vec<Verdict> = Analysis::new(&scene)
-        .frames
-        .iter()
-        .map(|f| f.verdict)
-        .collect();
+    let verdicts: Vec<Verdict> = Analysis::new(&scene).frames.iter().map(|f| f.verdict).collect();
     assert_eq!(verdicts, [Verdict::Stable; 5], "the first example stands");
 }
 

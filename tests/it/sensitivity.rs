@@ -1,8 +1,6 @@
 //! Compares derivatives of margins with difference quotients, for which scenes are changed and analysed again.
 
-use drystone::analysis::{
-    CornerMoves, EndSensitivity, MarginKind, NoSensitivity, Options, Sensitivity, Slope,
-};
+use drystone::analysis::{CornerMoves, EndSensitivity, MarginKind, NoSensitivity, Options, Sensitivity, Slope};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -86,10 +84,7 @@ fn move_corner(file: &mut Value, at: [f64; 2], by: [f64; 2]) {
     let all = polygons(file);
     let points: Vec<[f64; 2]> = all.iter().flat_map(|p| p.2.clone()).collect();
     let near = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]) < 1e-9;
-    let mut moved: Vec<[f64; 2]> = points
-        .iter()
-        .map(|p| if near(*p, at) { by } else { [0.0; 2] })
-        .collect();
+    let mut moved: Vec<[f64; 2]> = points.iter().map(|p| if near(*p, at) { by } else { [0.0; 2] }).collect();
     // For each corner inside an edge of another body: the corner, the ends of the edge, the position along it and its
     // normal.
     let mut guides = Vec::new();
@@ -181,17 +176,12 @@ impl Tally {
                 self.worst = self.worst.max(error);
                 if error > 1e-6 {
                     let sides = change.slopes();
-                    self.wrong.push(format!(
-                        "{what}: {slope:.9} instead of {difference:.9}, {sides:?}"
-                    ));
+                    self.wrong.push(format!("{what}: {slope:.9} instead of {difference:.9}, {sides:?}"));
                 }
             }
             Slope::OneSided { backward, forward } => {
                 // Very close to a kink, a small step may fail. Then a larger step with a larger tolerance is used.
-                let fine = Change {
-                    step: change.step / 16.0,
-                    ..*change
-                };
+                let fine = Change { step: change.step / 16.0, ..*change };
                 let found = fine.slopes().map(|sides| (sides, 1e-5));
                 let found = found.or_else(|| Some((change.slopes()?, 1e-3)));
                 let Some((sides, tolerance)) = found else {
@@ -201,9 +191,7 @@ impl Tally {
                 self.one_sided += 1;
                 for (own, other) in [backward, forward].into_iter().zip(sides) {
                     if (own - other).abs() > tolerance * scale.max(own.abs()) {
-                        self.wrong.push(format!(
-                            "{what}: {backward:.9} {forward:.9} instead of {sides:?}"
-                        ));
+                        self.wrong.push(format!("{what}: {backward:.9} {forward:.9} instead of {sides:?}"));
                         break;
                     }
                 }
@@ -216,33 +204,16 @@ impl Tally {
 /// Compares one of `every` derivatives of an end with difference quotients. `None` if the margin has no such end.
 pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> Option<Tally> {
     let found = end(file, kind, is_high).ok()?;
-    let mut tally = Tally {
-        every,
-        ..Tally::default()
-    };
-    let change = |step: f64,
-                  apply: &dyn Fn(&mut Value, f64),
-                  slope,
-                  what: &str,
-                  scale: f64,
-                  tally: &mut Tally| {
-        let change = Change {
-            file,
-            kind,
-            is_high,
-            step,
-            apply,
-        };
+    let mut tally = Tally { every, ..Tally::default() };
+    let change = |step: f64, apply: &dyn Fn(&mut Value, f64), slope, what: &str, scale: f64, tally: &mut Tally| {
+        let change = Change { file, kind, is_high, step, apply };
         tally.compare(what, slope, scale, &change);
     };
     let size = found.value.abs().max(0.01);
     let mut done: Vec<[f64; 2]> = Vec::new();
     for corner in &found.corners {
         let at = [corner.at.x, corner.at.y];
-        if done
-            .iter()
-            .any(|p| libm::hypot(p[0] - at[0], p[1] - at[1]) < 1e-9)
-        {
+        if done.iter().any(|p| libm::hypot(p[0] - at[0], p[1] - at[1]) < 1e-9) {
             continue;
         }
         done.push(at);
@@ -255,10 +226,7 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
             let apply = |file: &mut Value, by: f64| {
                 move_corner(file, at, direction.map(|v| v * by));
             };
-            let what = format!(
-                "corner {} of {:?} along {direction:?}",
-                corner.corner, corner.block
-            );
+            let what = format!("corner {} of {:?} along {direction:?}", corner.corner, corner.block);
             change(2e-4, &apply, slope, &what, size, &mut tally);
         }
     }
@@ -271,14 +239,7 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
             own.insert("weight".into(), json!(weight + by));
         };
         let step = 1e-3 * weight.max(1e-3);
-        change(
-            step,
-            &apply,
-            *slope,
-            &format!("weight {number}"),
-            size / weight.max(1e-3),
-            &mut tally,
-        );
+        change(step, &apply, *slope, &format!("weight {number}"), size / weight.max(1e-3), &mut tally);
     }
     for (k, slopes) in &found.loads {
         let at = scene(file).loads()[*k].at;
@@ -288,14 +249,7 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
                 at[axis] += by;
                 file["loads"][*k]["at"] = json!(at);
             };
-            change(
-                2e-4,
-                &apply,
-                *slope,
-                &format!("load {k}, axis {axis}"),
-                size,
-                &mut tally,
-            );
+            change(2e-4, &apply, *slope, &format!("load {k}, axis {axis}"), size, &mut tally);
         }
     }
     if let Some(slope) = found.friction_of_all {
@@ -433,8 +387,7 @@ fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
             sum.skipped += tally.skipped;
             sum.worst = sum.worst.max(tally.worst);
             let wrong = tally.wrong.into_iter();
-            sum.wrong
-                .extend(wrong.map(|w| format!("seed {seed} {kind:?} {is_high}: {w}")));
+            sum.wrong.extend(wrong.map(|w| format!("seed {seed} {kind:?} {is_high}: {w}")));
         }
     }
     (sum, ends)
@@ -443,10 +396,7 @@ fn random_scenes(first: u64, count: u64, every: usize) -> (Tally, usize) {
 /// `DRYSTONE_SENSITIVITY_SCENES=200` compares more scenes, and `DRYSTONE_SENSITIVITY_EVERY=1` compares every
 /// derivative instead of one of five.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn the_derivatives_of_random_scenes_equal_central_differences() {
     let first = number_of("DRYSTONE_SENSITIVITY_FIRST", 1);
     let wanted = number_of("DRYSTONE_SENSITIVITY_SCENES", 30);

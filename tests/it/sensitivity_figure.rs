@@ -25,12 +25,7 @@ fn draw(analysis: &Analysis) -> Drawing {
 }
 
 /// The groups of a class, each with the camera of its picture.
-fn of_class<'a>(
-    items: &'a [Item],
-    class: &str,
-    camera: Option<Camera>,
-    found: &mut Vec<(Camera, &'a Group)>,
-) {
+fn of_class<'a>(items: &'a [Item], class: &str, camera: Option<Camera>, found: &mut Vec<(Camera, &'a Group)>) {
     for item in items {
         if let Item::Group(group) = item {
             let camera = group.camera.or(camera);
@@ -79,10 +74,7 @@ fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
         let camera = camera.expect("arrows");
         let mut ratios: Vec<f64> = Vec::new();
         for [tail, tip] in &arrows {
-            let here = end
-                .corners
-                .iter()
-                .filter(|corner| distance(camera.place(corner.at), *tail) < 1e-6);
+            let here = end.corners.iter().filter(|corner| distance(camera.place(corner.at), *tail) < 1e-6);
             // Of several corners that move together, only the first has an arrow.
             let slopes: Vec<Vector> = here.filter_map(|corner| corner.moves.gradient()).collect();
             let shown = Vector::new(tip.x - tail.x, tail.y - tip.y);
@@ -96,9 +88,7 @@ fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
             assert!((ratio / ratios[0] - 1.0).abs() < 1e-6, "{path}: {ratios:?}");
         }
         for (k, [tail, _]) in arrows.iter().enumerate() {
-            let once = arrows[..k]
-                .iter()
-                .all(|other| distance(other[0], *tail) > 1e-6);
+            let once = arrows[..k].iter().all(|other| distance(other[0], *tail) > 1e-6);
             assert!(once, "{path}: two arrows at {tail:?}");
         }
         // A corner without an arrow has an effect too small to show, or no unique effect.
@@ -108,10 +98,7 @@ fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
                 continue;
             };
             let seen = slope.norm() * ratios[0] > 2.1;
-            assert!(
-                !seen || drawn(camera.place(corner.at)),
-                "{path}: {corner:?}"
-            );
+            assert!(!seen || drawn(camera.place(corner.at)), "{path}: {corner:?}");
         }
     }
 }
@@ -120,17 +107,10 @@ fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
 fn the_most_effective_changes_are_listed_with_their_values() {
     let analysis = analysed(&of_assets("study/arch-27.json"), MarginKind::Tilt);
     let text = svg::write(&draw(&analysis));
-    assert!(
-        text.contains(
-            "limit: tilt 15.9° right (right end of the interval in which the frame stands)"
-        ),
-        "{text}"
-    );
+    assert!(text.contains("limit: tilt 15.9° right (right end of the interval in which the frame stands)"), "{text}");
     assert!(text.contains("+2 mm → about 16.1° right"), "{text}");
-    let starter = Analysis::with(
-        of_assets("starter.json"),
-        &AnalysisOptions::default().sensitivity(MarginKind::LoadFactor),
-    );
+    let starter =
+        Analysis::with(of_assets("starter.json"), &AnalysisOptions::default().sensitivity(MarginKind::LoadFactor));
     let text = svg::write(&draw(&starter)).replace("</tspan>", " ");
     assert!(text.contains("load factor 30.5"), "{text}");
 }
@@ -163,8 +143,7 @@ fn no_arrow_leaves_the_page() {
             options.width = width;
             let drawing = figure::draw(&analysis, Kind::Sensitivity, &options);
             outlines(&drawing.items, &mut |p| {
-                let inside =
-                    (0.0..=drawing.width).contains(&p.x) && (0.0..=drawing.height).contains(&p.y);
+                let inside = (0.0..=drawing.width).contains(&p.x) && (0.0..=drawing.height).contains(&p.y);
                 assert!(inside, "{path}, {width:?}: {p:?}");
             });
         }
@@ -187,10 +166,7 @@ fn a_frame_without_derivatives_states_why_and_has_no_arrows() {
     };
     for (file, words) in [
         (unloaded, "there are no loads on placed blocks"),
-        (
-            pressed([0.0, -1.0]),
-            "the frame stands at every larger value",
-        ),
+        (pressed([0.0, -1.0]), "the frame stands at every larger value"),
     ] {
         let analysis = analysed(&scene(&file), MarginKind::LoadFactor);
         let drawing = draw(&analysis);

@@ -47,12 +47,7 @@ struct Tally {
 }
 
 /// Runs a random sequence in a session, and compares each verdict with an analysis from scratch.
-fn played(
-    number: u64,
-    base: Value,
-    candidate: impl Fn(&mut Random, usize) -> Value,
-    tally: &mut Tally,
-) {
+fn played(number: u64, base: Value, candidate: impl Fn(&mut Random, usize) -> Value, tally: &mut Tally) {
     let mut chance = Random::new(number);
     let mut session = Session::new(file(&base)).unwrap();
     let mut copy = SceneCopy { file: base };
@@ -62,10 +57,7 @@ fn played(
         let what = chance.whole(0, 9);
         let verdict = match what {
             // If the structure falls, the last block is removed again in most cases.
-            _ if session.verdict() == Verdict::Unstable
-                && chance.percent(60)
-                && !standing.is_empty() =>
-            {
+            _ if session.verdict() == Verdict::Unstable && chance.percent(60) && !standing.is_empty() => {
                 let id = standing.pop().unwrap();
                 for (k, hold) in held.iter_mut().enumerate() {
                     if hold.as_deref() == Some(&id) {
@@ -85,10 +77,7 @@ fn played(
                 copy.blocks().push(block.clone());
                 let outcome = session.place(serde_json::from_value(block).unwrap());
                 if outcome.is_err() {
-                    assert!(
-                        copy.verdict().is_err(),
-                        "only the session refuses: {outcome:?}"
-                    );
+                    assert!(copy.verdict().is_err(), "only the session refuses: {outcome:?}");
                     copy.blocks().pop();
                     tally.refused += 1;
                 } else {
@@ -134,11 +123,7 @@ fn played(
         };
         let Ok(verdict) = verdict else { continue };
         let scratch = copy.verdict().unwrap();
-        assert_eq!(
-            verdict, scratch,
-            "sequence {number}, step {step}: {}",
-            copy.file
-        );
+        assert_eq!(verdict, scratch, "sequence {number}, step {step}: {}", copy.file);
         assert_eq!(session.verdict(), scratch);
         tally.steps += 1;
         tally.from_warm_start += usize::from(session.source() == Source::WarmStart);
@@ -159,9 +144,7 @@ fn a_session_on_a_lattice_has_the_results_of_a_scene_file() {
     let mut tally = Tally::default();
     for number in 0..60 {
         let mut chance = Random::new(900 + number);
-        let ground: Vec<Value> = (-6..=6)
-            .map(|x| json!({ "cells": [[x, 0, "down"]] }))
-            .collect();
+        let ground: Vec<Value> = (-6..=6).map(|x| json!({ "cells": [[x, 0, "down"]] })).collect();
         let base = json!({ "drystone": 1, "friction": chance.one_of(&[0.3, 0.7, 1.2]), "kernel": chance.one_of(&[0.0, 0.2]),
             "grid": { "kind": "triangular" }, "ground": ground, "robots": robots(), "blocks": [] });
         let shapes = ["up", "down", "hexagon", "linkh", "linkr", "linkl"];
@@ -184,14 +167,8 @@ fn a_session_on_a_lattice_has_the_results_of_a_scene_file() {
         };
         played(number, base, candidate, &mut tally);
     }
-    assert!(
-        tally.stable > 300 && tally.unstable > 300 && tally.refused > 50,
-        "{tally:?}"
-    );
-    assert!(
-        10 * tally.from_warm_start > 8 * tally.steps,
-        "few verdicts came from the warm start: {tally:?}"
-    );
+    assert!(tally.stable > 300 && tally.unstable > 300 && tally.refused > 50, "{tally:?}");
+    assert!(10 * tally.from_warm_start > 8 * tally.steps, "few verdicts came from the warm start: {tally:?}");
 }
 
 #[test]
@@ -224,19 +201,14 @@ fn an_invalid_block_is_refused_and_changes_nothing() {
         let refused = session.place(serde_json::from_value(wrong).unwrap());
         let refused = refused.expect_err(message).to_string();
         assert!(refused.contains(message), "{refused}");
-        assert_eq!(
-            (session.verdict(), session.scene().blocks().len()),
-            (Verdict::Stable, 1)
-        );
+        assert_eq!((session.verdict(), session.scene().blocks().len()), (Verdict::Stable, 1));
     }
     assert!(session.hold("r0", "a", None).is_err() && session.remove("b").is_err());
     let stepped = json!({ "drystone": 1, "blocks": [{ "id": "a", "cells": [[0, 0]] }], "grid": { "kind": "square" },
         "steps": [{ "place": ["a"] }] });
     assert!(Session::new(file(&stepped)).is_err());
     // A block without an id has the least free number.
-    session
-        .place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap())
-        .unwrap();
+    session.place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap()).unwrap();
     assert_eq!(session.scene().blocks()[1].id, "1");
     assert_eq!(session.analysis().verdict(), Verdict::Stable);
 }

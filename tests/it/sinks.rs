@@ -55,8 +55,7 @@ fn scene(hostile: &str) -> String {
 /// Calls `check` with each hostile text, the scene that contains it, and the analysis of this scene.
 fn each(mut check: impl FnMut(&str, &Scene, &Analysis)) {
     for hostile in HOSTILE {
-        let scene =
-            Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        let scene = Scene::from_json(&scene(hostile)).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
         check(hostile, &scene, &Analysis::new(&scene));
     }
 }
@@ -68,10 +67,7 @@ fn acts(c: char) -> bool {
 }
 
 fn assert_harmless(output: &str, hostile: &str) {
-    assert!(
-        !output.contains(acts),
-        "{hostile:?} has an effect in {output:?}"
-    );
+    assert!(!output.contains(acts), "{hostile:?} has an effect in {output:?}");
 }
 
 #[test]
@@ -101,15 +97,9 @@ fn a_terminal_has_a_line_for_each_frame_and_no_more() {
         let (code, out, err) = run(&["check", "a.json"]);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{hostile:?}");
         assert_harmless(&err, hostile);
-        assert!(
-            !err.lines().any(|l| l.trim_start().starts_with("all  ")),
-            "{err}"
-        );
+        assert!(!err.lines().any(|l| l.trim_start().starts_with("all  ")), "{err}");
     }
-    assert!(
-        counts.windows(2).all(|pair| pair[0] == pair[1]),
-        "{counts:?}"
-    );
+    assert!(counts.windows(2).all(|pair| pair[0] == pair[1]), "{counts:?}");
 }
 
 #[test]
@@ -118,8 +108,7 @@ fn svg_has_the_same_elements_for_all_texts() {
     each(|hostile, _, analysis| {
         let svg = output::svg::write(&figure::forces(analysis, &figure::Options::default()));
         assert_harmless(&svg, hostile);
-        let document =
-            roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        let document = roxmltree::Document::parse(&svg).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
         let mut names: Vec<String> = document
             .descendants()
             .filter(roxmltree::Node::is_element)
@@ -130,15 +119,9 @@ fn svg_has_the_same_elements_for_all_texts() {
         shapes.push(names);
         assert!(!document.descendants().any(|n| n.has_attribute("onload")));
         let pdf = output::pdf::write(&figure::forces(analysis, &figure::Options::default()), None);
-        assert!(
-            pdf.is_ok_and(|bytes| bytes.starts_with(b"%PDF-")),
-            "{hostile:?}"
-        );
+        assert!(pdf.is_ok_and(|bytes| bytes.starts_with(b"%PDF-")), "{hostile:?}");
     });
-    assert!(
-        shapes.windows(2).all(|pair| pair[0] == pair[1]),
-        "{shapes:?}"
-    );
+    assert!(shapes.windows(2).all(|pair| pair[0] == pair[1]), "{shapes:?}");
 }
 
 #[test]
@@ -168,50 +151,25 @@ fn a_page_a_table_and_markdown_of_a_study_have_the_same_structure_for_all_texts(
         let tags = page.matches('<').count();
         let csv = report::accuracy::csv(&study);
         assert_harmless(&csv, hostile);
-        for cell in csv
-            .lines()
-            .skip(1)
-            .map(|line| line.split(',').nth(1).unwrap_or(""))
-        {
-            assert!(
-                !cell
-                    .trim_start_matches(['"', ' '])
-                    .starts_with(['=', '+', '-', '@']),
-                "{cell}"
-            );
+        for cell in csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap_or("")) {
+            assert!(!cell.trim_start_matches(['"', ' ']).starts_with(['=', '+', '-', '@']), "{cell}");
         }
         let svg = report::accuracy::svg(&study).expect("drawn");
         assert!(roxmltree::Document::parse(&svg).is_ok(), "{hostile:?}");
         assert_harmless(&drystone::result::accuracy_json(&study), hostile);
         // The number of points in the picture depends on the times, so only the table is compared.
-        let table = page
-            .split("</svg>")
-            .nth(1)
-            .unwrap_or_default()
-            .matches('<')
-            .count();
-        shapes.push((
-            table,
-            csv.lines().count(),
-            report::accuracy::markdown(&study).lines().count(),
-        ));
+        let table = page.split("</svg>").nth(1).unwrap_or_default().matches('<').count();
+        shapes.push((table, csv.lines().count(), report::accuracy::markdown(&study).lines().count()));
         assert!(tags > table);
     }
-    assert!(
-        shapes
-            .windows(2)
-            .all(|pair| pair[0].1 == pair[1].1 && pair[0].2 == pair[1].2),
-        "{shapes:?}"
-    );
+    assert!(shapes.windows(2).all(|pair| pair[0].1 == pair[1].1 && pair[0].2 == pair[1].2), "{shapes:?}");
 }
 
 /// The elements of a Markdown text other than paragraphs and plain text.
 fn begun(markdown: &str) -> Vec<String> {
     Parser::new_ext(markdown, Options::all())
         .filter_map(|event| match event {
-            Event::Start(Tag::Paragraph) | Event::Text(_) | Event::End(_) | Event::SoftBreak => {
-                None
-            }
+            Event::Start(Tag::Paragraph) | Event::Text(_) | Event::End(_) | Event::SoftBreak => None,
             other => Some(format!("{other:?}")),
         })
         .collect()
@@ -221,11 +179,7 @@ fn begun(markdown: &str) -> Vec<String> {
 fn hostile_text_stays_text_in_markdown_and_in_a_book() {
     for hostile in HOSTILE {
         let words = drystone::internals::text::markdown(hostile);
-        assert_eq!(
-            begun(&words),
-            Vec::<String>::new(),
-            "{hostile:?} as {words:?}"
-        );
+        assert_eq!(begun(&words), Vec::<String>::new(), "{hostile:?} as {words:?}");
         let content = format!("Before.\n\n```drystone\n{}\n```\n\nAfter.", scene(hostile));
         let chapter = json!({ "Chapter": { "name": "A", "content": content, "number": [1], "sub_items": [],
             "path": "a.md", "source_path": "a.md", "parent_names": [] } });
@@ -233,20 +187,14 @@ fn hostile_text_stays_text_in_markdown_and_in_a_book() {
             "mdbook_version": "0.4.40" }, { "sections": [chapter], "__non_exhaustive": null }]);
         let drawn = report::book::illustrate(&input.to_string()).expect("drawn");
         let drawn: Value = serde_json::from_str(&drawn).expect("JSON");
-        let content = drawn["sections"][0]["Chapter"]["content"]
-            .as_str()
-            .expect("text");
+        let content = drawn["sections"][0]["Chapter"]["content"].as_str().expect("text");
         assert_harmless(content, hostile);
         for event in Parser::new_ext(content, Options::all()) {
             assert!(
                 !matches!(
                     event,
                     Event::Start(
-                        Tag::Link { .. }
-                            | Tag::Heading { .. }
-                            | Tag::List(_)
-                            | Tag::Image { .. }
-                            | Tag::CodeBlock(_)
+                        Tag::Link { .. } | Tag::Heading { .. } | Tag::List(_) | Tag::Image { .. } | Tag::CodeBlock(_)
                     )
                 ),
                 "{hostile:?}: {event:?}"
@@ -286,31 +234,20 @@ fn reports_of_snapshots_have_the_same_structure_for_all_names() {
         };
         let xml = ci::junit(&report);
         assert_harmless(&xml, hostile);
-        let document =
-            roxmltree::Document::parse(&xml).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
-        let elements = document
-            .descendants()
-            .filter(roxmltree::Node::is_element)
-            .count();
+        let document = roxmltree::Document::parse(&xml).unwrap_or_else(|e| panic!("{hostile:?}: {e}"));
+        let elements = document.descendants().filter(roxmltree::Node::is_element).count();
         let annotations = ci::annotations(&report);
         for annotation in &annotations {
             assert_harmless(annotation, hostile);
             assert_eq!(annotation.lines().count(), 1, "{annotation:?}");
-            assert_eq!(
-                annotation.matches("::").count() - hostile.matches("::").count(),
-                2,
-                "{annotation}"
-            );
+            assert_eq!(annotation.matches("::").count() - hostile.matches("::").count(), 2, "{annotation}");
         }
         let page = review::page(&report, &[hostile.into()]);
         assert_harmless(&page, hostile);
         assert!(!page.contains("<script>alert") && !page.contains("\" onload=\""));
         shapes.push((elements, annotations.len(), page.matches("<li>").count()));
     });
-    assert!(
-        shapes.windows(2).all(|pair| pair[0] == pair[1]),
-        "{shapes:?}"
-    );
+    assert!(shapes.windows(2).all(|pair| pair[0] == pair[1]), "{shapes:?}");
 }
 
 #[test]
@@ -320,10 +257,7 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
     use drystone::scene::Problem;
     each(|hostile, _, analysis| {
         let text = scene(hostile);
-        let file = File {
-            name: hostile,
-            text: &text,
-        };
+        let file = File { name: hostile, text: &text };
         let entry = Entry::new(file, analysis, &ReportOptions::default());
         let mut problem: Problem = Scene::from_json("").expect_err("refused").list.remove(0);
         problem.path = hostile.into();
@@ -334,10 +268,7 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
             let report = Report {
                 title: hostile.into(),
                 pieces: vec![piece(1), piece(2)],
-                refused: vec![Refused {
-                    name: hostile.into(),
-                    problems: vec![problem.clone()],
-                }],
+                refused: vec![Refused { name: hostile.into(), problems: vec![problem.clone()] }],
                 notes: vec![hostile.into()],
                 compares: false,
                 dark: None,
@@ -348,14 +279,8 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
                 assert_harmless(&text, hostile);
                 if name.ends_with(".html") {
                     assert_eq!(text.matches("<script").count(), 1, "{hostile:?}: {name}");
-                    assert_eq!(
-                        text.matches("</noscript").count(),
-                        text.matches("<noscript").count()
-                    );
-                    assert!(
-                        !text.contains("<img") && !text.contains("\" onload="),
-                        "{hostile:?}"
-                    );
+                    assert_eq!(text.matches("</noscript").count(), text.matches("<noscript").count());
+                    assert!(!text.contains("<img") && !text.contains("\" onload="), "{hostile:?}");
                 } else if name.ends_with(".md") {
                     for event in Parser::new_ext(&text, Options::all()) {
                         // The only links are those of the report, from the table of all scenes to the scenes.
@@ -363,9 +288,7 @@ fn hostile_text_stays_text_in_all_forms_of_a_report() {
                             Event::Html(html) | Event::InlineHtml(html) => {
                                 !html.starts_with("<a id=\"scene-") && **html != *"</a>"
                             }
-                            Event::Start(Tag::Link { dest_url, .. }) => {
-                                !dest_url.starts_with("#scene-")
-                            }
+                            Event::Start(Tag::Link { dest_url, .. }) => !dest_url.starts_with("#scene-"),
                             event => matches!(event, Event::Start(Tag::CodeBlock(_))),
                         };
                         assert!(!acts, "{hostile:?}: {event:?}");
@@ -394,19 +317,10 @@ fn invisible_characters_are_made_visible() {
 /// For each kind of output, an expression that its writers contain, and the files that may contain it. A new file
 /// with such an expression must be added here.
 const WRITERS: &[(&str, &[&str])] = &[
-    (
-        "io::stdout",
-        &["cli/terminal.rs", "cli/mod.rs", "cli/batch/output.rs"],
-    ),
-    (
-        "io::stderr",
-        &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"],
-    ),
+    ("io::stdout", &["cli/terminal.rs", "cli/mod.rs", "cli/batch/output.rs"]),
+    ("io::stderr", &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"]),
     ("anstream", &["cli/terminal.rs"]),
-    (
-        "PreEscaped",
-        &["report/accuracy.rs", "report/html/", "snapshot/review.rs"],
-    ),
+    ("PreEscaped", &["report/accuracy.rs", "report/html/", "snapshot/review.rs"]),
     (
         "\"<",
         &[
@@ -429,14 +343,8 @@ const WRITERS: &[(&str, &[&str])] = &[
     ),
     ("fs::write", &[]),
     // The output of `batch` grows line by line, so that an interrupted run can be resumed.
-    (
-        "File::create",
-        &["cli/batch/output.rs", "cli/batch/resume.rs"],
-    ),
-    (
-        "to_writer",
-        &["result/", "scene/format.rs", "scene/format/"],
-    ),
+    ("File::create", &["cli/batch/output.rs", "cli/batch/resume.rs"]),
+    ("to_writer", &["result/", "scene/format.rs", "scene/format/"]),
     (".literal(", &["cli/"]),
     ("page.block(", &["cli/error.rs"]),
 ];
@@ -451,21 +359,14 @@ fn only_the_listed_files_write_output() {
         let text = fs::read_to_string(file).expect("UTF-8");
         // Tests and examples may write any output.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let path = file
-            .strip_prefix(&root)
-            .expect("below")
-            .to_string_lossy()
-            .replace('\\', "/");
+        let path = file.strip_prefix(&root).expect("below").to_string_lossy().replace('\\', "/");
         let Some(path) = without_groups(&path) else {
             continue;
         };
         if path.ends_with("tests.rs") || path.starts_with("import/") {
             continue;
         }
-        for line in code
-            .lines()
-            .filter(|line| !line.trim_start().starts_with("//"))
-        {
+        for line in code.lines().filter(|line| !line.trim_start().starts_with("//")) {
             for (sign, writers) in WRITERS {
                 let known = |w: &&str| path == *w || (w.ends_with('/') && path.starts_with(*w));
                 if line.contains(sign) && !writers.iter().any(known) {
@@ -474,11 +375,7 @@ fn only_the_listed_files_write_output() {
             }
         }
     }
-    assert!(
-        files.len() > 100 && faults.is_empty(),
-        "{}",
-        faults.join("\n")
-    );
+    assert!(files.len() > 100 && faults.is_empty(), "{}", faults.join("\n"));
 }
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -10,9 +10,7 @@ use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
 use crate::hard::wedge;
-use crate::structure::{
-    arch, block, harmonic, on_floor, on_slope, rectangle, rotated, verdict, wall,
-};
+use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, rotated, verdict, wall};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
@@ -60,20 +58,10 @@ fn topped(bricks: usize, size: f64, beyond: f64) -> Value {
 fn a_stone_on_a_tower_falls_where_its_centre_of_gravity_is_beyond_the_edge() {
     for bricks in [1, 2, 3, 5, 10, 20, 30] {
         for size in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-            for (beyond, expected) in [
-                (0.49, STANDS),
-                (0.51, FALLS),
-                (0.55, FALLS),
-                (0.75, FALLS),
-                (0.99, FALLS),
-            ] {
+            for (beyond, expected) in [(0.49, STANDS), (0.51, FALLS), (0.55, FALLS), (0.75, FALLS), (0.99, FALLS)] {
                 for degrees in [0.0, 17.3, 41.3] {
                     let file = rotated(&topped(bricks, size, beyond), degrees);
-                    assert_eq!(
-                        verdict(&file),
-                        expected,
-                        "{bricks}, {size:e}, {beyond}, {degrees}°"
-                    );
+                    assert_eq!(verdict(&file), expected, "{bricks}, {size:e}, {beyond}, {degrees}°");
                 }
             }
         }
@@ -87,9 +75,7 @@ fn stones_slide_on_towers_if_the_ramp_is_too_steep() {
     for bricks in [1, 5, 20] {
         for size in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for slope in [0.0625, 0.5] {
-                for (friction, expected) in
-                    [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)]
-                {
+                for (friction, expected) in [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)] {
                     let mut file = topped(bricks, 1.0, 0.0);
                     let top = f64::from(bricks as u32);
                     let along = [1.0, slope].map(|v| v / libm::hypot(1.0, slope));
@@ -246,11 +232,7 @@ fn light_stones_on_towers() {
                     block["weight"] = json!(7.0);
                 }
                 blocks[bricks]["weight"] = json!(7.0 * libm::exp10(-f64::from(exponent)));
-                assert_eq!(
-                    verdict(&file),
-                    expected,
-                    "{bricks}, 1e-{exponent}, {beyond}"
-                );
+                assert_eq!(verdict(&file), expected, "{bricks}, 1e-{exponent}, {beyond}");
             }
         }
     }
@@ -262,9 +244,7 @@ fn light_stones_on_slopes() {
     for bricks in [1, 5, 20] {
         for exponent in [0, 3, 6, 9, 12] {
             for slope in [0.0625, 0.5] {
-                for (friction, expected) in
-                    [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)]
-                {
+                for (friction, expected) in [(slope * 1.01, STANDS), (slope * 0.99, FALLS), (0.0, FALLS)] {
                     let mut blocks: Vec<Value> = (0..bricks)
                         .map(|k| {
                             let at = rectangle(0.0, f64::from(k), 2.0, 1.0);
@@ -275,12 +255,7 @@ fn light_stones_on_slopes() {
                     let ramp = json!([[0, y], [2, y], [2, y + 2.0 * slope]]);
                     blocks.push(block("ramp", ramp, 5.0));
                     let (left, right) = (y + 0.5 * slope, y + slope);
-                    let stone = json!([
-                        [0.5, left],
-                        [1.0, right],
-                        [1.0, right + 0.25],
-                        [0.5, left + 0.25]
-                    ]);
+                    let stone = json!([[0.5, left], [1.0, right], [1.0, right + 0.25], [0.5, left + 0.25]]);
                     let mut stone = block("stone", stone, 5.0 * libm::exp10(-f64::from(exponent)));
                     stone["friction"] = json!(friction);
                     blocks.push(stone);
@@ -323,10 +298,7 @@ fn small_stones_in_the_joints_of_a_wall_stand_unless_they_are_lifted() {
             assert_eq!(verdict(&file(blocks.clone())), STANDS, "{size}, {courses}");
             // The last stone is raised above the course below. It has no friction, and touches only the sides of two
             // bricks.
-            let lifted = blocks
-                .iter_mut()
-                .rev()
-                .find(|b| b["id"].as_str().is_some_and(|id| id.starts_with("pin")));
+            let lifted = blocks.iter_mut().rev().find(|b| b["id"].as_str().is_some_and(|id| id.starts_with("pin")));
             if let Some(pin) = lifted {
                 pin["friction"] = json!(0.0);
                 for corner in pin["polygon"].as_array_mut().expect("corners") {
@@ -343,13 +315,8 @@ fn small_stones_in_the_joints_of_a_wall_stand_unless_they_are_lifted() {
 /// of the block's radius. This is the tolerance of a proof.
 #[test]
 fn reported_forces_balance_every_block_within_the_tolerance() {
-    let mut files = vec![
-        wall(5, 5),
-        arch(11, 0.4, 0.9),
-        harmonic(6, 0.95),
-        wedge(1e-2),
-        on_slope(20.0, 3.0, 1.0, 0.5, 0.2),
-    ];
+    let mut files =
+        vec![wall(5, 5), arch(11, 0.4, 0.9), harmonic(6, 0.95), wedge(1e-2), on_slope(20.0, 3.0, 1.0, 0.5, 0.2)];
     for size in [1.0, 1e-2, 1e-4] {
         files.extend([1, 4, 12].map(|bricks| topped(bricks, size, 0.4)));
     }
@@ -370,23 +337,13 @@ fn reported_forces_balance_every_block_within_the_tolerance() {
                     let points = contact.application_points;
                     all.push((points[0], normal * (sign * contact.normal_forces[0])));
                     all.push((points[1], normal * (sign * contact.normal_forces[1])));
-                    all.push((
-                        contact.interface.ends[0],
-                        tangent * (sign * contact.friction_force),
-                    ));
+                    all.push((contact.interface.ends[0], tangent * (sign * contact.friction_force)));
                 }
             }
-            let column = |(at, force): &(Point, Vector)| {
-                [
-                    force.x,
-                    force.y,
-                    cross(at - block.centroid, *force) / radius,
-                ]
-            };
+            let column =
+                |(at, force): &(Point, Vector)| [force.x, force.y, cross(at - block.centroid, *force) / radius];
             let mut generators: Vec<[f64; 3]> = all.iter().map(column).collect();
-            let left = generators.iter().fold([0.0; 3], |sum, g| {
-                [sum[0] + g[0], sum[1] + g[1], sum[2] + g[2]]
-            });
+            let left = generators.iter().fold([0.0; 3], |sum, g| [sum[0] + g[0], sum[1] + g[1], sum[2] + g[2]]);
             let total: f64 = all.iter().map(|(_, force)| force.norm()).sum();
             generators.push([0.0, 0.0, total]);
             // Generators are scaled by at most 10⁻⁷, so these two permit a rounding error of 10⁻¹⁵ of the forces.

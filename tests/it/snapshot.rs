@@ -42,9 +42,7 @@ struct Folder {
 impl Folder {
     /// A folder with these scenes and very small reference pictures.
     fn with(scenes: &[(&str, String)]) -> Folder {
-        let folder = Folder {
-            folder: tempfile::tempdir().expect("a folder"),
-        };
+        let folder = Folder { folder: tempfile::tempdir().expect("a folder") };
         folder.write("drystone-snapshots.toml", "widths = [160]\n");
         for (name, text) in scenes {
             folder.write(name, text);
@@ -124,17 +122,9 @@ fn the_figures_of_the_program_equal_their_references() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots");
     for entry in fs::read_dir(folder).expect("readable") {
         let path = entry.expect("readable").path();
-        let stem = path
-            .file_stem()
-            .expect("named")
-            .to_string_lossy()
-            .into_owned();
+        let stem = path.file_stem().expect("named").to_string_lossy().into_owned();
         let known = plates.iter().any(|p| p.name == stem);
-        assert!(
-            known || stem == "drystone-snapshots",
-            "{} has no plate",
-            path.display()
-        );
+        assert!(known || stem == "drystone-snapshots", "{} has no plate", path.display());
     }
 }
 

@@ -5,10 +5,8 @@ use std::path::{Path, PathBuf};
 
 /// Adds all `.rs` files below the folder to `files`, in order of path.
 pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
-        .expect("readable")
-        .map(|e| e.expect("readable").path())
-        .collect();
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder).expect("readable").map(|e| e.expect("readable").path()).collect();
     entries.sort();
     for entry in entries {
         if entry.is_dir() {
@@ -20,14 +18,7 @@ pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// Folders of `src` that only group modules.
-pub(crate) const GROUPS: &[&str] = &[
-    "mechanics",
-    "statics",
-    "pictures",
-    "sources",
-    "products",
-    "entry",
-];
+pub(crate) const GROUPS: &[&str] = &["mechanics", "statics", "pictures", "sources", "products", "entry"];
 
 /// A path below `src` without its groups, as in module paths: `scene/frame.rs` for `mechanics/scene/frame.rs`. `None`
 /// for the `mod.rs` of a group.
@@ -85,10 +76,7 @@ pub(crate) fn names_after(code: &str, prefix: &str) -> Vec<String> {
 
 /// The name at the beginning of the text.
 pub(crate) fn word_at(text: &str) -> Option<String> {
-    let word: String = text
-        .chars()
-        .take_while(|c| c.is_alphanumeric() || *c == '_')
-        .collect();
+    let word: String = text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
     (!word.is_empty()).then_some(word)
 }
 
@@ -146,9 +134,7 @@ pub(crate) fn bare(text: &str) -> String {
                 i += 1;
                 continue;
             }
-            let close: Vec<char> = std::iter::once('"')
-                .chain(std::iter::repeat_n('#', hashes))
-                .collect();
+            let close: Vec<char> = std::iter::once('"').chain(std::iter::repeat_n('#', hashes)).collect();
             i += 2 + hashes;
             while i < bytes.len() && !bytes[i..].starts_with(&close) {
                 i += 1;
@@ -177,7 +163,5 @@ pub(crate) fn bare(text: &str) -> String {
 
 /// Whether the last character may be part of a name.
 pub(crate) fn ends_in_word(text: &str) -> bool {
-    text.chars()
-        .next_back()
-        .is_some_and(|c| c.is_alphanumeric() || c == '_')
+    text.chars().next_back().is_some_and(|c| c.is_alphanumeric() || c == '_')
 }

@@ -18,14 +18,7 @@ fn verdict(file: &SceneFile) -> Verdict {
 fn starters_stand_or_fall_as_expected() {
     // With few voussoirs the least thickness of a semicircular arch is below Milankovitch's value, 0.1075 of the
     // radius of the centreline.
-    let arch = |voussoirs, thickness| {
-        Arch {
-            voussoirs,
-            thickness,
-            ..Arch::default()
-        }
-        .scene()
-    };
+    let arch = |voussoirs, thickness| Arch { voussoirs, thickness, ..Arch::default() }.scene();
     for (file, expected) in [
         (Arch::default().scene(), Verdict::Stable),
         (arch(7, 0.4), Verdict::Stable),
@@ -33,59 +26,15 @@ fn starters_stand_or_fall_as_expected() {
         (arch(101, 0.22), Verdict::Unstable),
         (arch(13, 0.15), Verdict::Unstable),
         (Wall::default().scene(), Verdict::Stable),
-        (
-            Wall {
-                courses: 1,
-                bricks: 1,
-                ..Wall::default()
-            }
-            .scene(),
-            Verdict::Stable,
-        ),
+        (Wall { courses: 1, bricks: 1, ..Wall::default() }.scene(), Verdict::Stable),
         (Tower::default().scene(), Verdict::Stable),
-        (
-            Tower {
-                lean: 0.124,
-                ..Tower::default()
-            }
-            .scene(),
-            Verdict::Stable,
-        ),
-        (
-            Tower {
-                lean: 0.126,
-                ..Tower::default()
-            }
-            .scene(),
-            Verdict::Unstable,
-        ),
-        (
-            Tower {
-                blocks: 1,
-                lean: 0.9,
-                ..Tower::default()
-            }
-            .scene(),
-            Verdict::Stable,
-        ),
+        (Tower { lean: 0.124, ..Tower::default() }.scene(), Verdict::Stable),
+        (Tower { lean: 0.126, ..Tower::default() }.scene(), Verdict::Unstable),
+        (Tower { blocks: 1, lean: 0.9, ..Tower::default() }.scene(), Verdict::Stable),
         (Doorway::default().scene(), Verdict::Stable),
         (LatticePile::default().scene(), Verdict::Stable),
-        (
-            LatticePile {
-                rows: 6,
-                ..LatticePile::default()
-            }
-            .scene(),
-            Verdict::Stable,
-        ),
-        (
-            LatticePile {
-                friction: 0.05,
-                ..LatticePile::default()
-            }
-            .scene(),
-            Verdict::Unstable,
-        ),
+        (LatticePile { rows: 6, ..LatticePile::default() }.scene(), Verdict::Stable),
+        (LatticePile { friction: 0.05, ..LatticePile::default() }.scene(), Verdict::Unstable),
     ] {
         assert_eq!(verdict(&file), expected, "{}", file.to_json());
     }
@@ -95,40 +44,15 @@ fn starters_stand_or_fall_as_expected() {
 fn starters_have_few_decimals_at_any_scale() {
     for scale in [1e-3, 1.0, 1e3] {
         let files = [
-            Arch {
-                span: 4.0 * scale,
-                thickness: 0.4 * scale,
-                ..Arch::default()
-            }
-            .scene(),
-            Wall {
-                length: 0.251 * scale,
-                height: 0.0833 * scale,
-                ..Wall::default()
-            }
-            .scene(),
-            Tower {
-                width: scale,
-                height: 0.5 * scale,
-                lean: scale / 30.0,
-                ..Tower::default()
-            }
-            .scene(),
+            Arch { span: 4.0 * scale, thickness: 0.4 * scale, ..Arch::default() }.scene(),
+            Wall { length: 0.251 * scale, height: 0.0833 * scale, ..Wall::default() }.scene(),
+            Tower { width: scale, height: 0.5 * scale, lean: scale / 30.0, ..Tower::default() }.scene(),
         ];
         for file in files {
             assert_eq!(verdict(&file), Verdict::Stable, "{}", file.to_json());
-            for corner in file
-                .blocks
-                .iter()
-                .flat_map(|b| b.polygon.iter().flatten())
-                .flatten()
-            {
+            for corner in file.blocks.iter().flat_map(|b| b.polygon.iter().flatten()).flatten() {
                 let digits = format!("{corner:e}");
-                let mantissa = digits
-                    .split('e')
-                    .next()
-                    .unwrap_or("")
-                    .replace(['.', '-'], "");
+                let mantissa = digits.split('e').next().unwrap_or("").replace(['.', '-'], "");
                 assert!(mantissa.len() <= 6, "{corner} in {}", file.to_json());
             }
         }

@@ -3,9 +3,7 @@
 use drystone::analysis::{Failure, Verdict};
 use serde_json::json;
 
-use crate::structure::{
-    arch, block, first, harmonic, on_floor, on_slope, rectangle, verdict, wall,
-};
+use crate::structure::{arch, block, first, harmonic, on_floor, on_slope, rectangle, verdict, wall};
 
 const STANDS: Verdict = Verdict::Stable;
 const FALLS: Verdict = Verdict::Unstable;
@@ -15,16 +13,8 @@ fn a_block_slides_if_the_slope_is_steeper_than_the_friction_angle() {
     for friction in [0.1, 0.35, 0.7, 1.2] {
         let limit = libm::atan(friction).to_degrees();
         for sign in [1.0, -1.0] {
-            assert_eq!(
-                verdict(&on_slope(sign * (limit - 0.001), 4.0, 1.0, friction, 0.0)),
-                STANDS,
-                "{friction}"
-            );
-            assert_eq!(
-                verdict(&on_slope(sign * (limit + 0.001), 4.0, 1.0, friction, 0.0)),
-                FALLS,
-                "{friction}"
-            );
+            assert_eq!(verdict(&on_slope(sign * (limit - 0.001), 4.0, 1.0, friction, 0.0)), STANDS, "{friction}");
+            assert_eq!(verdict(&on_slope(sign * (limit + 0.001), 4.0, 1.0, friction, 0.0)), FALLS, "{friction}");
         }
     }
 }
@@ -33,9 +23,7 @@ fn a_block_slides_if_the_slope_is_steeper_than_the_friction_angle() {
 fn the_failure_of_a_sliding_block_is_the_missing_friction() {
     let (degrees, friction, weight): (f64, f64, f64) = (30.0, 0.2, 5.0);
     let frame = first(&on_slope(degrees, 4.0, 1.0, friction, 0.0));
-    let [Failure::Friction { force, .. }] = frame.failures[..] else {
-        panic!("{:?}", frame.failures)
-    };
+    let [Failure::Friction { force, .. }] = frame.failures[..] else { panic!("{:?}", frame.failures) };
     let angle = degrees.to_radians();
     let missing = weight * (libm::sin(angle) - friction * libm::cos(angle));
     assert!((force.norm() - missing).abs() < 1e-9);
@@ -46,14 +34,8 @@ fn the_failure_of_a_sliding_block_is_the_missing_friction() {
     // the slope.
     let motion = frame.mechanism[0];
     let heading = angle - libm::atan(friction);
-    assert!(
-        (motion.velocity.x + libm::cos(heading)).abs() < 1e-6 && motion.spin.abs() < 1e-6,
-        "{motion:?}"
-    );
-    assert!(
-        (motion.velocity.y + libm::sin(heading)).abs() < 1e-6,
-        "{motion:?}"
-    );
+    assert!((motion.velocity.x + libm::cos(heading)).abs() < 1e-6 && motion.spin.abs() < 1e-6, "{motion:?}");
+    assert!((motion.velocity.y + libm::sin(heading)).abs() < 1e-6, "{motion:?}");
 }
 
 #[test]
@@ -62,28 +44,8 @@ fn a_block_topples_if_its_weight_acts_outside_the_kernel() {
     for kernel in [0.0, 0.2, 0.6] {
         let limit = libm::atan(width * (1.0 - kernel) / height).to_degrees();
         for sign in [1.0, -1.0] {
-            assert_eq!(
-                verdict(&on_slope(
-                    sign * (limit - 0.001),
-                    width,
-                    height,
-                    5.0,
-                    kernel
-                )),
-                STANDS,
-                "{kernel}"
-            );
-            assert_eq!(
-                verdict(&on_slope(
-                    sign * (limit + 0.001),
-                    width,
-                    height,
-                    5.0,
-                    kernel
-                )),
-                FALLS,
-                "{kernel}"
-            );
+            assert_eq!(verdict(&on_slope(sign * (limit - 0.001), width, height, 5.0, kernel)), STANDS, "{kernel}");
+            assert_eq!(verdict(&on_slope(sign * (limit + 0.001), width, height, 5.0, kernel)), FALLS, "{kernel}");
         }
     }
 }
@@ -136,11 +98,7 @@ fn an_interlocking_wall_stands_without_thrust() {
         .sum();
     assert!((floor - frame.weight).abs() < 1e-9 * frame.weight);
     // Adjacent bricks of a course do not push each other.
-    for contact in frame
-        .contacts
-        .iter()
-        .filter(|c| c.interface.normal.x.abs() > 0.5)
-    {
+    for contact in frame.contacts.iter().filter(|c| c.interface.normal.x.abs() > 0.5) {
         assert_eq!(contact.normal_forces, [0.0, 0.0]);
     }
 }
@@ -153,21 +111,8 @@ fn a_leg_hangs_from_a_bar_only_if_they_are_one_block() {
     // Without adhesion the leg falls and the bar stays.
     let cut = first(&file);
     assert_eq!(cut.verdict, FALLS);
-    assert!(
-        cut.mechanism.iter().all(|m| m.block.0 == 1),
-        "{:?}",
-        cut.mechanism
-    );
-    let tee = json!([
-        [-2, 1],
-        [-0.5, 1],
-        [-0.5, 0],
-        [0.5, 0],
-        [0.5, 1],
-        [2, 1],
-        [2, 2],
-        [-2, 2]
-    ]);
+    assert!(cut.mechanism.iter().all(|m| m.block.0 == 1), "{:?}", cut.mechanism);
+    let tee = json!([[-2, 1], [-0.5, 1], [-0.5, 0], [0.5, 0], [0.5, 1], [2, 1], [2, 2], [-2, 2]]);
     file["blocks"] = json!([block("tee", tee, 4.0)]);
     assert_eq!(verdict(&file), STANDS);
 }
@@ -191,17 +136,10 @@ fn two_supports_carry_an_eccentric_load_by_the_law_of_the_lever() {
     assert_eq!(frame.verdict, STANDS);
     let right = (6.0 * (3.0 - 0.5) + 9.0 * (2.0 - 0.5)) / 5.0;
     let carried = |x: f64| {
-        let contact = frame
-            .contacts
-            .iter()
-            .find(|c| c.resultant.at.y == 2.0 && (c.resultant.at.x - x).abs() < 1e-9);
+        let contact = frame.contacts.iter().find(|c| c.resultant.at.y == 2.0 && (c.resultant.at.x - x).abs() < 1e-9);
         contact.map(|c| c.resultant.force.y).unwrap_or(f64::NAN)
     };
-    assert!(
-        (carried(5.5) - right).abs() < 1e-9,
-        "{} {right}",
-        carried(5.5)
-    );
+    assert!((carried(5.5) - right).abs() < 1e-9, "{} {right}", carried(5.5));
     assert!((carried(0.5) - (15.0 - right)).abs() < 1e-9);
 }
 
@@ -210,13 +148,7 @@ fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
     // A frame, and a block on the lower edge of its hole.
     let frame_block = json!({ "id": "frame", "polygon": rectangle(0.0, 0.0, 6.0, 6.0),
         "holes": [rectangle(1.0, 1.0, 4.0, 4.0)], "weight": 10 });
-    let file = on_floor(
-        0.5,
-        vec![
-            frame_block,
-            block("inside", rectangle(1.5, 1.0, 1.0, 2.0), 3.0),
-        ],
-    );
+    let file = on_floor(0.5, vec![frame_block, block("inside", rectangle(1.5, 1.0, 1.0, 2.0), 3.0)]);
     let frame = first(&file);
     assert_eq!(frame.verdict, STANDS);
     assert_eq!(frame.contacts.len(), 2);
@@ -231,10 +163,7 @@ fn a_block_rests_on_the_edge_of_a_hole_and_in_the_middle_of_three() {
         ],
     );
     let frame = first(&three);
-    let on_base = frame
-        .contacts
-        .iter()
-        .filter(|c| c.interface.ends[0].y == 1.0 && c.interface.ends[1].y == 1.0);
+    let on_base = frame.contacts.iter().filter(|c| c.interface.ends[0].y == 1.0 && c.interface.ends[1].y == 1.0);
     assert_eq!(on_base.count(), 3);
     assert_eq!(frame.verdict, STANDS);
 }
@@ -266,13 +195,10 @@ fn an_additional_corner_on_a_straight_edge_changes_nothing() {
 #[test]
 fn a_robot_carries_force_up_to_its_limit_and_the_rest_is_reported() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    file["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 10, "fy": 5, "torque": 0 } }]);
+    file["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 10, "fy": 5, "torque": 0 } }]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
-    let [Failure::RobotForce { force, .. }] = frame.failures[..] else {
-        panic!("{:?}", frame.failures)
-    };
+    let [Failure::RobotForce { force, .. }] = frame.failures[..] else { panic!("{:?}", frame.failures) };
     assert!((force.y - 3.0).abs() < 1e-9 && force.x.abs() < 1e-9);
     assert!((frame.robots[0].force.y - 5.0).abs() < 1e-9);
     file["robots"][0]["limits"]["fy"] = json!(8.001);
@@ -288,9 +214,7 @@ fn a_robot_that_grips_off_centre_needs_a_torque() {
     let frame = first(&file);
     // The weight acts 0.75 m to the right of the grip and turns the block clockwise. The missing torque acts
     // anticlockwise.
-    let [Failure::RobotTorque { torque, .. }] = frame.failures[..] else {
-        panic!("{:?}", frame.failures)
-    };
+    let [Failure::RobotTorque { torque, .. }] = frame.failures[..] else { panic!("{:?}", frame.failures) };
     assert!((torque - 6.0).abs() < 1e-9);
     file["robots"][0]["limits"] = json!({ "torque": 6.001 });
     assert_eq!(verdict(&file), STANDS);
@@ -306,9 +230,7 @@ fn the_normal_force_of_a_tip_on_a_slope_is_perpendicular_to_the_slope() {
     };
     let frame = first(&balanced(0.76));
     assert_eq!(frame.verdict, STANDS);
-    let [contact] = &frame.contacts[..] else {
-        panic!("{:?}", frame.contacts)
-    };
+    let [contact] = &frame.contacts[..] else { panic!("{:?}", frame.contacts) };
     let normal = contact.interface.normal;
     assert!((normal.x + 0.6).abs() < 1e-12 && (normal.y - 0.8).abs() < 1e-12);
     let normal_force: f64 = contact.normal_forces.iter().sum();

@@ -43,9 +43,8 @@ fn contains(outline: &Outline, at: PagePoint) -> bool {
 
 /// Sets `found` to the colour of the last filled path at a position, without the labels.
 fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colour) {
-    let visible = clip.is_none_or(|c| {
-        (c.at.x..=c.at.x + c.width).contains(&at.x) && (c.at.y..=c.at.y + c.height).contains(&at.y)
-    });
+    let visible = clip
+        .is_none_or(|c| (c.at.x..=c.at.x + c.width).contains(&at.x) && (c.at.y..=c.at.y + c.height).contains(&at.y));
     for item in items {
         match item {
             Item::Path(path) if visible && path.opacity > 0.99 && contains(&path.outline, at) => {
@@ -61,10 +60,7 @@ fn below(items: &[Item], at: PagePoint, clip: Option<PageRect>, found: &mut Colo
 
 /// The number of labels that were checked, and all faults of the texts of a drawing.
 fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
-    let page = Group {
-        items: drawing.items.clone(),
-        ..Group::default()
-    };
+    let page = Group { items: drawing.items.clone(), ..Group::default() };
     let all: Vec<Text> = texts(&page);
     let mut faults = Vec::new();
     for (i, text) in all.iter().enumerate() {
@@ -73,10 +69,7 @@ fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
             faults.push(format!("{} is cut", text.words));
         }
         // A text with a halo may lie on another text.
-        for other in all[..i]
-            .iter()
-            .filter(|o| o.halo.is_none() && text.halo.is_none())
-        {
+        for other in all[..i].iter().filter(|o| o.halo.is_none() && text.halo.is_none()) {
             let b = ink(other);
             if left < b[2] && b[0] < right && top < b[3] && b[1] < bottom {
                 faults.push(format!("{} lies on {}", text.words, other.words));
@@ -85,10 +78,7 @@ fn faults(drawing: &Drawing) -> (usize, Vec<String>) {
     }
     let mut labels = 0;
     for picture in classes(&drawing.items, &["picture"]) {
-        for text in classes(&picture.items, &["labels"])
-            .into_iter()
-            .flat_map(texts)
-        {
+        for text in classes(&picture.items, &["labels"]).into_iter().flat_map(texts) {
             labels += 1;
             let [left, top, right, bottom] = ink(&text);
             let middle = PagePoint::new((left + right) / 2.0, (top + bottom) / 2.0);
@@ -122,23 +112,15 @@ fn overlapping_and_faint_texts_are_found() {
         12.0,
         Colour::hex(0xcccccc),
     ));
-    drawing
-        .items
-        .push(Group::with_class("picture").with(faint).into());
+    drawing.items.push(Group::with_class("picture").with(faint).into());
     let found = faults(&drawing).1;
     assert!(found.iter().any(|f| f.contains("lies on")), "{found:?}");
-    assert!(
-        found.iter().any(|f| f.starts_with("faint: contrast")),
-        "{found:?}"
-    );
+    assert!(found.iter().any(|f| f.starts_with("faint: contrast")), "{found:?}");
 }
 
 /// All texts of a drawing, separated by spaces.
 fn all_words(drawing: &Drawing) -> String {
-    let page = Group {
-        items: drawing.items.clone(),
-        ..Group::default()
-    };
+    let page = Group { items: drawing.items.clone(), ..Group::default() };
     let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
     words.join(" ")
 }
@@ -148,24 +130,14 @@ fn missing_forces_and_loads_are_shown_even_if_very_small() {
     for (name, scene) in strangers() {
         let analysis = Analysis::new(&scene);
         let drawing = figure::forces(&analysis, &Options::default());
-        for (found, frame) in analysis
-            .frames
-            .iter()
-            .zip(classes(&drawing.items, &["frame"]))
-        {
-            let drawn: Vec<String> = classes(&frame.items, &["force", "torque", "small"])
-                .into_iter()
-                .map(|g| g.title.clone())
-                .collect();
+        for (found, frame) in analysis.frames.iter().zip(classes(&drawing.items, &["frame"])) {
+            let drawn: Vec<String> =
+                classes(&frame.items, &["force", "torque", "small"]).into_iter().map(|g| g.title.clone()).collect();
             let missing = drawn.iter().filter(|t| t.starts_with("Missing")).count();
             assert!(missing >= found.failures.len(), "{name}: {missing}");
             assert_eq!(found.verdict == Verdict::Unstable, missing > 0, "{name}");
             let loads = drawn.iter().filter(|t| t.starts_with("Load on")).count();
-            let expected = scene
-                .loads()
-                .iter()
-                .filter(|l| l.force.norm() > 0.0)
-                .count();
+            let expected = scene.loads().iter().filter(|l| l.force.norm() > 0.0).count();
             assert_eq!(loads, expected, "{name}");
         }
     }
@@ -173,31 +145,19 @@ fn missing_forces_and_loads_are_shown_even_if_very_small() {
 
 #[test]
 fn names_of_blocks_occur_without_a_unit_after_them() {
-    let (_, scene) = strangers()
-        .into_iter()
-        .find(|s| s.0 == "falls.json")
-        .expect("it is there");
+    let (_, scene) = strangers().into_iter().find(|s| s.0 == "falls.json").expect("it is there");
     let analysis = Analysis::new(&scene);
     for kind in Kind::ALL {
         let drawing = figure::draw(&analysis, kind, &Options::default());
         let words = all_words(&drawing);
-        for label in classes(&drawing.items, &["name"])
-            .into_iter()
-            .flat_map(texts)
-        {
+        for label in classes(&drawing.items, &["name"]).into_iter().flat_map(texts) {
             let name = label.words.as_str();
             let as_name = words.match_indices(name).any(|(at, _)| {
                 let rest = words[at + name.len()..].trim_start_matches([' ', '\u{a0}']);
-                let amount = ["N", "kN", "m ", "%"]
-                    .iter()
-                    .any(|unit| rest.starts_with(unit));
+                let amount = ["N", "kN", "m ", "%"].iter().any(|unit| rest.starts_with(unit));
                 !amount && words[..at].ends_with([' ', '\u{a0}'])
             });
-            assert!(
-                as_name,
-                "{}: {name} occurs only as a number with a unit: {words}",
-                kind.name()
-            );
+            assert!(as_name, "{}: {name} occurs only as a number with a unit: {words}", kind.name());
         }
     }
 }

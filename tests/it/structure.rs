@@ -13,11 +13,7 @@ pub fn scene(file: &Value) -> Scene {
 pub fn first(file: &Value) -> FrameAnalysis {
     let scene = scene(file);
     let frame = Analysis::new(&scene).frames.remove(0);
-    assert!(
-        frame.proof.holds() || frame.verdict == Verdict::Undecided,
-        "{:?}",
-        frame.proof
-    );
+    assert!(frame.proof.holds() || frame.verdict == Verdict::Undecided, "{:?}", frame.proof);
     frame
 }
 
@@ -46,12 +42,7 @@ pub const HALF_LINTEL: &str = r#"{ "drystone": 1, "title": "Half a lintel", "fri
 
 /// Corners of an axis-parallel rectangle.
 pub fn corners(x: f64, y: f64, width: f64, height: f64) -> Vec<[f64; 2]> {
-    vec![
-        [x, y],
-        [x + width, y],
-        [x + width, y + height],
-        [x, y + height],
-    ]
+    vec![[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
 }
 
 /// Corners of an axis-parallel rectangle, as JSON.
@@ -125,13 +116,7 @@ pub fn harmonic(n: usize, share: f64) -> Value {
         left[k - 1] = x - 1.0;
     }
     let blocks = (1..=n)
-        .map(|k| {
-            block(
-                &format!("{k}"),
-                rectangle(left[k - 1], (n - k) as f64 * 0.2, 1.0, 0.2),
-                2.0,
-            )
-        })
+        .map(|k| block(&format!("{k}"), rectangle(left[k - 1], (n - k) as f64 * 0.2, 1.0, 0.2), 2.0))
         .collect::<Vec<_>>();
     json!({ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": rectangle(-5.0, -1.0, 5.0, 1.0) }], "blocks": blocks })
 }
@@ -141,21 +126,12 @@ pub fn arch(n: usize, thickness: f64, friction: f64) -> Value {
     let (inner, outer) = (1.0 - thickness / 2.0, 1.0 + thickness / 2.0);
     let at = |radius: f64, k: usize| {
         let angle = std::f64::consts::PI * k as f64 / n as f64;
-        let (sin, cos) = if 2 * k == n {
-            (1.0, 0.0)
-        } else {
-            (libm::sin(angle), libm::cos(angle))
-        };
+        let (sin, cos) = if 2 * k == n { (1.0, 0.0) } else { (libm::sin(angle), libm::cos(angle)) };
         json!([-radius * cos, if k == n { 0.0 } else { radius * sin }])
     };
     let blocks = (0..n)
         .map(|k| {
-            let polygon = json!([
-                at(inner, k),
-                at(inner, k + 1),
-                at(outer, k + 1),
-                at(outer, k)
-            ]);
+            let polygon = json!([at(inner, k), at(inner, k + 1), at(outer, k + 1), at(outer, k)]);
             json!({ "id": format!("v{k}"), "polygon": polygon, "density": 1000 })
         })
         .collect::<Vec<_>>();
@@ -178,11 +154,7 @@ pub fn wall(columns: usize, rows: usize) -> Value {
         }
         for pair in edges.windows(2) {
             let width = pair[1] - pair[0];
-            blocks.push(block(
-                &format!("{}", blocks.len()),
-                rectangle(pair[0], y, width, 0.5),
-                6.0 * width,
-            ));
+            blocks.push(block(&format!("{}", blocks.len()), rectangle(pair[0], y, width, 0.5), 6.0 * width));
         }
     }
     on_floor(0.7, blocks)

@@ -43,10 +43,7 @@ fn keep(name: &str, made: &str) {
 
 /// Replaces the text between two marks of the page.
 fn put(page: &mut String, mark: &str, text: &str) {
-    let (begin, end) = (
-        format!("<!-- {mark} -->\n"),
-        format!("<!-- end of {mark} -->"),
-    );
+    let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end of {mark} -->"));
     let from = page.find(&begin).expect("the mark is there") + begin.len();
     let to = page.find(&end).expect("the end is there");
     page.replace_range(from..to, &format!("\n{text}\n"));
@@ -75,9 +72,7 @@ fn computed() -> Vec<f64> {
 
 /// The number of decimals of a published number.
 fn decimals(published: &str) -> usize {
-    published
-        .split_once('.')
-        .map_or(0, |(_, decimals)| decimals.len())
+    published.split_once('.').map_or(0, |(_, decimals)| decimals.len())
 }
 
 /// The value of this crate with as many decimals as the published value, or with one more if that value has fewer
@@ -86,9 +81,7 @@ fn ours(case: &Case, value: f64) -> String {
     if case.unit == Unit::Answer {
         return if value == 1.0 { "yes" } else { "no" }.to_owned();
     }
-    let whole = format!("{:.0}", value.abs().floor())
-        .trim_start_matches('0')
-        .len();
+    let whole = format!("{:.0}", value.abs().floor()).trim_start_matches('0').len();
     let published = decimals(case.published);
     let more = usize::from(published + whole < 5);
     let digits = (published + more).max(4usize.saturating_sub(whole));
@@ -143,8 +136,7 @@ fn table(values: &[f64]) -> String {
             if case.seen { "" } else { " †" },
             match case.unit {
                 Unit::Answer => "–".to_owned(),
-                _ if UNSAFE.contains(&case.source) =>
-                    format!("**{}**", difference(percent(case, *value))),
+                _ if UNSAFE.contains(&case.source) => format!("**{}**", difference(percent(case, *value))),
                 _ => difference(percent(case, *value)),
             },
             case.source,
@@ -155,9 +147,7 @@ fn table(values: &[f64]) -> String {
 
 /// The sentence with the number of values that agree within 0.01 %, 0.1 % and 1 %.
 fn summary(values: &[f64]) -> String {
-    let found: Vec<f64> = (CASES.iter().zip(values))
-        .map(|(case, value)| percent(case, *value).abs())
-        .collect();
+    let found: Vec<f64> = (CASES.iter().zip(values)).map(|(case, value)| percent(case, *value).abs()).collect();
     let within = |most: f64| found.iter().filter(|p| **p <= most).count();
     let sources: BTreeSet<&str> = CASES.iter().map(|case| case.source).collect();
     let seen = CASES.iter().filter(|case| case.seen).count();
@@ -212,10 +202,7 @@ fn every_value_has_its_source_and_every_source_a_value() {
     }
     let page = std::fs::read_to_string(path(PAGE)).expect("the page is there");
     for (name, ..) in pictures::PICTURES {
-        assert!(
-            page.contains(&format!("][{name}]")),
-            "{name} is not on the page"
-        );
+        assert!(page.contains(&format!("][{name}]")), "{name} is not on the page");
     }
 }
 
@@ -235,10 +222,7 @@ fn the_pictures_show_their_scenes() {
     for (name, kind, file) in pictures::PICTURES {
         let file = file();
         let svg = pictures::drawn(name, *kind, &file);
-        keep(
-            &format!("assets/validation/{name}.json"),
-            &format!("{file}\n"),
-        );
+        keep(&format!("assets/validation/{name}.json"), &format!("{file}\n"));
         keep(&format!("assets/validation/{name}.svg"), &svg);
         inline += &pictures::inline(name, &svg);
     }

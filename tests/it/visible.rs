@@ -30,10 +30,7 @@ fn drawn(text: &str, kind: Kind) -> Drawing {
 }
 
 fn words(drawing: &Drawing) -> String {
-    let page = Group {
-        items: drawing.items.clone(),
-        ..Group::default()
-    };
+    let page = Group { items: drawing.items.clone(), ..Group::default() };
     let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
     words.join(" ")
 }
@@ -54,16 +51,8 @@ fn points(path: &Path) -> Vec<PagePoint> {
 fn distance(a: &Path, b: &Path) -> f64 {
     let others = points(b);
     let far = |p: PagePoint, q: &PagePoint| libm::hypot(p.x - q.x, p.y - q.y);
-    let nearest = |p: PagePoint| {
-        others
-            .iter()
-            .map(|q| far(p, q))
-            .fold(f64::INFINITY, f64::min)
-    };
-    points(a)
-        .into_iter()
-        .map(nearest)
-        .fold(f64::INFINITY, f64::min)
+    let nearest = |p: PagePoint| others.iter().map(|q| far(p, q)).fold(f64::INFINITY, f64::min);
+    points(a).into_iter().map(nearest).fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -86,10 +75,7 @@ fn loads_on_a_centroid_lie_above_the_circle_of_the_weight_and_point_to_it() {
             let inside = |circle: &&Path| {
                 let around = points(circle);
                 let xs = around.iter().map(|p| p.x);
-                let (left, right) = (
-                    xs.clone().fold(f64::INFINITY, f64::min),
-                    xs.fold(f64::NEG_INFINITY, f64::max),
-                );
+                let (left, right) = (xs.clone().fold(f64::INFINITY, f64::min), xs.fold(f64::NEG_INFINITY, f64::max));
                 let ys = around.iter().map(|p| p.y);
                 let y = ys.sum::<f64>() / around.len() as f64;
                 let (x, radius) = (0.5 * (left + right), 0.5 * (right - left));
@@ -103,14 +89,8 @@ fn loads_on_a_centroid_lie_above_the_circle_of_the_weight_and_point_to_it() {
         let heads = classes(&drawing.items, &["heads"]);
         let again = paths(heads[0]);
         for load in &loads {
-            let place = again
-                .iter()
-                .rposition(|p| points(p) == points(paths(load)[0]));
-            assert!(
-                place.is_some_and(|p| p + 4 >= again.len()),
-                "{}",
-                load.title
-            );
+            let place = again.iter().rposition(|p| points(p) == points(paths(load)[0]));
+            assert!(place.is_some_and(|p| p + 4 >= again.len()), "{}", load.title);
         }
     }
 }
@@ -178,10 +158,7 @@ fn small_and_missing_forces_of_a_free_body_are_visible() {
     let length = |group: &Group| {
         // An arrow has seven corners; the fourth is its tip, and the first and the last are its tail.
         let corners = points(paths(group)[0]);
-        let tail = PagePoint::new(
-            0.5 * (corners[0].x + corners[6].x),
-            0.5 * (corners[0].y + corners[6].y),
-        );
+        let tail = PagePoint::new(0.5 * (corners[0].x + corners[6].x), 0.5 * (corners[0].y + corners[6].y));
         libm::hypot(corners[3].x - tail.x, corners[3].y - tail.y)
     };
     let load = forces.iter().find(|g| g.title.starts_with("Load"));
@@ -193,10 +170,7 @@ fn small_and_missing_forces_of_a_free_body_are_visible() {
     let above: Vec<&str> = above.iter().map(|g| g.title.as_str()).collect();
     assert!(above.is_empty(), "{above:?}");
     let words = words(&drawing);
-    assert!(
-        words.contains("are drawn larger") && !words.contains("not drawn"),
-        "{words}"
-    );
+    assert!(words.contains("are drawn larger") && !words.contains("not drawn"), "{words}");
 }
 
 #[test]
@@ -210,10 +184,7 @@ fn a_small_missing_force_is_less_visible_than_a_large_one() {
     let strands = classes(&drawing.items, &["strand"]);
     let missing = strands.iter().filter(|s| s.title.contains("missing"));
     let blocks: Vec<&str> = missing.map(|s| &s.title[..10]).collect();
-    assert!(
-        !blocks.is_empty() && blocks.iter().all(|b| *b == "In block a"),
-        "{blocks:?}"
-    );
+    assert!(!blocks.is_empty() && blocks.iter().all(|b| *b == "In block a"), "{blocks:?}");
     let failures = classes(&drawing.items, &["failures"]);
     let arrows = classes(&failures[0].items, &["force"]);
     let length = |block: &str| {
@@ -223,15 +194,9 @@ fn a_small_missing_force_is_less_visible_than_a_large_one() {
         ys.clone().fold(f64::NEG_INFINITY, f64::max) - ys.fold(f64::INFINITY, f64::min)
     };
     let (large, small) = (length("block a"), length("block b"));
-    assert!(
-        small > 0.3 * large && small < 0.5 * large,
-        "{small} {large}"
-    );
+    assert!(small > 0.3 * large && small < 0.5 * large, "{small} {large}");
     let words = words(&drawing);
-    assert!(
-        words.contains("small missing forces are drawn larger"),
-        "{words}"
-    );
+    assert!(words.contains("small missing forces are drawn larger"), "{words}");
 }
 
 #[test]
@@ -281,9 +246,6 @@ fn the_key_of_colours_is_true_if_colours_repeat() {
     for width in [300.0, 700.0] {
         let options = Options::default().width(width);
         let words = words(&figure::draw(&analysed(&tower), Kind::Forces, &options));
-        assert!(
-            words.contains("the forces on a block share a colour"),
-            "{words}"
-        );
+        assert!(words.contains("the forces on a block share a colour"), "{words}");
     }
 }

@@ -17,9 +17,7 @@ fn with_wedging(file: &Value) -> FrameAnalysis {
 fn wedged(file: &Value) -> bool {
     let frame = with_wedging(file);
     assert_eq!(frame.verdict, Verdict::Stable);
-    frame
-        .only_by_wedging
-        .unwrap_or_else(|| panic!("no answer for {file}"))
+    frame.only_by_wedging.unwrap_or_else(|| panic!("no answer for {file}"))
 }
 
 /// A bar between two walls. The faces of the walls lean towards each other at the top, each by `lean` per metre of
@@ -106,10 +104,7 @@ fn wedging_does_not_depend_on_size() {
 #[test]
 fn wedging_is_an_effect_on_request() {
     let report = |frame: &FrameAnalysis| {
-        let effect = frame
-            .effects
-            .iter()
-            .find(|e| e.effect == EffectName::Wedging);
+        let effect = frame.effects.iter().find(|e| e.effect == EffectName::Wedging);
         let effect = effect.expect("every effect is listed");
         (effect.simulated, effect.why.clone())
     };
@@ -121,10 +116,7 @@ fn wedging_is_an_effect_on_request() {
     let (simulated, why) = report(&with_wedging(&file));
     assert!(simulated && why.contains("bar"), "{why}");
     let falls = with_wedging(&arch(11, 0.05, 0.7));
-    assert_eq!(
-        report(&falls),
-        (false, "the frame does not stand".to_string())
-    );
+    assert_eq!(report(&falls), (false, "the frame does not stand".to_string()));
     assert_eq!(falls.only_by_wedging, None);
 }
 
@@ -164,11 +156,7 @@ impl Contacts {
         }
         Contacts {
             points,
-            friction: frame
-                .contacts
-                .iter()
-                .map(|c| c.interface.friction)
-                .collect(),
+            friction: frame.contacts.iter().map(|c| c.interface.friction).collect(),
             load: [0.0, -weight, 0.0],
         }
     }
@@ -188,11 +176,8 @@ impl Contacts {
     /// or the other direction (2).
     fn rests_as(&self, pressed: &dyn Fn(usize) -> bool, slides: &dyn Fn(usize) -> usize) -> bool {
         // The opening at each point and the slip along each face, as linear functions of the motion of the block.
-        let opening: Vec<[f64; 3]> = self
-            .points
-            .iter()
-            .map(|(a, n, _)| [n[0], n[1], a[0] * n[1] - a[1] * n[0]])
-            .collect();
+        let opening: Vec<[f64; 3]> =
+            self.points.iter().map(|(a, n, _)| [n[0], n[1], a[0] * n[1] - a[1] * n[0]]).collect();
         let slip: Vec<[f64; 3]> = (0..self.friction.len())
             .map(|face| {
                 let (a, n, _) = self.points.iter().find(|p| p.2 == face).expect("a point");
@@ -212,11 +197,7 @@ impl Contacts {
             let sign = [0.0, -1.0, 1.0][slides(*face)];
             enter(&slip[*face], &opening[k], sign * self.friction[*face]);
         }
-        for (face, along) in slip
-            .iter()
-            .enumerate()
-            .filter(|(face, _)| slides(*face) == 0)
-        {
+        for (face, along) in slip.iter().enumerate().filter(|(face, _)| slides(*face) == 0) {
             let _ = face;
             enter(along, along, 1.0);
         }
@@ -425,9 +406,7 @@ fn the_result_is_the_same_for_a_mirrored_rotated_or_heavier_scene() {
         let mut rotated = file.clone();
         // The sine 0.6 and the cosine 0.8 have few decimals, so the rotated coordinates are exact enough for the
         // blocks to touch.
-        map_corners(&mut rotated, &|[x, y]| {
-            [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y]
-        });
+        map_corners(&mut rotated, &|[x, y]| [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y]);
         rotated["gravity"] = json!([5.886, -7.848]);
         assert_eq!(wedged(&rotated), expected, "turned {file}");
         let mut heavy = file.clone();
@@ -462,24 +441,12 @@ fn few_random_scenes_have_no_answer() {
         if frame.verdict == Verdict::Stable {
             standing += 1;
             if frame.only_by_wedging.is_none() {
-                let effect = frame
-                    .effects
-                    .iter()
-                    .find(|e| e.effect == EffectName::Wedging);
-                assert!(
-                    effect
-                        .expect("every effect is listed")
-                        .why
-                        .contains("undecided")
-                );
+                let effect = frame.effects.iter().find(|e| e.effect == EffectName::Wedging);
+                assert!(effect.expect("every effect is listed").why.contains("undecided"));
                 open.push(number);
             }
         }
     }
     assert!(standing > 100, "{standing}");
-    assert!(
-        open.len() * 50 <= standing,
-        "{} of {standing} are open: {open:?}",
-        open.len()
-    );
+    assert!(open.len() * 50 <= standing, "{} of {standing} are open: {open:?}", open.len());
 }

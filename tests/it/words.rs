@@ -34,24 +34,17 @@ fn public_types_have_different_names() {
     let mut files = Vec::new();
     collect(&root, &mut files);
     for file in files {
-        let path = file
-            .strip_prefix(&root)
-            .expect("below src")
-            .to_string_lossy()
-            .replace('\\', "/");
+        let path = file.strip_prefix(&root).expect("below src").to_string_lossy().replace('\\', "/");
         let module = without_groups(&path).and_then(|path| path.split_once('/'));
         if module.is_some_and(|(module, _)| PUBLIC.contains(&module)) {
             let text = fs::read_to_string(&file).expect("source is UTF-8");
             for line in bare(&text).lines() {
                 let public = line.trim_start().strip_prefix("pub ");
                 let kind = public.and_then(|rest| rest.split_once(' '));
-                let named =
-                    kind.filter(|(kind, _)| ["struct", "enum", "type", "trait"].contains(kind));
+                let named = kind.filter(|(kind, _)| ["struct", "enum", "type", "trait"].contains(kind));
                 let Some((_, name)) = named else { continue };
                 let name = name.split(|c: char| !c.is_alphanumeric()).next();
-                let files = files_by_name
-                    .entry(name.unwrap_or_default().to_owned())
-                    .or_default();
+                let files = files_by_name.entry(name.unwrap_or_default().to_owned()).or_default();
                 files.push(file.display().to_string());
             }
         }

@@ -67,11 +67,7 @@ impl Accuracy {
                 scene
             })
             .collect();
-        let shown = if terminal.shows_progress() {
-            BarVisibility::WhenLong
-        } else {
-            BarVisibility::Never
-        };
+        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let frames = scenes.iter().map(|s| s.frames.len()).sum();
         let progress = Progress::begin(frames, shown);
         let tolerances = match self.tolerances.len() {
@@ -101,9 +97,7 @@ impl Accuracy {
 }
 
 fn form(path: &Path) -> Result<Form, CliError> {
-    let ending = path
-        .extension()
-        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
         Some("html") => Ok(Form::Html),
         Some("csv") => Ok(Form::Csv),
@@ -128,8 +122,5 @@ fn written(study: &Study, form: Form) -> Result<String, CliError> {
 }
 
 fn undrawn(error: &dyn std::error::Error) -> CliError {
-    CliError::NotWritten {
-        what: "the chart".into(),
-        why: error.to_string(),
-    }
+    CliError::NotWritten { what: "the chart".into(), why: error.to_string() }
 }

@@ -47,10 +47,7 @@ impl AnalysisArgs {
         [
             ("--accuracy", level.to_owned()),
             ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
-            (
-                "--contact-tolerance",
-                tolerance.unwrap_or_else(|| "not given".into()),
-            ),
+            ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
             ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
         ]
     }
@@ -61,9 +58,7 @@ impl AnalysisArgs {
         Options {
             accuracy: self.accuracy,
             wedging: self.wedging,
-            deadline: self
-                .time_limit
-                .and_then(|limit| Instant::now().checked_add(limit)),
+            deadline: self.time_limit.and_then(|limit| Instant::now().checked_add(limit)),
             ..Options::default()
         }
     }

@@ -94,12 +94,7 @@ impl Batch {
         let inputs = input::of(&self.inputs, self.render.is_some())?;
         let mut records = Records::new(inputs.list);
         let mut pace = BatchProgress::begin(terminal, self.progress, inputs.bytes, records.read());
-        let target = Target {
-            path: self.output.as_deref(),
-            resume: self.resume,
-            settings: self.settings(&work),
-            form,
-        };
+        let target = Target { path: self.output.as_deref(), resume: self.resume, settings: self.settings(&work), form };
         let mut output = Output::open(&target, &inputs.files, &mut records).map_err(|c| vec![c])?;
         if let Some(folder) = &self.render {
             destination::make_folder(folder).map_err(|c| vec![c])?;
@@ -170,28 +165,20 @@ impl Batch {
             Some("csv") if self.resume => refuse(
                 "--resume needs one line for each scene, and a .csv file has one row for each frame; write an .ndjson file",
             ),
-            Some("csv") if self.fields != Fields::default() || self.margins.are_requested() => {
-                refuse(
-                    "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
-                )
-            }
+            Some("csv") if self.fields != Fields::default() || self.margins.are_requested() => refuse(
+                "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
+            ),
             Some("csv") => Ok(Form::Csv),
-            Some(ending @ ("parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite")) => {
-                refuse(&format!(
-                    "batch writes no .{ending} files; write .csv or .ndjson, which pandas, polars and DuckDB read"
-                ))
-            }
+            Some(ending @ ("parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite")) => refuse(&format!(
+                "batch writes no .{ending} files; write .csv or .ndjson, which pandas, polars and DuckDB read"
+            )),
             _ => Ok(Form::Json),
         }
     }
 
     fn work(&self, form: Form) -> Result<SceneWork, CliError> {
         let format = self.picture.requested_format().unwrap_or(Format::Png);
-        let picture = self
-            .picture
-            .clone()
-            .or_width(DEFAULT_PICTURE_WIDTH, format)
-            .of_many();
+        let picture = self.picture.clone().or_width(DEFAULT_PICTURE_WIDTH, format).of_many();
         let drawn = match &self.render {
             None => None,
             Some(folder) => {
@@ -216,13 +203,7 @@ impl Batch {
         if self.level.requests_wedging() {
             fields = fields.with_wedging();
         }
-        Ok(SceneWork {
-            level: self.level,
-            margins: self.margins.clone(),
-            fields,
-            form,
-            drawn: drawn.map(Arc::new),
-        })
+        Ok(SceneWork { level: self.level, margins: self.margins.clone(), fields, form, drawn: drawn.map(Arc::new) })
     }
 
     /// Returns the settings on which the output lines depend. The number of threads and the progress report are not
@@ -238,10 +219,7 @@ impl Batch {
             None => ("none", "none".into()),
             Some(drawn) => {
                 let look = format!("{:?} {:?}", drawn.picture, drawn.options);
-                (
-                    drawn.format.ending(),
-                    format!("{:016x}", text::hash(look.as_bytes())),
-                )
+                (drawn.format.ending(), format!("{:016x}", text::hash(look.as_bytes())))
             }
         };
         settings.push(("the format of the pictures", format.into()));
@@ -287,21 +265,11 @@ impl SceneWork {
         let scene = resume::record_hash(&record);
         let shown = input::shown(&record);
         let caught = isolate(&shown, || self.examined(&origin, &name, &record));
-        let (line, ending) =
-            caught.unwrap_or_else(|fault| Ok(self.refused(&origin, &fault.list)))?;
-        Ok(OutputLine {
-            line,
-            ending,
-            scene,
-        })
+        let (line, ending) = caught.unwrap_or_else(|fault| Ok(self.refused(&origin, &fault.list)))?;
+        Ok(OutputLine { line, ending, scene })
     }
 
-    fn examined(
-        &self,
-        origin: &Origin,
-        name: &str,
-        record: &Record,
-    ) -> Result<(String, ExitStatus), CliError> {
+    fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<(String, ExitStatus), CliError> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
             Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),

@@ -17,12 +17,7 @@ pub(crate) struct CapacityArgs {
     capacity: Option<String>,
     /// With --capacity: only forces that the block can carry for all values in these ranges, such as
     /// tilt=±2,horizontal=±0.05,friction=0.5..0.7
-    #[arg(
-        long,
-        value_name = "RANGES",
-        requires = "capacity",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "RANGES", requires = "capacity", allow_hyphen_values = true)]
     for_all: Option<String>,
 }
 

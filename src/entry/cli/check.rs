@@ -71,14 +71,10 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let outcomes = source::read_each(&self.scenes, self.frame, self.level.contact_tolerance)
-            .map_err(|c| vec![c])?;
+        let outcomes =
+            source::read_each(&self.scenes, self.frame, self.level.contact_tolerance).map_err(|c| vec![c])?;
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
-        let layout = if outcomes.len() == 1 {
-            Layout::Lines
-        } else {
-            Layout::OneLine
-        };
+        let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
         let mut sources = Vec::new();
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
@@ -95,10 +91,7 @@ impl Check {
         // other scenes are still answered. With `--json`, every file gets an object.
         let is_wrong = |(.., complaint): &RefusedFile| !complaint.is_internal_fault();
         if !self.json && refused.iter().any(is_wrong) {
-            return Err(refused
-                .into_iter()
-                .map(|(.., complaint)| complaint)
-                .collect());
+            return Err(refused.into_iter().map(|(.., complaint)| complaint).collect());
         }
         let width = terminal.width();
         let answers = self.answers(&sources, layout, terminal, width);
@@ -139,11 +132,7 @@ impl Check {
         terminal: &Terminal,
         width: Option<usize>,
     ) -> Vec<Result<SceneResult, CliError>> {
-        let shown = if terminal.shows_progress() {
-            BarVisibility::WhenLong
-        } else {
-            BarVisibility::Never
-        };
+        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(sources.len(), shown);
         let options = Options {
             verdict_only: self.verdict_only,
@@ -154,10 +143,7 @@ impl Check {
             .par_iter()
             .map(|(_, source)| {
                 progress.doing(&source.name());
-                let answer = source::isolated(&source.path, || {
-                    self.answer(source, &options, layout, width)
-                })
-                .flatten();
+                let answer = source::isolated(&source.path, || self.answer(source, &options, layout, width)).flatten();
                 progress.step();
                 answer
             })
@@ -178,11 +164,7 @@ impl Check {
         if self.no_notes {
             analysis.notes.clear();
         }
-        let timing = if self.no_timing {
-            Timing::LeftOut
-        } else {
-            Timing::Included
-        };
+        let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };
         let ending = ExitStatus::from_analysis(&analysis);
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
         if self.json {
@@ -208,9 +190,7 @@ impl Check {
             page.append(table);
         }
         if done.len() > 1 {
-            page.line(&total(
-                done.iter().map(|(_, verdicts, ..)| verdicts.as_slice()),
-            ));
+            page.line(&total(done.iter().map(|(_, verdicts, ..)| verdicts.as_slice())));
         }
         if self.explain {
             page.append(&table::explained(width));

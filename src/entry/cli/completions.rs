@@ -20,12 +20,7 @@ pub(crate) struct Completions {
 impl Completions {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let mut bytes = Vec::new();
-        clap_complete::generate(
-            self.shell,
-            &mut CommandLine::command(),
-            "drystone",
-            &mut bytes,
-        );
+        clap_complete::generate(self.shell, &mut CommandLine::command(), "drystone", &mut bytes);
         terminal.print_bytes(&bytes).map_err(|c| vec![c])?;
         Ok(ExitStatus::Done)
     }

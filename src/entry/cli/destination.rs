@@ -38,9 +38,7 @@ impl Destination {
         let Destination::File(path) = self else {
             return Ok(requested.unwrap_or(Format::Svg));
         };
-        let ending = path
-            .extension()
-            .map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let by_name = ending.as_deref().and_then(Format::from_ending);
         let Some(by_name) = by_name else {
             let shown = path.display();
@@ -117,10 +115,8 @@ pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<
 
 /// Creates a folder and its parents, if they do not exist.
 pub(crate) fn make_folder(folder: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(folder).map_err(|error| CliError::NotWritten {
-        what: folder.display().to_string(),
-        why: error.to_string(),
-    })
+    fs::create_dir_all(folder)
+        .map_err(|error| CliError::NotWritten { what: folder.display().to_string(), why: error.to_string() })
 }
 
 #[cfg(test)]
@@ -131,19 +127,13 @@ mod tests {
     fn the_file_extension_selects_the_format_and_must_agree_with_the_format_option() {
         let file = |name: &str| Destination::from_path(Path::new(name));
         assert_eq!(file("a/b.PNG").format(None).ok(), Some(Format::Png));
-        assert_eq!(
-            file("b.svg").format(Some(Format::Svg)).ok(),
-            Some(Format::Svg)
-        );
+        assert_eq!(file("b.svg").format(Some(Format::Svg)).ok(), Some(Format::Svg));
         assert_eq!(file("b.Pdf").format(None).ok(), Some(Format::Pdf));
         assert!(file("b.svg").format(Some(Format::Png)).is_err());
         assert!(file("b.pdf").format(Some(Format::Svg)).is_err());
         assert!(file("b.jpeg").format(None).is_err());
         assert!(file("b").format(Some(Format::Png)).is_err());
-        assert_eq!(
-            file("nowhere/").format(Some(Format::Png)).ok(),
-            Some(Format::Png)
-        );
+        assert_eq!(file("nowhere/").format(Some(Format::Png)).ok(), Some(Format::Png));
         assert_eq!(file("-").format(None).ok(), Some(Format::Svg));
     }
 }

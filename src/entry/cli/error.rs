@@ -110,9 +110,7 @@ impl CliError {
         };
         match self {
             CliError::Scene { problems, .. } => problems.list.clone(),
-            CliError::NoSuchFrame(what) => {
-                alone(Code::NoSuchFrame, what.clone(), "give a smaller number")
-            }
+            CliError::NoSuchFrame(what) => alone(Code::NoSuchFrame, what.clone(), "give a smaller number"),
             CliError::NotRead { what, why } => alone(
                 Code::NotReadable,
                 format!("cannot read {what}: {why}"),
@@ -135,9 +133,7 @@ impl CliError {
                     page.line("for a file with one scene on each line, use: drystone batch FILE");
                 }
                 if problems.list.iter().any(|problem| problem.place.is_some()) {
-                    page.line(
-                        "drystone render --broken draws the outlines of this scene and marks these problems",
-                    );
+                    page.line("drystone render --broken draws the outlines of this scene and marks these problems");
                 }
             }
             CliError::Style { name, problems } => {
@@ -175,13 +171,9 @@ fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize
     let name = line(name);
     let mut out = String::new();
     for problem in problems.iter().take(MAX_SHOWN_PROBLEMS) {
-        let place = text
-            .zip(problem.span.clone())
-            .and_then(|(text, span)| ProblemLine::new(text, span));
+        let place = text.zip(problem.span.clone()).and_then(|(text, span)| ProblemLine::new(text, span));
         out += &match place {
-            Some(place) if place.is_shown_whole(problem, width) => {
-                pointed(&name, problem, &place, width)
-            }
+            Some(place) if place.is_shown_whole(problem, width) => pointed(&name, problem, &place, width),
             Some(place) => windowed(&name, problem, &place, width),
             None => plain(&name, problem),
         };
@@ -207,18 +199,9 @@ impl<'a> ProblemLine<'a> {
         let start = before.rfind('\n').map_or(0, |n| n + 1);
         let line = text[start..].lines().next().unwrap_or("");
         let from = text.get(start..span.start)?.chars().count();
-        let inside = text
-            .get(span.clone())?
-            .lines()
-            .next()
-            .unwrap_or("")
-            .chars()
-            .count();
+        let inside = text.get(span.clone())?.lines().next().unwrap_or("").chars().count();
         let end = line.chars().count();
-        Some(ProblemLine {
-            line,
-            range: from.min(end)..(from + inside.max(1)).min(end.max(from + 1)),
-        })
+        Some(ProblemLine { line, range: from.min(end)..(from + inside.max(1)).min(end.max(from + 1)) })
     }
 
     /// True if the whole line can be shown: it has at most [`MAX_LINE_CHARACTERS`] characters, and fits into `width`
@@ -255,20 +238,12 @@ fn label(problem: &Problem) -> String {
 /// Returns the message of a problem, preceded by the path of the problem in the scene if it has one.
 fn headline(problem: &Problem) -> String {
     let message = line(&problem.message);
-    if problem.path.is_empty() {
-        message
-    } else {
-        format!("{}: {message}", line(&problem.path))
-    }
+    if problem.path.is_empty() { message } else { format!("{}: {message}", line(&problem.path)) }
 }
 
 /// Returns the message of a problem without quoting the line of the file.
 fn plain(name: &str, problem: &Problem) -> String {
-    let at = if problem.line == 0 {
-        String::new()
-    } else {
-        format!(":{}:{}", problem.line, problem.column)
-    };
+    let at = if problem.line == 0 { String::new() } else { format!(":{}:{}", problem.line, problem.column) };
     let mut out = format!("error: {name}{at}: {}\n", headline(problem));
     if !problem.help.is_empty() {
         let _ = writeln!(out, "  help: {}", line(&problem.help));
@@ -287,11 +262,7 @@ fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usi
     let mut report = Report::build(ReportKind::Error, (name, range.clone()))
         .with_config(Config::default())
         .with_message(line(&problem.message))
-        .with_label(
-            Label::new((name, range))
-                .with_message(label(problem))
-                .with_color(Color::Red),
-        );
+        .with_label(Label::new((name, range)).with_message(label(problem)).with_color(Color::Red));
     if !problem.help.is_empty() {
         // Further lines of the help are indented by the width of "Help: ", with which its first line begins.
         let room = width.map(|width| width.saturating_sub(margin(problem) + "Help: ".len()));
@@ -308,11 +279,8 @@ fn pointed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usi
 /// completely.
 fn windowed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<usize>) -> String {
     // Reserve four columns: two spaces before the text, and one `…` at each of its ends.
-    let room = width.map_or(EXCERPT_COLUMNS, |width| {
-        width
-            .saturating_sub(4)
-            .clamp(MIN_EXCERPT_COLUMNS, EXCERPT_COLUMNS)
-    });
+    let room =
+        width.map_or(EXCERPT_COLUMNS, |width| width.saturating_sub(4).clamp(MIN_EXCERPT_COLUMNS, EXCERPT_COLUMNS));
     let text = line(place.line);
     let letters: Vec<char> = text.chars().collect();
     let start = place.range.start.min(letters.len());
@@ -338,10 +306,7 @@ fn windowed(name: &str, problem: &Problem, place: &ProblemLine, width: Option<us
     let tail = if to < letters.len() { "…" } else { "" };
     let gap = " ".repeat(columns(from, start) + 1);
     let piece: String = letters[from..to].iter().collect();
-    format!(
-        "{first}\n  {lead}{piece}{tail}\n  {gap}{}\n{help}",
-        "^".repeat(marks)
-    )
+    format!("{first}\n  {lead}{piece}{tail}\n  {gap}{}\n{help}", "^".repeat(marks))
 }
 
 #[cfg(test)]

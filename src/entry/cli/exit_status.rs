@@ -30,10 +30,7 @@ impl ExitStatus {
     }
 
     /// Returns the exit status for the verdicts of the frames of a scene, like [`ExitStatus::from_analysis`].
-    pub(crate) fn from_verdicts(
-        scene: &Scene,
-        verdicts: impl IntoIterator<Item = Verdict>,
-    ) -> ExitStatus {
+    pub(crate) fn from_verdicts(scene: &Scene, verdicts: impl IntoIterator<Item = Verdict>) -> ExitStatus {
         let frames = verdicts.into_iter().zip(&scene.frames);
         let endings = frames.map(|(verdict, frame)| match (frame.expected, verdict) {
             (Some(Expectation::Unstable), Verdict::Unstable) => ExitStatus::Done,

@@ -39,14 +39,10 @@ pub(crate) struct Export {
 
 impl Export {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let file = self
-            .output
-            .as_deref()
-            .filter(|path| *path != Path::new("-"));
+        let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
         if let Some(file) = file {
             check_name(file).map_err(|c| vec![c])?;
-            destination::refuse_overwrites(&[file.to_owned()], &[&self.scene])
-                .map_err(|c| vec![c])?;
+            destination::refuse_overwrites(&[file.to_owned()], &[&self.scene]).map_err(|c| vec![c])?;
         }
         let scenes = [self.scene.clone()];
         let sources = source::read(&scenes, Some(self.frame), self.level.contact_tolerance)?;
@@ -55,20 +51,13 @@ impl Export {
             return Err(vec![CliError::CommandLine(why)]);
         };
         let text = source::isolated(&self.scene, || {
-            figure::dxf(
-                &Analysis::with(source.scene.clone(), &self.level.options()),
-                0,
-            )
+            figure::dxf(&Analysis::with(source.scene.clone(), &self.level.options()), 0)
         });
         let bytes = text.map_err(|c| vec![c])?.into_bytes();
         match file {
             // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
             Some(path) => {
-                let existing = if self.force {
-                    Existing::Replace
-                } else {
-                    Existing::Keep
-                };
+                let existing = if self.force { Existing::Replace } else { Existing::Keep };
                 let written = destination::write(&[(path.to_owned(), bytes)], existing);
                 written.map(|()| terminal.note(&format!("wrote {}", path.display())))
             }

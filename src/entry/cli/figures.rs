@@ -43,10 +43,8 @@ impl Figures {
             Some(format) => vec![format],
             None => vec![Format::Svg, Format::Png, Format::Pdf],
         };
-        let drawn: Vec<Result<Files, CliError>> = plates
-            .par_iter()
-            .map(|plate| files(plate, &formats, &self.output))
-            .collect();
+        let drawn: Vec<Result<Files, CliError>> =
+            plates.par_iter().map(|plate| files(plate, &formats, &self.output)).collect();
         let mut files = Vec::new();
         let mut complaints = Vec::new();
         for result in drawn {
@@ -66,11 +64,7 @@ impl Figures {
         let count = files.len();
         destination::make_folder(&self.output).map_err(|c| vec![c])?;
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
-        terminal.note(&format!(
-            "{}: {} figures, {count} files",
-            self.output.display(),
-            plates.len()
-        ));
+        terminal.note(&format!("{}: {} figures, {count} files", self.output.display(), plates.len()));
         Ok(ExitStatus::Done)
     }
 }
@@ -85,10 +79,8 @@ fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliE
     };
     let file = |format: &Format| {
         let bytes = format.write(&plate.drawing, &settings);
-        let bytes = bytes.map_err(|error| CliError::NotWritten {
-            what: plate.name.to_owned(),
-            why: error.to_string(),
-        })?;
+        let bytes =
+            bytes.map_err(|error| CliError::NotWritten { what: plate.name.to_owned(), why: error.to_string() })?;
         let path = folder.join(format!("{}.{}", plate.name, format.ending()));
         Ok((path, bytes))
     };

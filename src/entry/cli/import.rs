@@ -102,17 +102,9 @@ impl Import {
         let stdout = Path::new("-");
         let file = self.output.as_deref().filter(|path| *path != stdout);
         self.check_options(file).map_err(|c| vec![c])?;
-        let existing = if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        };
+        let existing = if self.force { Existing::Replace } else { Existing::Keep };
         let format = self.format().map_err(|c| vec![c])?;
-        let name = if self.drawing == stdout {
-            "standard input".into()
-        } else {
-            self.drawing.display().to_string()
-        };
+        let name = if self.drawing == stdout { "standard input".into() } else { self.drawing.display().to_string() };
         let text = self.text(&name, format).map_err(|c| vec![c])?;
         // A .json file may have one of three formats. Its content decides which.
         let format = match (self.format, format) {
@@ -137,9 +129,7 @@ impl Import {
                 let files = [(path.to_owned(), scene.into_bytes())];
                 destination::write(&files, existing).map_err(|c| vec![c])?;
             }
-            None => terminal
-                .print_bytes(scene.as_bytes())
-                .map_err(|c| vec![c])?,
+            None => terminal.print_bytes(scene.as_bytes()).map_err(|c| vec![c])?,
         }
         self.print_summary(terminal, &name, &imported);
         if self.json {
@@ -182,10 +172,7 @@ impl Import {
                 FormatArg::Compas => Format::Compas,
             });
         }
-        let ending = self
-            .drawing
-            .extension()
-            .map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let ending = self.drawing.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Format::Svg),
             Some("dxf") => Ok(Format::Dxf),
@@ -214,10 +201,7 @@ impl Import {
         } else {
             fs::read(&self.drawing)
         };
-        let bytes = bytes.map_err(|error| CliError::NotRead {
-            what: name.into(),
-            why: error.to_string(),
-        })?;
+        let bytes = bytes.map_err(|error| CliError::NotRead { what: name.into(), why: error.to_string() })?;
         // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these
         // files are read as Latin-1, even if some letters of names are then wrong.
         if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
@@ -225,10 +209,7 @@ impl Import {
         }
         String::from_utf8(bytes).map_err(|error| CliError::NotRead {
             what: name.into(),
-            why: format!(
-                "it is not valid UTF-8 from byte {} on; save it as UTF-8",
-                error.utf8_error().valid_up_to()
-            ),
+            why: format!("it is not valid UTF-8 from byte {} on; save it as UTF-8", error.utf8_error().valid_up_to()),
         })
     }
 
@@ -272,11 +253,7 @@ impl Import {
         let mut page = Page::new(&format!(
             "{name}: {}, {}, {}",
             count(scene.blocks.len(), "block", "blocks"),
-            count(
-                scene.ground.len(),
-                "part of the ground",
-                "parts of the ground"
-            ),
+            count(scene.ground.len(), "part of the ground", "parts of the ground"),
             count(scene.robots.len(), "robot", "robots"),
         ));
         if let Some(stone) = self.material {
@@ -299,14 +276,8 @@ impl Import {
         }
         if imported.snapped.len() > MAX_LISTED_BODIES {
             let more = imported.snapped.len() - MAX_LISTED_BODIES;
-            let most = imported
-                .snapped
-                .iter()
-                .map(|s| s.distance)
-                .fold(0.0, f64::max);
-            page.line(&format!(
-                "  snapped {more} more; the largest move of all is {most:.2e} m; --json lists them"
-            ));
+            let most = imported.snapped.iter().map(|s| s.distance).fold(0.0, f64::max);
+            page.line(&format!("  snapped {more} more; the largest move of all is {most:.2e} m; --json lists them"));
         }
         terminal.notes(&page);
     }
@@ -335,8 +306,5 @@ fn default_density_note(imported: &Imported) -> Option<String> {
     let scene = Scene::new(imported.scene.clone()).ok()?;
     let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
     let note = scene.notes().iter().find(is_it)?;
-    Some(format!(
-        "{}; give --density in kg/m³ or --material limestone",
-        note.message
-    ))
+    Some(format!("{}; give --density in kg/m³ or --material limestone", note.message))
 }

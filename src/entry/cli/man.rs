@@ -29,21 +29,13 @@ impl Manual {
         command.build();
         collect(&command, &mut pages).map_err(|error| {
             let what = self.folder.display().to_string();
-            vec![CliError::NotWritten {
-                what,
-                why: error.to_string(),
-            }]
+            vec![CliError::NotWritten { what, why: error.to_string() }]
         })?;
-        let files: Vec<(PathBuf, Vec<u8>)> = (pages.into_iter())
-            .map(|(name, page)| (self.folder.join(name), page))
-            .collect();
+        let files: Vec<(PathBuf, Vec<u8>)> =
+            (pages.into_iter()).map(|(name, page)| (self.folder.join(name), page)).collect();
         destination::make_folder(&self.folder).map_err(|c| vec![c])?;
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
-        terminal.note(&format!(
-            "wrote {} pages into {}",
-            files.len(),
-            self.folder.display()
-        ));
+        terminal.note(&format!("wrote {} pages into {}", files.len(), self.folder.display()));
         Ok(ExitStatus::Done)
     }
 }

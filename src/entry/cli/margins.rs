@@ -73,11 +73,7 @@ impl MarginArgs {
     pub(crate) fn add_to(&self, options: Options) -> Options {
         match self.margins.as_deref() {
             None => options,
-            Some(names) => Options {
-                margins: true,
-                margin_kinds: kinds(names),
-                ..options
-            },
+            Some(names) => Options { margins: true, margin_kinds: kinds(names), ..options },
         }
     }
 

@@ -32,27 +32,15 @@ enum MdBookCommand {
 impl MdBook {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         if let Some(MdBookCommand::Supports { renderer }) = &self.command {
-            return Ok(if renderer == "html" {
-                ExitStatus::Done
-            } else {
-                ExitStatus::Unstable
-            });
+            return Ok(if renderer == "html" { ExitStatus::Done } else { ExitStatus::Unstable });
         }
         let mut input = String::new();
         io::stdin()
             .lock()
             .read_to_string(&mut input)
-            .map_err(|error| {
-                vec![CliError::NotRead {
-                    what: "standard input".into(),
-                    why: error.to_string(),
-                }]
-            })?;
-        let drawn =
-            book::illustrate(&input).map_err(|problems| vec![CliError::Book(problems.0)])?;
-        terminal
-            .print_bytes(drawn.as_bytes())
-            .map_err(|c| vec![c])?;
+            .map_err(|error| vec![CliError::NotRead { what: "standard input".into(), why: error.to_string() }])?;
+        let drawn = book::illustrate(&input).map_err(|problems| vec![CliError::Book(problems.0)])?;
+        terminal.print_bytes(drawn.as_bytes()).map_err(|c| vec![c])?;
         Ok(ExitStatus::Done)
     }
 }

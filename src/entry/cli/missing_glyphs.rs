@@ -67,9 +67,5 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
 /// point, because a combining character would change the characters next to it.
 fn character(c: char) -> String {
     let number = format!("U+{:04X}", u32::from(c));
-    if c.is_alphanumeric() {
-        format!("{c} ({number})")
-    } else {
-        number
-    }
+    if c.is_alphanumeric() { format!("{c} ({number})") } else { number }
 }

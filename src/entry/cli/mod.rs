@@ -158,9 +158,5 @@ fn complain(terminal: &Terminal, complaints: &[CliError]) -> ExitStatus {
     for complaint in complaints {
         terminal.refuse(complaint);
     }
-    complaints
-        .iter()
-        .map(CliError::ending)
-        .max()
-        .unwrap_or(ExitStatus::Done)
+    complaints.iter().map(CliError::ending).max().unwrap_or(ExitStatus::Done)
 }

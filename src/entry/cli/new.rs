@@ -145,72 +145,19 @@ fn at_least_zero(typed: &str) -> Result<f64, String> {
 impl Structure {
     fn text(&self) -> String {
         let scene = match *self {
-            Structure::Arch {
-                voussoirs,
-                span,
-                thickness,
-                friction,
-            } => Arch {
-                voussoirs,
-                span,
-                thickness,
-                friction,
+            Structure::Arch { voussoirs, span, thickness, friction } => {
+                Arch { voussoirs, span, thickness, friction }.scene()
             }
-            .scene(),
-            Structure::Wall {
-                courses,
-                bricks,
-                length,
-                height,
-                friction,
-            } => Wall {
-                courses,
-                bricks,
-                length,
-                height,
-                friction,
+            Structure::Wall { courses, bricks, length, height, friction } => {
+                Wall { courses, bricks, length, height, friction }.scene()
             }
-            .scene(),
-            Structure::Tower {
-                blocks,
-                width,
-                height,
-                lean,
-                friction,
-            } => Tower {
-                blocks,
-                width,
-                height,
-                lean,
-                friction,
+            Structure::Tower { blocks, width, height, lean, friction } => {
+                Tower { blocks, width, height, lean, friction }.scene()
             }
-            .scene(),
-            Structure::Doorway {
-                courses,
-                width,
-                height,
-                jamb,
-                lintel,
-                friction,
-            } => Doorway {
-                courses,
-                width,
-                height,
-                jamb,
-                lintel,
-                friction,
+            Structure::Doorway { courses, width, height, jamb, lintel, friction } => {
+                Doorway { courses, width, height, jamb, lintel, friction }.scene()
             }
-            .scene(),
-            Structure::Lattice {
-                rows,
-                side,
-                friction,
-            } => LatticePile {
-                rows,
-                side,
-                friction,
-            }
-            .scene(),
+            Structure::Lattice { rows, side, friction } => LatticePile { rows, side, friction }.scene(),
         };
         scene.to_json()
     }
@@ -225,11 +172,7 @@ impl New {
                 Example::Falls => crate::scene::falling_starter().to_owned(),
             },
         };
-        match self
-            .output
-            .as_deref()
-            .filter(|path| *path != Path::new("-"))
-        {
+        match self.output.as_deref().filter(|path| *path != Path::new("-")) {
             None => terminal.print_bytes(text.as_bytes()),
             Some(path) => self.write(path, &text, terminal),
         }
@@ -239,15 +182,9 @@ impl New {
 
     fn write(&self, path: &Path, text: &str, terminal: &Terminal) -> Result<(), CliError> {
         let shown = path.display();
-        let existing = if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        };
+        let existing = if self.force { Existing::Replace } else { Existing::Keep };
         destination::write(&[(path.to_owned(), text.as_bytes().to_vec())], existing)?;
-        terminal.note(&format!(
-            "wrote {shown}; see what it does with: drystone render {shown} -o scene.svg"
-        ));
+        terminal.note(&format!("wrote {shown}; see what it does with: drystone render {shown} -o scene.svg"));
         Ok(())
     }
 }

@@ -94,10 +94,7 @@ impl Picture {
 
     /// Selects fast PNG compression, for a command that writes many pictures. The files become larger.
     pub(crate) fn of_many(self) -> Picture {
-        Picture {
-            compression: Compression::Quick,
-            ..self
-        }
+        Picture { compression: Compression::Quick, ..self }
     }
 
     /// Refuses options that do not apply to a format.
@@ -116,11 +113,7 @@ impl Picture {
                 "--text is for an SVG; a PNG contains no text, a PDF always contains its fonts, and LaTeX sets the text of TikZ. Leave out --text",
             );
         }
-        if wrong.is_empty() {
-            Ok(())
-        } else {
-            Err(CliError::CommandLine(wrong.join("\n")))
-        }
+        if wrong.is_empty() { Ok(()) } else { Err(CliError::CommandLine(wrong.join("\n"))) }
     }
 
     /// Returns the drawing with the background that `--background` selects.
@@ -136,12 +129,7 @@ impl Picture {
     }
 
     /// Returns a drawing as the bytes of a file in this format.
-    pub(crate) fn bytes(
-        &self,
-        drawing: Drawing,
-        format: Format,
-        fonts: &Fonts,
-    ) -> Result<Vec<u8>, CliError> {
+    pub(crate) fn bytes(&self, drawing: Drawing, format: Format, fonts: &Fonts) -> Result<Vec<u8>, CliError> {
         let drawing = self.on_page(drawing);
         let settings = Settings {
             size: self.size(),
@@ -164,10 +152,7 @@ impl Picture {
         if let Some((drawing, _)) = drawings.first() {
             self.check_png((drawing.width, drawing.height))?;
         }
-        let step = |(drawing, seconds)| Step {
-            svg: svg::for_pixels(&self.on_page(drawing)),
-            seconds,
-        };
+        let step = |(drawing, seconds)| Step { svg: svg::for_pixels(&self.on_page(drawing)), seconds };
         let steps: Vec<Step> = drawings.into_iter().map(step).collect();
         animate(&steps, self.size(), fonts).map_err(png_error)
     }
@@ -196,16 +181,14 @@ impl Picture {
     pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
         let mut files = Vec::new();
         for path in &self.fonts {
-            files.push(fs::read(path).map_err(|error| CliError::NotRead {
-                what: path.display().to_string(),
-                why: error.to_string(),
-            })?);
+            files.push(
+                fs::read(path)
+                    .map_err(|error| CliError::NotRead { what: path.display().to_string(), why: error.to_string() })?,
+            );
         }
         Fonts::with(files).map_err(|number| {
             let name = self.fonts[number].display();
-            CliError::CommandLine(format!(
-                "--font {name}: it is not a font; give a .ttf, .otf or .ttc file"
-            ))
+            CliError::CommandLine(format!("--font {name}: it is not a font; give a .ttf, .otf or .ttc file"))
         })
     }
 
@@ -229,10 +212,7 @@ impl Picture {
         match (self.width, self.scale, self.width_mm) {
             (Some(width), _, _) => Size::Width(width),
             (None, Some(scale), _) => Size::Scale(scale),
-            (None, None, Some(width_mm)) => Size::Print {
-                width_mm,
-                dpi: self.dpi.unwrap_or(300.0),
-            },
+            (None, None, Some(width_mm)) => Size::Print { width_mm, dpi: self.dpi.unwrap_or(300.0) },
             (None, None, None) => Size::Scale(2.0),
         }
     }
@@ -254,10 +234,7 @@ pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
 fn format_error(error: FormatError) -> CliError {
     match error {
         FormatError::Size(why) => CliError::CommandLine(why),
-        FormatError::Write(why) => CliError::NotWritten {
-            what: "the picture".into(),
-            why,
-        },
+        FormatError::Write(why) => CliError::NotWritten { what: "the picture".into(), why },
     }
 }
 
@@ -266,21 +243,11 @@ fn png_error(error: PngError) -> CliError {
 }
 
 fn millimetres(typed: &str) -> Result<f64, String> {
-    between(
-        typed,
-        pdf::MIN_SIDE_MM,
-        pdf::MAX_SIDE_MM,
-        "a width in millimetres, such as 84 or 174",
-    )
+    between(typed, pdf::MIN_SIDE_MM, pdf::MAX_SIDE_MM, "a width in millimetres, such as 84 or 174")
 }
 
 fn dots(typed: &str) -> Result<f64, String> {
-    between(
-        typed,
-        1.0,
-        10_000.0,
-        "a number of pixels per inch, such as 300 or 600",
-    )
+    between(typed, 1.0, 10_000.0, "a number of pixels per inch, such as 300 or 600")
 }
 
 fn between(typed: &str, least: f64, most: f64, what: &str) -> Result<f64, String> {
@@ -293,9 +260,7 @@ fn between(typed: &str, least: f64, most: f64, what: &str) -> Result<f64, String
 fn background(typed: &str) -> Result<Background, String> {
     let hex = |digits: &str| {
         let sound = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        sound
-            .then(|| u32::from_str_radix(digits, 16).ok())
-            .flatten()
+        sound.then(|| u32::from_str_radix(digits, 16).ok()).flatten()
     };
     match typed {
         "none" => Ok(Background::Clear),
@@ -314,13 +279,8 @@ mod tests {
     #[test]
     fn a_background_is_none_or_a_colour_of_six_digits() {
         assert_eq!(background("none"), Ok(Background::Clear));
-        assert_eq!(
-            background("#F4f1ea"),
-            Ok(Background::Plain(Colour([0xf4, 0xf1, 0xea])))
-        );
-        for wrong in [
-            "", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï",
-        ] {
+        assert_eq!(background("#F4f1ea"), Ok(Background::Plain(Colour([0xf4, 0xf1, 0xea]))));
+        for wrong in ["", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï"] {
             assert!(background(wrong).is_err(), "{wrong}");
         }
     }

@@ -26,19 +26,14 @@ impl Progress {
     /// Starts a progress bar with this number of steps. With [`BarVisibility::Never`], nothing is drawn.
     pub(crate) fn begin(steps: usize, shown: BarVisibility) -> Progress {
         match shown {
-            BarVisibility::Never => Progress {
-                bar: ProgressBar::hidden(),
-                waiter: None,
-            },
+            BarVisibility::Never => Progress { bar: ProgressBar::hidden(), waiter: None },
             BarVisibility::WhenLong => Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr()),
         }
     }
 
     fn on(steps: usize, patience: Duration, target: ProgressDrawTarget) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
-        if let Ok(style) =
-            ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len}{trials} {elapsed}")
-        {
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {wide_bar} {pos}/{len}{trials} {elapsed}") {
             let before = trials();
             let counted = move |_: &ProgressState, to: &mut dyn std::fmt::Write| {
                 let since = trials().saturating_sub(before);
@@ -60,10 +55,7 @@ impl Progress {
                 waiting.tick();
             }
         });
-        Progress {
-            bar,
-            waiter: Some((done, waiter)),
-        }
+        Progress { bar, waiter: Some((done, waiter)) }
     }
 
     /// Shows a description of the current work.
@@ -158,10 +150,7 @@ mod tests {
         let scene = crate::scene::Scene::from_json(
             r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#,
         );
-        let options = crate::analysis::Options {
-            margins: true,
-            ..Default::default()
-        };
+        let options = crate::analysis::Options { margins: true, ..Default::default() };
         crate::analysis::Analysis::with(scene.expect("valid"), &options);
         thread::sleep(Duration::from_millis(300));
         drop(progress);
@@ -171,11 +160,7 @@ mod tests {
 
     fn drawn(patience: Duration, work: Duration) -> String {
         let paper = Paper::default();
-        let progress = Progress::on(
-            3,
-            patience,
-            ProgressDrawTarget::term_like(Box::new(paper.clone())),
-        );
+        let progress = Progress::on(3, patience, ProgressDrawTarget::term_like(Box::new(paper.clone())));
         progress.doing("wall.json");
         progress.step();
         thread::sleep(work);

@@ -59,13 +59,10 @@ impl Render {
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let one = |complaint| vec![complaint];
         let destination = Destination::from_path(&self.output);
-        let format = destination
-            .format(self.picture.requested_format())
-            .map_err(one)?;
+        let format = destination.format(self.picture.requested_format()).map_err(one)?;
         self.check_kind(format).map_err(one)?;
         let scenes = source::files(&self.scenes).map_err(one)?;
-        self.check_count(&scenes, &destination, format, terminal)
-            .map_err(one)?;
+        self.check_count(&scenes, &destination, format, terminal).map_err(one)?;
         self.check_parts(&destination).map_err(one)?;
         let fonts = self.picture.fonts().map_err(one)?;
         if self.broken {
@@ -101,8 +98,7 @@ impl Render {
         if self.picture.draws_words(format) {
             missing_glyphs::warn(&sources, &fonts, terminal);
         }
-        self.write(rendered, &destination, &paths, terminal)
-            .map_err(one)?;
+        self.write(rendered, &destination, &paths, terminal).map_err(one)?;
         for fault in &faults {
             terminal.refuse(fault);
         }
@@ -121,9 +117,7 @@ impl Render {
             "--block names the block of a free-body diagram; add --kind freebody"
         } else if self.corners && !is_freebody {
             "--corners applies to the forces of a free-body diagram; add --kind freebody"
-        } else if self.animate.is_some()
-            && (format.animate().is_none() || self.kind.panels().is_none())
-        {
+        } else if self.animate.is_some() && (format.animate().is_none() || self.kind.panels().is_none()) {
             "--animate makes a GIF or PNG of the frames of a figure; write a .gif or .png, of any kind but freebody"
         } else {
             return Ok(());
@@ -165,25 +159,18 @@ impl Render {
         fonts: &Fonts,
         terminal: &Terminal,
     ) -> Vec<Result<Rendered, CliError>> {
-        let shown = if terminal.shows_progress() {
-            BarVisibility::WhenLong
-        } else {
-            BarVisibility::Never
-        };
+        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut analysis_options = self.level.options();
         analysis_options.margins = self.kind.needs_margins();
         match sources {
             [before, after] if joins => {
-                let work =
-                    || self.compared([before, after], &analysis_options, options, format, fonts);
+                let work = || self.compared([before, after], &analysis_options, options, format, fonts);
                 vec![source::isolated(&after.path, work).flatten()]
             }
             sources => {
                 let one = |source: &Source| {
-                    let work = || {
-                        self.render(source, &analysis_options, options, format, fonts, &progress)
-                    };
+                    let work = || self.render(source, &analysis_options, options, format, fonts, &progress);
                     source::isolated(&source.path, work).flatten()
                 };
                 sources.par_iter().map(one).collect()
@@ -202,9 +189,7 @@ impl Render {
     ) -> Result<(), CliError> {
         if self.joins(scenes.len(), destination) {
             return match (destination, format.unreadable()) {
-                (Destination::Stdout, Some(why)) if terminal.is_watched() => {
-                    Err(CliError::CommandLine(why))
-                }
+                (Destination::Stdout, Some(why)) if terminal.is_watched() => Err(CliError::CommandLine(why)),
                 _ => Ok(()),
             };
         }
@@ -275,10 +260,7 @@ impl Render {
             (None, kind) => {
                 let drawing = self.drawing(source, &analysis, options)?;
                 let high = self.picture.page_ratio() * drawing.width;
-                if kind.is_some()
-                    && analysis.frames.len() > 1
-                    && drawing.height > MAX_PAGE_HEIGHTS * high
-                {
+                if kind.is_some() && analysis.frames.len() > 1 && drawing.height > MAX_PAGE_HEIGHTS * high {
                     summary.push_str("; taller than an A4 page, --pages splits it");
                 }
                 let bytes = self.picture.bytes(drawing, format, fonts);
@@ -286,19 +268,11 @@ impl Render {
             }
         };
         progress.step();
-        Ok(Rendered {
-            bytes,
-            ending: ExitStatus::from_analysis(&analysis),
-            summary,
-        })
+        Ok(Rendered { bytes, ending: ExitStatus::from_analysis(&analysis), summary })
     }
 
     /// Returns the options with the block that `--zoom` names.
-    fn zoomed(
-        &self,
-        source: &Source,
-        options: &figure::Options,
-    ) -> Result<figure::Options, CliError> {
+    fn zoomed(&self, source: &Source, options: &figure::Options) -> Result<figure::Options, CliError> {
         let mut options = options.clone();
         if let Some(name) = &self.zoom {
             let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
@@ -308,12 +282,7 @@ impl Render {
     }
 
     /// Draws the pages or the panels of a figure.
-    fn parts(
-        &self,
-        analysis: &Analysis,
-        kind: figure::Kind,
-        options: &figure::Options,
-    ) -> Vec<Drawing> {
+    fn parts(&self, analysis: &Analysis, kind: figure::Kind, options: &figure::Options) -> Vec<Drawing> {
         if self.pages {
             figure::split(analysis, kind, options, self.picture.page_ratio())
         } else {
@@ -349,12 +318,7 @@ impl Render {
         }
     }
 
-    fn drawing(
-        &self,
-        source: &Source,
-        analysis: &Analysis,
-        options: &figure::Options,
-    ) -> Result<Drawing, CliError> {
+    fn drawing(&self, source: &Source, analysis: &Analysis, options: &figure::Options) -> Result<Drawing, CliError> {
         if let Some(kind) = self.kind.panels() {
             return Ok(figure::draw(analysis, kind, options));
         }
@@ -378,11 +342,7 @@ impl Render {
             scale_bar: self.scale_bar,
             dimensions: self.dimensions,
             with_polygon: self.with_polygon,
-            corners: if self.corners {
-                figure::Corners::All
-            } else {
-                figure::Corners::Few
-            },
+            corners: if self.corners { figure::Corners::All } else { figure::Corners::Few },
             columns: self.columns.map(usize::from),
             amounts: self.amounts,
             width: self.picture.page(),

@@ -78,11 +78,7 @@ pub(crate) struct Report {
 }
 
 /// The margins in a report, unless `--margins` requests all margins.
-const DEFAULT_MARGINS: [MarginKind; 3] = [
-    MarginKind::LoadFactor,
-    MarginKind::Friction,
-    MarginKind::Tilt,
-];
+const DEFAULT_MARGINS: [MarginKind; 3] = [MarginKind::LoadFactor, MarginKind::Friction, MarginKind::Tilt];
 
 /// Files that are not valid scenes, with the error for the command line.
 type InvalidFiles = Vec<(Refused, CliError)>;
@@ -113,25 +109,17 @@ impl Report {
             dark: follows.then(|| Theme::named("dark")).flatten(),
             full: self.full,
             theme_name: self.look.name().map(str::to_owned),
-            timing: if self.timing {
-                Timing::Included
-            } else {
-                Timing::LeftOut
-            },
+            timing: if self.timing { Timing::Included } else { Timing::LeftOut },
         };
-        let TaskResults {
-            pieces,
-            wrong,
-            ending,
-        } = self
-            .describe_all(&tasks, form, &report_options, terminal)
-            .map_err(|c| vec![c])?;
+        let TaskResults { pieces, wrong, ending } =
+            self.describe_all(&tasks, form, &report_options, terminal).map_err(|c| vec![c])?;
         let (refused, complaints): (Vec<Refused>, Vec<CliError>) = wrong.into_iter().unzip();
         if pieces.is_empty() && !complaints.is_empty() {
             return Err(complaints);
         }
         if self.compare && pieces.len() > 1 {
-            let words = "The table shows the margins, friction, blocks and largest forces of the second scene of each pair.";
+            let words =
+                "The table shows the margins, friction, blocks and largest forces of the second scene of each pair.";
             notes.push(words.to_owned());
         }
         for complaint in &complaints {
@@ -178,9 +166,7 @@ impl Report {
             _ => self.output.clone(),
         };
         let inputs = tasks.iter().flat_map(Task::paths);
-        let inputs = inputs
-            .chain(self.look.file())
-            .chain(self.interactive.as_deref());
+        let inputs = inputs.chain(self.look.file()).chain(self.interactive.as_deref());
         let inputs: Vec<&Path> = inputs.collect();
         destination::refuse_overwrites(&[main], &inputs)
     }
@@ -203,19 +189,13 @@ impl Report {
             },
             ..self.level.options()
         };
-        let shown = if terminal.shows_progress() {
-            BarVisibility::WhenLong
-        } else {
-            BarVisibility::Never
-        };
+        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(tasks.len(), shown);
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
         let one = |(number, task): &(usize, &Task)| {
             progress.doing(&task.name());
             let first = task.paths()[0];
-            let made = source::isolated(first, || {
-                self.describe(task, number + 1, form, report_options, &options)
-            });
+            let made = source::isolated(first, || self.describe(task, number + 1, form, report_options, &options));
             progress.step();
             // If drystone itself fails on a scene, the overview lists this scene among the files that are not valid
             // scenes.
@@ -241,19 +221,12 @@ impl Report {
         if self.sort {
             pieces.sort_by(|a: &Piece, b: &Piece| a.row.reserve.total_cmp(&b.row.reserve));
         }
-        Ok(TaskResults {
-            pieces,
-            wrong,
-            ending,
-        })
+        Ok(TaskResults { pieces, wrong, ending })
     }
 
     fn form(&self) -> Result<Form, CliError> {
         let shown = self.output.display();
-        let ending = self
-            .output
-            .extension()
-            .map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let ending = self.output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let form = match ending.as_deref() {
             Some("html") => Form::Html,
             Some("md") => Form::Markdown,
@@ -268,8 +241,7 @@ impl Report {
             }
         };
         if self.split {
-            let why =
-                format!("{shown}: --split writes many pages; give a folder, without an ending");
+            let why = format!("{shown}: --split writes many pages; give a folder, without an ending");
             return Err(CliError::CommandLine(why));
         }
         Ok(form)
@@ -311,10 +283,7 @@ impl Report {
                 source.scene = missing_glyphs::legible(&source.scene, &Fonts::default());
             }
         }
-        let analyses: Vec<Analysis> = read
-            .iter()
-            .map(|(source, _)| Analysis::with(&source.scene, options))
-            .collect();
+        let analyses: Vec<Analysis> = read.iter().map(|(source, _)| Analysis::with(&source.scene, options)).collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));
@@ -344,11 +313,7 @@ impl Report {
                 Err(complaint) => wrong.push((refused(path, &complaint), complaint)),
             }
         }
-        if wrong.is_empty() {
-            Ok(read)
-        } else {
-            Err(wrong)
-        }
+        if wrong.is_empty() { Ok(read) } else { Err(wrong) }
     }
 
     fn write(&self, report: Page, form: Form) -> Result<(), CliError> {
@@ -356,9 +321,7 @@ impl Report {
             Form::Split => self.output.clone(),
             _ => self.output.parent().unwrap_or(Path::new("")).to_owned(),
         };
-        let made = report
-            .files(form, &self.stem())
-            .map_err(|error| undone(&error))?;
+        let made = report.files(form, &self.stem()).map_err(|error| undone(&error))?;
         let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::with_capacity(made.len());
         for (number, (name, bytes)) in made.into_iter().enumerate() {
             let path = match (form, number) {
@@ -368,11 +331,8 @@ impl Report {
             };
             files.push((path, bytes));
         }
-        let mut folders: Vec<&Path> = files
-            .iter()
-            .skip(usize::from(form != Form::Split))
-            .filter_map(|f| f.0.parent())
-            .collect();
+        let mut folders: Vec<&Path> =
+            files.iter().skip(usize::from(form != Form::Split)).filter_map(|f| f.0.parent()).collect();
         folders.dedup();
         for folder in folders {
             destination::make_folder(folder)?;
@@ -382,15 +342,9 @@ impl Report {
 }
 
 fn undone(error: &dyn std::error::Error) -> CliError {
-    CliError::NotWritten {
-        what: "the report".into(),
-        why: error.to_string(),
-    }
+    CliError::NotWritten { what: "the report".into(), why: error.to_string() }
 }
 
 fn refused(path: &Path, complaint: &CliError) -> Refused {
-    Refused {
-        name: path.display().to_string(),
-        problems: complaint.problems(),
-    }
+    Refused { name: path.display().to_string(), problems: complaint.problems() }
 }

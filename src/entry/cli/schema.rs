@@ -20,11 +20,7 @@ pub(crate) struct Schema {
 
 impl Schema {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let text = if self.result {
-            result::schema()
-        } else {
-            crate::scene::schema()
-        };
+        let text = if self.result { result::schema() } else { crate::scene::schema() };
         terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
         Ok(ExitStatus::Done)
     }

@@ -37,9 +37,7 @@ impl Shapes {
         let destination = Destination::from_path(&self.output);
         let format = destination.format(self.picture.requested_format())?;
         self.picture.check(format)?;
-        if let (Destination::Stdout, true, Some(why)) =
-            (&destination, terminal.is_watched(), format.unreadable())
-        {
+        if let (Destination::Stdout, true, Some(why)) = (&destination, terminal.is_watched(), format.unreadable()) {
             return Err(CliError::CommandLine(why));
         }
         let fonts = self.picture.fonts()?;

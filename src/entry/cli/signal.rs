@@ -14,9 +14,7 @@ use signal_hook::low_level::emulate_default_handler;
 pub(crate) fn listen() {
     let ignored = ignored();
     let wanted = [SIGINT, SIGTERM, SIGHUP, SIGXFSZ];
-    let wanted = wanted
-        .into_iter()
-        .filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    let wanted = wanted.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
     // If no handler can be installed, signals have their default effect.
     let Ok(mut signals) = Signals::new(wanted) else {
         return;
@@ -43,8 +41,7 @@ pub(crate) fn listen() {
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
-        .unwrap_or(0)
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
 /// Does nothing, because signals are handled only on Unix.

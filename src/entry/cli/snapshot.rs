@@ -61,11 +61,7 @@ impl Snapshot {
         if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
             return Err(vec![self.nothing_found_error()]);
         }
-        let shown = if terminal.shows_progress() {
-            BarVisibility::WhenLong
-        } else {
-            BarVisibility::Never
-        };
+        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let folders = folders(found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file));
         let access = if accepts { Access::Write } else { Access::Read };
         let turn = store::lock_folders(folders, access);
@@ -83,11 +79,7 @@ impl Snapshot {
             Some(Some(_)) => review::page(&report, &self.folders),
             _ => String::new(),
         };
-        let unwritten = if accepts {
-            report.store(Acceptance::Accept)
-        } else {
-            report.store(Acceptance::Propose)
-        };
+        let unwritten = if accepts { report.store(Acceptance::Accept) } else { report.store(Acceptance::Propose) };
         self.write_reports(&report, page).map_err(|c| vec![c])?;
         drop(turn);
         self.print_result(terminal, &report, &described, accepts, &failing)?;
@@ -126,9 +118,7 @@ impl Snapshot {
     fn check_options(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {
-            let html = page
-                .extension()
-                .is_some_and(|e| e.eq_ignore_ascii_case("html"));
+            let html = page.extension().is_some_and(|e| e.eq_ignore_ascii_case("html"));
             if !html {
                 return Err(CliError::CommandLine(format!(
                     "--review {}: the page is an .html file; to review the changes in the terminal, put --review \
@@ -138,9 +128,7 @@ impl Snapshot {
             }
         }
         if asks && accepts {
-            return refuse(
-                "--accept accepts all changes, and --review asks about each; leave one of them out",
-            );
+            return refuse("--accept accepts all changes, and --review asks about each; leave one of them out");
         }
         if store::in_ci() && !self.accept_in_ci && (self.accept || asks) {
             return refuse(
@@ -148,27 +136,14 @@ impl Snapshot {
                  --accept-in-ci if this is meant",
             );
         }
-        let outputs: Vec<PathBuf> = self
-            .review
-            .iter()
-            .flatten()
-            .chain(&self.junit)
-            .cloned()
-            .collect();
+        let outputs: Vec<PathBuf> = self.review.iter().flatten().chain(&self.junit).cloned().collect();
         destination::refuse_overwrites(&outputs, &[])
     }
 
     fn nothing_found_error(&self) -> CliError {
-        let places: Vec<String> = self
-            .folders
-            .iter()
-            .map(|f| f.display().to_string())
-            .collect();
+        let places: Vec<String> = self.folders.iter().map(|f| f.display().to_string()).collect();
         let filter = self.only.as_ref().map_or_else(String::new, |f| {
-            format!(
-                " whose path {} {f:?}",
-                if f.contains('*') { "fits" } else { "contains" }
-            )
+            format!(" whose path {} {f:?}", if f.contains('*') { "fits" } else { "contains" })
         });
         CliError::CommandLine(format!(
             "there is no scene under {}{filter}: a scene is a .json file with the key \"drystone\"",
@@ -198,21 +173,15 @@ impl Snapshot {
         }
         terminal.print(&page).map_err(|c| vec![c])?;
         let after: Vec<&str> = report.failing().map(|s| s.name.as_str()).collect();
-        let accepted = failing
-            .iter()
-            .filter(|name| !after.contains(&name.as_str()))
-            .count();
+        let accepted = failing.iter().filter(|name| !after.contains(&name.as_str())).count();
         if accepts {
             terminal.note(&format!("{accepted} accepted; {}", report.summary()));
             return Ok(());
         }
         terminal.note(&report.summary());
         if !report.matches() {
-            let places: Vec<String> = self
-                .folders
-                .iter()
-                .map(|f| crate::text::shell(&f.display().to_string()))
-                .collect();
+            let places: Vec<String> =
+                self.folders.iter().map(|f| crate::text::shell(&f.display().to_string())).collect();
             let places = places.join(" ");
             terminal.note(&format!("to review: drystone snapshot {places} --review review.html; to accept: drystone snapshot {places} --accept"));
         }
@@ -231,26 +200,15 @@ fn ending(report: &CheckOutcome) -> ExitStatus {
 }
 
 fn not_written(unwritten: WriteError) -> CliError {
-    CliError::NotWritten {
-        what: unwritten.path.display().to_string(),
-        why: unwritten.why.to_string(),
-    }
+    CliError::NotWritten { what: unwritten.path.display().to_string(), why: unwritten.why.to_string() }
 }
 
 fn complaints(faults: Vec<DiscoveryError>) -> Vec<CliError> {
     let name = |path: &Path| path.display().to_string();
     let complaint = |fault| match fault {
-        DiscoveryError::Scene { path, problems } => CliError::Scene {
-            name: name(&path),
-            problems,
-        },
-        DiscoveryError::Unreadable { path, reason } => CliError::NotRead {
-            what: name(&path),
-            why: reason,
-        },
-        DiscoveryError::Settings { path, problem } => {
-            CliError::CommandLine(format!("{}:{problem}", path.display()))
-        }
+        DiscoveryError::Scene { path, problems } => CliError::Scene { name: name(&path), problems },
+        DiscoveryError::Unreadable { path, reason } => CliError::NotRead { what: name(&path), why: reason },
+        DiscoveryError::Settings { path, problem } => CliError::CommandLine(format!("{}:{problem}", path.display())),
         DiscoveryError::Clash(words) => CliError::CommandLine(words),
     };
     faults.into_iter().map(complaint).collect()

@@ -37,16 +37,8 @@ impl Source {
             FrameChoice::Last => count - 1,
         };
         if number >= count {
-            let has = if count == 1 {
-                "one frame".into()
-            } else {
-                format!("{count} frames")
-            };
-            let why = format!(
-                "there is no frame {} in {}: it has {has}",
-                number + 1,
-                self.name()
-            );
+            let has = if count == 1 { "one frame".into() } else { format!("{count} frames") };
+            let why = format!("there is no frame {} in {}: it has {has}", number + 1, self.name());
             return Err(CliError::NoSuchFrame(why));
         }
         self.scene.frames = vec![self.scene.frames[number].clone()];
@@ -83,18 +75,8 @@ impl FromStr for FrameChoice {
         }
         let number = match typed.parse::<usize>() {
             Ok(number) => Some(number),
-            Err(_)
-                if typed.is_empty()
-                    || typed.len() > 3
-                    || !typed.bytes().all(|b| b.is_ascii_lowercase()) =>
-            {
-                None
-            }
-            Err(_) => Some(
-                typed
-                    .bytes()
-                    .fold(0, |sum, b| 26 * sum + usize::from(b - b'a') + 1),
-            ),
+            Err(_) if typed.is_empty() || typed.len() > 3 || !typed.bytes().all(|b| b.is_ascii_lowercase()) => None,
+            Err(_) => Some(typed.bytes().fold(0, |sum, b| 26 * sum + usize::from(b - b'a') + 1)),
         };
         match number {
             Some(number) if number > 0 => Ok(FrameChoice::Number(number - 1)),
@@ -150,9 +132,7 @@ pub(crate) fn read_each(
 ) -> Result<Vec<ReadResult>, CliError> {
     let paths = files(paths)?;
     if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
-        return Err(CliError::CommandLine(
-            "standard input (-) can be read only once".into(),
-        ));
+        return Err(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let outcome = |path: PathBuf| {
         let source = read_one(&path, tolerance).and_then(|mut source| match frame {
@@ -173,22 +153,13 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
             all.push(path.clone());
             continue;
         }
-        let listed = fs::read_dir(path).and_then(|entries| {
-            (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>()
-        });
-        let listed = listed.map_err(|error| CliError::NotRead {
-            what: name(path),
-            why: error.to_string(),
-        })?;
+        let listed = fs::read_dir(path)
+            .and_then(|entries| (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>());
+        let listed = listed.map_err(|error| CliError::NotRead { what: name(path), why: error.to_string() })?;
         let is_scene = |file: &PathBuf| file.extension() == Some(OsStr::new("json"));
-        let mut scenes: Vec<PathBuf> = (listed.into_iter())
-            .filter(|file| is_scene(file) && file.is_file())
-            .collect();
+        let mut scenes: Vec<PathBuf> = (listed.into_iter()).filter(|file| is_scene(file) && file.is_file()).collect();
         if scenes.is_empty() {
-            return Err(CliError::NotRead {
-                what: name(path),
-                why: "the folder contains no .json files".into(),
-            });
+            return Err(CliError::NotRead { what: name(path), why: "the folder contains no .json files".into() });
         }
         scenes.sort();
         all.append(&mut scenes);
@@ -208,19 +179,10 @@ pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, 
     } else {
         fs::read(path)
     };
-    let bytes = bytes.map_err(|error| CliError::NotRead {
-        what: name(path),
-        why: error.to_string(),
-    })?;
+    let bytes = bytes.map_err(|error| CliError::NotRead { what: name(path), why: error.to_string() })?;
     let scene = isolated(path, || Scene::from_slice_within(&bytes, tolerance))?;
-    let scene = scene.map_err(|problems| CliError::Scene {
-        name: name(path),
-        problems,
-    })?;
-    let source = Source {
-        path: path.to_owned(),
-        scene,
-    };
+    let scene = scene.map_err(|problems| CliError::Scene { name: name(path), problems })?;
+    let source = Source { path: path.to_owned(), scene };
     let text = String::from_utf8_lossy(&bytes);
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
 }
@@ -242,11 +204,7 @@ pub(crate) fn stem(path: &Path) -> String {
 
 /// Returns a path as text for messages; `standard input` for `-`.
 pub(crate) fn name(path: &Path) -> String {
-    if path == Path::new("-") {
-        "standard input".into()
-    } else {
-        path.display().to_string()
-    }
+    if path == Path::new("-") { "standard input".into() } else { path.display().to_string() }
 }
 
 #[cfg(test)]
@@ -255,15 +213,7 @@ mod tests {
 
     #[test]
     fn frames_are_chosen_by_number_or_letter() {
-        for (typed, number) in [
-            ("1", 0),
-            ("12", 11),
-            ("a", 0),
-            ("f", 5),
-            ("z", 25),
-            ("aa", 26),
-            ("ab", 27),
-        ] {
+        for (typed, number) in [("1", 0), ("12", 11), ("a", 0), ("f", 5), ("z", 25), ("aa", 26), ("ab", 27)] {
             assert_eq!(typed.parse(), Ok(FrameChoice::Number(number)), "{typed}");
         }
         assert_eq!("last".parse(), Ok(FrameChoice::Last));

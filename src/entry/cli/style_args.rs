@@ -51,9 +51,7 @@ impl StyleArgs {
 
 fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
     let name = path.display().to_string();
-    let ending = path
-        .extension()
-        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let notation = match ending.as_deref() {
         Some("json") => Notation::Json,
         Some("toml") => Notation::Toml,
@@ -64,9 +62,7 @@ fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
             )));
         }
     };
-    let text = fs::read_to_string(path).map_err(|error| CliError::NotRead {
-        what: name.clone(),
-        why: error.to_string(),
-    })?;
+    let text =
+        fs::read_to_string(path).map_err(|error| CliError::NotRead { what: name.clone(), why: error.to_string() })?;
     Theme::read(&text, notation, base).map_err(|problems| CliError::Style { name, problems })
 }

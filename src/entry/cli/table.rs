@@ -20,48 +20,18 @@ const MEANINGS: [[&str; 2]; 16] = [
         "stands",
         "some set of admissible forces balances every block. The blocks are rigid, laid dry and at rest; a balance that exists only by wedging counts too.",
     ],
-    [
-        "falls",
-        "no set of admissible forces balances every block, and a motion proves it.",
-    ],
-    [
-        "undecided",
-        "it was proved neither that the frame stands nor that it falls; the reason is below the row.",
-    ],
+    ["falls", "no set of admissible forces balances every block, and a motion proves it."],
+    ["undecided", "it was proved neither that the frame stands nor that it falls; the reason is below the row."],
     ["weight", "the weight of all placed blocks, in newtons"],
-    [
-        "largest",
-        "the largest force between two bodies, in newtons",
-    ],
-    [
-        "between",
-        "the two bodies between which the largest force acts",
-    ],
-    [
-        "friction",
-        "the largest ratio of friction force to friction limit at any contact",
-    ],
-    [
-        "robots",
-        "the largest ratio of a robot's force or torque to its limit",
-    ],
+    ["largest", "the largest force between two bodies, in newtons"],
+    ["between", "the two bodies between which the largest force acts"],
+    ["friction", "the largest ratio of friction force to friction limit at any contact"],
+    ["robots", "the largest ratio of a robot's force or torque to its limit"],
     ["-", "no value, because the frame falls or is undecided"],
-    [
-        "comes off",
-        "the two bodies separate; the number is the pull that would have to hold them together",
-    ],
-    [
-        "slides",
-        "the contact exceeds its friction; the number is the force that is missing",
-    ],
-    [
-        "forces",
-        "with --verbose: the sum of all normal, friction and robot forces",
-    ],
-    [
-        "sticking",
-        "with --verbose: the sum of the missing forces, with which the frame would stand",
-    ],
+    ["comes off", "the two bodies separate; the number is the pull that would have to hold them together"],
+    ["slides", "the contact exceeds its friction; the number is the force that is missing"],
+    ["forces", "with --verbose: the sum of all normal, friction and robot forces"],
+    ["sticking", "with --verbose: the sum of the missing forces, with which the frame would stand"],
     [
         "proof",
         "with --verbose: the error of the balance relative to the forces on a block; or the power of a motion relative to the loads of the moving blocks",
@@ -70,10 +40,7 @@ const MEANINGS: [[&str; 2]; 16] = [
         "margins",
         "with --margins: the values at which the frame stands, and the current value; the factor on the loads comes first, or otherwise the margin closest to its limit",
     ],
-    [
-        "note",
-        "an input that is allowed but rarely intended, and how to silence this note",
-    ],
+    ["note", "an input that is allowed but rarely intended, and how to silence this note"],
 ];
 /// The indentation of the meanings, and the width of their lines on wide terminals, in columns.
 const MEANING_INDENT_AND_WIDTH: [usize; 2] = [10, 68];
@@ -136,10 +103,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     page.end();
     let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());
     let columns = COLUMN_HEADS.len() - usize::from(!has_robots);
-    let heads: Vec<String> = COLUMN_HEADS[..columns]
-        .iter()
-        .map(|h| (*h).to_owned())
-        .collect();
+    let heads: Vec<String> = COLUMN_HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();
     let mut rows: Vec<Vec<String>> = (scene.frames.iter().zip(&analysis.frames).enumerate())
         .map(|(i, (step, f))| {
             let mut cells = row(scene, label(scene, i, &step.title), f);
@@ -172,9 +136,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
 }
 
 /// The headings of the columns. The last column is present only if there are robots.
-const COLUMN_HEADS: [&str; 7] = [
-    "frame", "verdict", "weight", "largest", "between", "friction", "robots",
-];
+const COLUMN_HEADS: [&str; 7] = ["frame", "verdict", "weight", "largest", "between", "friction", "robots"];
 
 fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     let widest = |column: usize| {
@@ -187,12 +149,9 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
 /// Shortens titles of frames and names of bodies so that rows have at most `width` columns; false if this is impossible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
     let least = [MIN_TITLE.max(seen(&heads[0])), seen(&heads[BODIES_COLUMN])];
-    for (column, least) in [
-        (0, READABLE_WIDTHS[0]),
-        (BODIES_COLUMN, READABLE_WIDTHS[1]),
-        (BODIES_COLUMN, least[1]),
-        (0, least[0]),
-    ] {
+    for (column, least) in
+        [(0, READABLE_WIDTHS[0]), (BODIES_COLUMN, READABLE_WIDTHS[1]), (BODIES_COLUMN, least[1]), (0, least[0])]
+    {
         let widths = widths(rows, heads);
         let beyond = row_width(&widths).saturating_sub(width);
         if beyond == 0 {
@@ -290,16 +249,10 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
     let exists = |cell: String| if stands { cell } else { "-".into() };
     let force = |contact: &Contact| contact.resultant.force.norm();
     let contacts = frame.contacts.iter();
-    let largest = contacts
-        .clone()
-        .max_by(|a, b| force(a).total_cmp(&force(b)));
+    let largest = contacts.clone().max_by(|a, b| force(a).total_cmp(&force(b)));
     let between = largest.map_or("-".into(), |contact| {
         let [a, b] = contact.interface.bodies.map(|id| scene.name(id));
-        format!(
-            "{}/{}",
-            heading(a, MAX_BODY_NAME),
-            heading(b, MAX_BODY_NAME)
-        )
+        format!("{}/{}", heading(a, MAX_BODY_NAME), heading(b, MAX_BODY_NAME))
     });
     let friction = contacts.map(|c| c.friction_used).fold(0.0, f64::max);
     let limit = frame.robots.iter().map(|r| r.limit_used);
@@ -349,49 +302,30 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     }
     remarks.extend(match (state.expected, frame.verdict) {
         (Some(Expectation::Unstable), Verdict::Unstable) => Some("falls, as expected".to_owned()),
-        (Some(Expectation::Unstable), Verdict::Stable) => {
-            Some("stands, but its `expect` says unstable".to_owned())
-        }
-        (Some(Expectation::Stable), Verdict::Unstable) => {
-            Some("falls, but its `expect` says stable".to_owned())
-        }
+        (Some(Expectation::Unstable), Verdict::Stable) => Some("stands, but its `expect` says unstable".to_owned()),
+        (Some(Expectation::Stable), Verdict::Unstable) => Some("falls, but its `expect` says stable".to_owned()),
         _ => None,
     });
-    let failures: Vec<String> = frame
-        .failures
-        .iter()
-        .take(MAX_LISTED_FAILURES)
-        .map(|f| failure::sentence(scene, f))
-        .collect();
+    let failures: Vec<String> =
+        frame.failures.iter().take(MAX_LISTED_FAILURES).map(|f| failure::sentence(scene, f)).collect();
     remarks.extend(failures);
     if frame.failures.len() > MAX_LISTED_FAILURES {
-        remarks.push(format!(
-            "and {} more",
-            frame.failures.len() - MAX_LISTED_FAILURES
-        ));
+        remarks.push(format!("and {} more", frame.failures.len() - MAX_LISTED_FAILURES));
     }
     remarks.extend(failure::unsupported(scene, frame, MAX_LISTED_FAILURES));
     if !frame.doubts.is_empty() {
         remarks.push(frame.doubt());
     }
     if frame.only_by_wedging == Some(true) {
-        remarks.push(
-            "stands only by wedging: its loads alone do not build up the forces that hold it"
-                .into(),
-        );
+        remarks.push("stands only by wedging: its loads alone do not build up the forces that hold it".into());
     }
-    let wedging = frame
-        .effects
-        .iter()
-        .find(|e| e.effect == EffectName::Wedging && e.simulated);
+    let wedging = frame.effects.iter().find(|e| e.effect == EffectName::Wedging && e.simulated);
     if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
         remarks.push(format!("wedging: {}", effect.why));
     }
     remarks.extend(margin::lines(scene, frame));
     let carried = frame.capacity.iter();
-    remarks.extend(
-        carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))),
-    );
+    remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }

@@ -47,9 +47,7 @@ impl Terminal {
             Colour::Never => ColorChoice::Never,
         };
         choice.write_global();
-        Terminal {
-            quiet: output.quiet,
-        }
+        Terminal { quiet: output.quiet }
     }
 
     /// True if `--quiet` is given: tables, notes and progress are not printed.
@@ -76,11 +74,7 @@ impl Terminal {
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
-        written(
-            stream
-                .write_all(page.text().as_bytes())
-                .and_then(|()| stream.flush()),
-        )
+        written(stream.write_all(page.text().as_bytes()).and_then(|()| stream.flush()))
     }
 
     /// Prints bytes to standard output unchanged: a picture, or JSON that is already escaped.
@@ -121,8 +115,7 @@ pub(crate) fn error_width() -> Option<usize> {
 }
 
 fn columns(size: Option<(Width, Height)>) -> Option<usize> {
-    size.map(|(width, _)| usize::from(width.0))
-        .filter(|width| *width > 0)
+    size.map(|(width, _)| usize::from(width.0)).filter(|width| *width > 0)
 }
 
 fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
@@ -136,10 +129,9 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
 /// output.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::NotWritten {
-            what: "standard output".into(),
-            why: error.to_string(),
-        }),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::NotWritten { what: "standard output".into(), why: error.to_string() })
+        }
         _ => Ok(()),
     }
 }

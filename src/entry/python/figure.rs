@@ -44,14 +44,8 @@ fn alone(analysis: &Analysis, frame: usize) -> Analysis {
 /// Draws the outlines of a scene that is not valid, with its problems marked, and returns the bytes of the picture
 /// file. `text` is the scene as JSON.
 #[pyfunction]
-pub(super) fn sketch(
-    py: Python<'_>,
-    text: &str,
-    words: Vec<String>,
-    ending: &str,
-) -> PyResult<Vec<u8>> {
-    py.detach(|| embedded::sketch(&words, ending, text))
-        .map_err(|why| fault(py, &why))
+pub(super) fn sketch(py: Python<'_>, text: &str, words: Vec<String>, ending: &str) -> PyResult<Vec<u8>> {
+    py.detach(|| embedded::sketch(&words, ending, text)).map_err(|why| fault(py, &why))
 }
 
 /// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
@@ -59,9 +53,7 @@ pub(super) fn sketch(
 pub(super) fn outlines(scene: &Scene) -> Vec<(Option<String>, Vec<Ring>)> {
     let rings = |polygon: &Polygon| {
         let rings = polygon.rings().iter();
-        rings
-            .map(|ring| ring.iter().map(|p| [p.x, p.y]).collect())
-            .collect()
+        rings.map(|ring| ring.iter().map(|p| [p.x, p.y]).collect()).collect()
     };
     let ground = scene.ground().iter();
     let ground = ground.map(|part| (None, rings(&part.body.polygon)));
@@ -80,18 +72,14 @@ pub(super) fn report(
     theme: Option<&str>,
 ) -> Result<(), String> {
     let path = PathBuf::from(path);
-    let part = |part: Option<&std::ffi::OsStr>| {
-        part.map_or_else(String::new, |p| p.to_string_lossy().into_owned())
-    };
+    let part = |part: Option<&std::ffi::OsStr>| part.map_or_else(String::new, |p| p.to_string_lossy().into_owned());
     let form = match part(path.extension()).to_ascii_lowercase().as_str() {
         "html" => Form::Html,
         "md" => Form::Markdown,
         "pdf" => Form::Pdf,
         "json" => Form::Json,
         other => {
-            return Err(format!(
-                "the file name of a report must end in .html, .md, .pdf or .json, not in {other:?}"
-            ));
+            return Err(format!("the file name of a report must end in .html, .md, .pdf or .json, not in {other:?}"));
         }
     };
     let chosen = match theme {
@@ -106,11 +94,8 @@ pub(super) fn report(
         // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts lack.
         analysis.scene = Arc::new(missing_glyphs::legible(&analysis.scene, &Fonts::default()));
     }
-    let report_options = ReportOptions {
-        theme: chosen,
-        theme_name: theme.map(str::to_owned),
-        ..ReportOptions::default()
-    };
+    let report_options =
+        ReportOptions { theme: chosen, theme_name: theme.map(str::to_owned), ..ReportOptions::default() };
     let stem = part(path.file_stem());
     let entry = Entry::new(File { name, text }, &analysis, &report_options);
     let words = |error: &dyn std::error::Error| error.to_string();

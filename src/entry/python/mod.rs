@@ -46,10 +46,7 @@ struct Options {
 impl Options {
     #[new]
     #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity=None, for_all=None, sensitivity=None))]
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one for each keyword of the Python function"
-    )]
+    #[expect(clippy::too_many_arguments, reason = "one for each keyword of the Python function")]
     fn new(
         py: Python<'_>,
         margins: Option<Vec<String>>,
@@ -72,10 +69,8 @@ impl Options {
                 return Err(fault(py, &why));
             }
         };
-        let mut analysis_options = analysis::Options::default()
-            .accuracy(accuracy)
-            .wedging(wedging)
-            .verdict_only(verdict_only);
+        let mut analysis_options =
+            analysis::Options::default().accuracy(accuracy).wedging(wedging).verdict_only(verdict_only);
         if let Some(names) = margins {
             let read = |name: &String| {
                 MarginKind::from_word(name).ok_or_else(|| {
@@ -101,28 +96,14 @@ impl Options {
         }
         let time_limit = match time_limit {
             Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
-                return Err(fault(
-                    py,
-                    "time_limit is a time in seconds, from 0 to 1000000",
-                ));
+                return Err(fault(py, "time_limit is a time in seconds, from 0 to 1000000"));
             }
             limit => limit.map(Duration::from_secs_f64),
         };
         if contact_tolerance.is_some_and(|metres| !(0.0..=1e12).contains(&metres)) {
-            return Err(fault(
-                py,
-                "contact_tolerance is a length in metres, at least 0",
-            ));
+            return Err(fault(py, "contact_tolerance is a length in metres, at least 0"));
         }
-        Ok(Options {
-            analysis_options,
-            capacity,
-            for_all,
-            time_limit,
-            contact_tolerance,
-            notes,
-            located,
-        })
+        Ok(Options { analysis_options, capacity, for_all, time_limit, contact_tolerance, notes, located })
     }
 }
 
@@ -184,9 +165,7 @@ struct Analysis {
 
 impl Analysis {
     fn new(analysis: analysis::Analysis) -> Analysis {
-        Analysis {
-            analysis: Arc::new(analysis),
-        }
+        Analysis { analysis: Arc::new(analysis) }
     }
 }
 
@@ -194,11 +173,7 @@ impl Analysis {
 impl Analysis {
     /// Returns the verdict of each frame.
     fn verdicts(&self) -> Vec<&'static str> {
-        self.analysis
-            .frames
-            .iter()
-            .map(|f| f.verdict.word())
-            .collect()
+        self.analysis.frames.iter().map(|f| f.verdict.word()).collect()
     }
 
     /// Returns true if every frame stands.
@@ -226,8 +201,7 @@ impl Analysis {
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for the frame with the index `frame`, or for all
     /// frames if `frame` is `None`.
     fn table(&self, py: Python<'_>, name: &str, frame: Option<usize>) -> PyResult<table::Table> {
-        table::Table::new(&self.analysis, name, frame)
-            .ok_or_else(|| fault(py, &format!("there is no table {name}")))
+        table::Table::new(&self.analysis, name, frame).ok_or_else(|| fault(py, &format!("there is no table {name}")))
     }
 
     /// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
@@ -244,15 +218,8 @@ impl Analysis {
 
     /// Draws a figure of all frames, or only of the frame with the index `frame`, and returns the bytes of the picture
     /// file. `words` are options of `render`, and the file extension `ending` selects the format.
-    fn figure(
-        &self,
-        py: Python<'_>,
-        words: Vec<String>,
-        ending: &str,
-        frame: Option<usize>,
-    ) -> PyResult<Vec<u8>> {
-        py.detach(|| figure::drawn(&self.analysis, &words, ending, frame))
-            .map_err(|why| fault(py, &why))
+    fn figure(&self, py: Python<'_>, words: Vec<String>, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
+        py.detach(|| figure::drawn(&self.analysis, &words, ending, frame)).map_err(|why| fault(py, &why))
     }
 
     /// Writes a report on the scene to the file `path`. `name` and `text` are the name and the content of the scene
@@ -266,8 +233,7 @@ impl Analysis {
         title: Option<String>,
         theme: Option<&str>,
     ) -> PyResult<()> {
-        py.detach(|| figure::report(&self.analysis, path, [name, text], title, theme))
-            .map_err(|why| fault(py, &why))
+        py.detach(|| figure::report(&self.analysis, path, [name, text], title, theme)).map_err(|why| fault(py, &why))
     }
 }
 
@@ -293,10 +259,8 @@ fn refused(py: Python<'_>, mut problems: SceneError, located: bool) -> PyErr {
 }
 
 fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
-    let made = py
-        .import("drystone._errors")
-        .and_then(|module| module.getattr(class))
-        .and_then(|class| class.call1(arguments));
+    let made =
+        py.import("drystone._errors").and_then(|module| module.getattr(class)).and_then(|class| class.call1(arguments));
     match made {
         Ok(error) => PyErr::from_value(error),
         Err(error) => error,
@@ -307,9 +271,7 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
 /// does not fit the scene.
 #[pyfunction]
 fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
-    py.detach(|| options.analysis(text))
-        .map(Analysis::new)
-        .map_err(|why| why.raised(py, options.located))
+    py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| why.raised(py, options.located))
 }
 
 /// Analyses scenes on several threads. Returns an analysis or an exception for each scene, in the order of the scenes.
@@ -355,9 +317,7 @@ fn check_many(
                     reported = count;
                     let heard = Python::attach(|py| {
                         py.check_signals()?;
-                        progress
-                            .as_ref()
-                            .map_or(Ok(()), |p| p.call1(py, (count,)).map(drop))
+                        progress.as_ref().map_or(Ok(()), |p| p.call1(py, (count,)).map(drop))
                     });
                     if let Err(error) = heard {
                         stopped = Some(error);
@@ -434,9 +394,7 @@ mod _drystone {
     #[pymodule_export]
     use crate::python::table::{Table, summary};
     #[pymodule_export]
-    use crate::python::{
-        Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes,
-    };
+    use crate::python::{Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes};
 
     /// The version of drystone.
     #[pymodule_export]

@@ -53,13 +53,7 @@ impl Session {
         self.step(py, |inner| inner.remove(block))
     }
 
-    fn hold(
-        &mut self,
-        py: Python<'_>,
-        robot: &str,
-        block: &str,
-        at: Option<[f64; 2]>,
-    ) -> PyResult<&'static str> {
+    fn hold(&mut self, py: Python<'_>, robot: &str, block: &str, at: Option<[f64; 2]>) -> PyResult<&'static str> {
         let at = at.map(|[x, y]| Point::new(x, y));
         self.step(py, |inner| inner.hold(robot, block, at))
     }

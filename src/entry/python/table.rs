@@ -4,17 +4,13 @@
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::{
-    ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
-};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList};
 
-use crate::analysis::{
-    Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce,
-};
+use crate::analysis::{Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce};
 use crate::geometry::Vector;
 use crate::scene::{BlockId, BodyId, Scene};
 
@@ -73,9 +69,7 @@ impl Table {
         requested_schema: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         drop(requested_schema);
-        let batch = self
-            .batch()
-            .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let batch = self.batch().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         let schema = batch.schema();
         let batches = RecordBatchIterator::new([Ok(batch)], schema);
         let stream = FFI_ArrowArrayStream::new(Box::new(batches));
@@ -89,14 +83,8 @@ impl Table {
         let mut arrays: Vec<ArrayRef> = Vec::new();
         for (name, column) in &self.columns {
             let (kind, array): (DataType, ArrayRef) = match column {
-                Column::Real(all) => (
-                    DataType::Float64,
-                    Arc::new(Float64Array::from_iter_values(all.iter().copied())),
-                ),
-                Column::Whole(all) => (
-                    DataType::Int64,
-                    Arc::new(Int64Array::from_iter_values(all.iter().copied())),
-                ),
+                Column::Real(all) => (DataType::Float64, Arc::new(Float64Array::from_iter_values(all.iter().copied()))),
+                Column::Whole(all) => (DataType::Int64, Arc::new(Int64Array::from_iter_values(all.iter().copied()))),
                 Column::Flag(all) => (DataType::Boolean, Arc::new(BooleanArray::from(all.clone()))),
                 Column::Word(all) => (DataType::Utf8, Arc::new(StringArray::from_iter_values(all))),
             };
@@ -127,15 +115,10 @@ impl Table {
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let valid = analyses.iter().enumerate();
     let valid = valid.filter_map(|(n, a)| Some((n, &*a.as_ref()?.get().analysis)));
-    let all: Vec<(usize, (usize, &Analysis))> = valid
-        .flat_map(|(n, analysis)| {
-            (0..analysis.frames.len()).map(move |frame| (frame, (n, analysis)))
-        })
-        .collect();
-    let numbered: Vec<(usize, (usize, &FrameAnalysis))> = all
-        .iter()
-        .map(|(frame, (_, analysis))| (*frame, (*frame, &analysis.frames[*frame])))
-        .collect();
+    let all: Vec<(usize, (usize, &Analysis))> =
+        valid.flat_map(|(n, analysis)| (0..analysis.frames.len()).map(move |frame| (frame, (n, analysis)))).collect();
+    let numbered: Vec<(usize, (usize, &FrameAnalysis))> =
+        all.iter().map(|(frame, (_, analysis))| (*frame, (*frame, &analysis.frames[*frame]))).collect();
     let mut names = Rows::new(all);
     names.whole("scene", |row| row.0 as i64);
     names.columns.rotate_right(1);
@@ -153,9 +136,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     rows.real("total_sticking", |row| row.1.total_sticking);
     let has_margins = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
     for (name, of) in MARGINS.iter().filter(|_| has_margins) {
-        rows.real(name, |row| {
-            row.1.margins.as_ref().map_or(f64::NAN, |m| value(of(m)))
-        });
+        rows.real(name, |row| row.1.margins.as_ref().map_or(f64::NAN, |m| value(of(m))));
     }
     rows.table()
 }
@@ -191,10 +172,7 @@ struct Rows<T> {
 impl<T> Rows<T> {
     fn new(rows: Vec<(usize, T)>) -> Rows<T> {
         let frames = rows.iter().map(|(frame, _)| *frame as i64).collect();
-        Rows {
-            rows,
-            columns: vec![("frame", Column::Whole(frames))],
-        }
+        Rows { rows, columns: vec![("frame", Column::Whole(frames))] }
     }
 
     fn real(&mut self, name: &'static str, of: impl Fn(&T) -> f64) {
@@ -238,10 +216,7 @@ impl<T> Rows<T> {
     }
 
     fn table(self) -> Table {
-        Table {
-            rows: self.rows.len(),
-            columns: self.columns,
-        }
+        Table { rows: self.rows.len(), columns: self.columns }
     }
 }
 
@@ -291,9 +266,7 @@ fn failures(analysis: &Analysis, numbers: &[usize]) -> Table {
     rows.word("kind", |f| f.word().into());
     rows.bodies(scene, |f| match **f {
         Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => bodies.map(Some),
-        Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
-            [Some(BodyId::Block(block)), None]
-        }
+        Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => [Some(BodyId::Block(block)), None],
     });
     rows.word("robot", |f| {
         let robot = f.robot().map(|r| scene.robots()[r.0].id.clone());
@@ -323,19 +296,13 @@ fn blocks(analysis: &Analysis, numbers: &[usize]) -> Table {
     rows.real("weight", |row| scene.blocks()[row.1].weight);
     rows.real("area", |row| scene.blocks()[row.1].body.polygon.area());
     rows.pair(["x", "y"], |row| scene.blocks()[row.1].centroid.coords);
-    rows.pair(["velocity_x", "velocity_y"], |row| {
-        motion(row).map_or_else(Vector::zeros, |m| m.velocity)
-    });
+    rows.pair(["velocity_x", "velocity_y"], |row| motion(row).map_or_else(Vector::zeros, |m| m.velocity));
     rows.real("spin", |row| motion(row).map_or(0.0, |m| m.spin));
-    rows.flag("unsupported", |row| {
-        analysis.frames[row.0].unsupported.contains(&BlockId(row.1))
-    });
+    rows.flag("unsupported", |row| analysis.frames[row.0].unsupported.contains(&BlockId(row.1)));
     rows.word("robot", |row| {
         let holds = scene.frames()[row.0].holds.iter();
         let robots = holds.filter(|h| h.block.0 == row.1);
-        let names: Vec<&str> = robots
-            .map(|h| scene.robots()[h.robot.0].id.as_str())
-            .collect();
+        let names: Vec<&str> = robots.map(|h| scene.robots()[h.robot.0].id.as_str()).collect();
         names.join(", ")
     });
     rows.table()

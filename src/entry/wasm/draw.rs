@@ -16,9 +16,8 @@ pub(super) fn figure(text: &str, options: &FigureOptions) -> Result<String, Refu
         return options.svg(drawing);
     }
     let scene = scene(text, options.contact_tolerance, options.frame)?;
-    let mut analysis_options = analysis::Options::default()
-        .accuracy(options.accuracy.accuracy())
-        .wedging(options.wedging);
+    let mut analysis_options =
+        analysis::Options::default().accuracy(options.accuracy.accuracy()).wedging(options.wedging);
     analysis_options.deadline = deadline(options.time_limit)?;
     let analysis_options = with_requests(analysis_options, &scene, options)?;
     let analysis = match options.kind()? {
@@ -64,10 +63,8 @@ fn page(analysis: &Analysis, options: &FigureOptions) -> Result<String, Refusal>
         Some(kind) => figure::draw(analysis, kind, &figure_options),
         None => {
             let block = options.block.as_deref();
-            let (frame, block) =
-                figure::free_block(&analysis.scene, block).map_err(Refusal::of_option)?;
-            figure::freebody(analysis, frame, block, &figure_options)
-                .expect("the block was found in this frame")
+            let (frame, block) = figure::free_block(&analysis.scene, block).map_err(Refusal::of_option)?;
+            figure::freebody(analysis, frame, block, &figure_options).expect("the block was found in this frame")
         }
     };
     options.svg(drawing)

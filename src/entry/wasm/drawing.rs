@@ -29,11 +29,7 @@ pub(super) struct ImportOptions {
 
 /// Imports a drawing, given as text. `format` is the name of its format. Returns JSON with the log of the import and
 /// the text of the scene file.
-pub(super) fn imported(
-    text: &str,
-    format: &str,
-    options: ImportOptions,
-) -> Result<String, Refusal> {
+pub(super) fn imported(text: &str, format: &str, options: ImportOptions) -> Result<String, Refusal> {
     let format = match format {
         "svg" => Format::Svg,
         "dxf" => Format::Dxf,
@@ -44,11 +40,7 @@ pub(super) fn imported(
             return Err(Refusal::of_option(why));
         }
     };
-    Ok(imported_json(&import(
-        text,
-        format,
-        &options.of_library()?,
-    )?))
+    Ok(imported_json(&import(text, format, &options.of_library()?)?))
 }
 
 impl ImportOptions {

@@ -19,29 +19,20 @@ pub struct Refusal {
 impl Refusal {
     /// Returns the refusal of an option that is not valid. `why` is the message.
     pub(super) fn of_option(why: impl Into<String>) -> Refusal {
-        Refusal {
-            message: why.into(),
-            problems: "[]".into(),
-        }
+        Refusal { message: why.into(), problems: "[]".into() }
     }
 }
 
 impl From<SceneError> for Refusal {
     fn from(error: SceneError) -> Refusal {
-        Refusal {
-            message: error.to_string(),
-            problems: problem_list(&error.list),
-        }
+        Refusal { message: error.to_string(), problems: problem_list(&error.list) }
     }
 }
 
 impl From<DrawingProblems> for Refusal {
     fn from(error: DrawingProblems) -> Refusal {
         let messages: Vec<&str> = error.problems.iter().map(|p| p.message.as_str()).collect();
-        Refusal {
-            message: messages.join("\n"),
-            problems: remark_list(&error.problems),
-        }
+        Refusal { message: messages.join("\n"), problems: remark_list(&error.problems) }
     }
 }
 

@@ -65,10 +65,7 @@ impl FigureOptions {
             Some(name) if name == FREEBODY => Ok(None),
             Some(name) => Kind::from_name(name).map(Some).ok_or_else(|| {
                 let known = Kind::ALL.map(Kind::name).join(", ");
-                Refusal::of_option(format!(
-                    "kind must be {known} or {}, not {name:?}",
-                    FREEBODY
-                ))
+                Refusal::of_option(format!("kind must be {known} or {}, not {name:?}", FREEBODY))
             }),
         }
     }
@@ -93,14 +90,9 @@ impl FigureOptions {
         if let Some(millimetres) = self.width_mm
             && !WIDTHS_MM.contains(&millimetres)
         {
-            return Err(Refusal::of_option(
-                "width_mm is a width in millimetres, from 2 to 5080",
-            ));
+            return Err(Refusal::of_option("width_mm is a width in millimetres, from 2 to 5080"));
         }
-        if self
-            .width_px
-            .is_some_and(|width| !WIDTHS_PX.contains(&width))
-        {
+        if self.width_px.is_some_and(|width| !WIDTHS_PX.contains(&width)) {
             let why = "width_px is a width in pixels, from 100 to 20000";
             return Err(Refusal::of_option(why));
         }
@@ -157,18 +149,13 @@ impl FigureOptions {
             None => drawing.background,
             Some("none") => None,
             Some("white") => Some(Colour::WHITE),
-            Some(text) => Some(Colour::from_css(text).ok_or_else(|| {
-                Refusal::of_option("background is none, white or #rrggbb, such as #f4f1ea")
-            })?),
+            Some(text) => Some(
+                Colour::from_css(text)
+                    .ok_or_else(|| Refusal::of_option("background is none, white or #rrggbb, such as #f4f1ea"))?,
+            ),
         };
-        let page = Drawing {
-            background,
-            ..drawing
-        };
-        let options = svg::Options {
-            width_mm: self.width_mm,
-            ..svg::Options::default()
-        };
+        let page = Drawing { background, ..drawing };
+        let options = svg::Options { width_mm: self.width_mm, ..svg::Options::default() };
         svg::write_with(&page, &options).map_err(|error| Refusal::of_option(error.to_string()))
     }
 }

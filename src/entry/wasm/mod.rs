@@ -29,9 +29,7 @@ use crate::scene::Scene;
 #[wasm_bindgen(start)]
 pub fn start() {
     if cfg!(target_family = "wasm") {
-        panic::set_hook(Box::new(|fault| {
-            wasm_bindgen::throw_str(&fault.to_string())
-        }));
+        panic::set_hook(Box::new(|fault| wasm_bindgen::throw_str(&fault.to_string())));
     }
 }
 
@@ -48,18 +46,9 @@ pub fn kinds() -> String {
     let entry = |(kind, help): &(&str, &str)| {
         let mut label = (*kind).to_owned();
         label[..1].make_ascii_uppercase();
-        format!(
-            "{{\"kind\":{},\"label\":{},\"help\":{}}}",
-            quoted(kind),
-            quoted(&label),
-            quoted(help)
-        )
+        format!("{{\"kind\":{},\"label\":{},\"help\":{}}}", quoted(kind), quoted(&label), quoted(help))
     };
-    let entries: Vec<String> = panels
-        .iter()
-        .chain([&(FREEBODY, FREEBODY_HELP)])
-        .map(entry)
-        .collect();
+    let entries: Vec<String> = panels.iter().chain([&(FREEBODY, FREEBODY_HELP)]).map(entry).collect();
     format!("[{}]", entries.join(","))
 }
 
@@ -107,10 +96,6 @@ pub fn problems(scene: &str) -> String {
 /// # Errors
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.
 #[wasm_bindgen(js_name = importDrawing)]
-pub fn import_drawing(
-    text: &str,
-    format: &str,
-    options: Option<String>,
-) -> Result<String, Refusal> {
+pub fn import_drawing(text: &str, format: &str, options: Option<String>) -> Result<String, Refusal> {
     drawing::imported(text, format, option::read(options.as_deref())?)
 }

@@ -50,10 +50,8 @@ impl CheckOptions {
 
     /// Returns the options of the analysis that do not depend on the scene.
     fn analysis_options(&self) -> Result<Options, Refusal> {
-        let mut analysis_options = Options::default()
-            .accuracy(self.accuracy.accuracy())
-            .wedging(self.wedging)
-            .verdict_only(self.verdict_only);
+        let mut analysis_options =
+            Options::default().accuracy(self.accuracy.accuracy()).wedging(self.wedging).verdict_only(self.verdict_only);
         analysis_options.deadline = deadline(self.time_limit)?;
         if let Some(kinds) = self.margins.kinds() {
             analysis_options = analysis_options.margins(true).margin_kinds(kinds);
@@ -72,9 +70,9 @@ pub(super) fn with_capacity(
 ) -> Result<Options, Refusal> {
     match (capacity, for_all) {
         (None, None) => Ok(analysis_options),
-        (None, Some(_)) => Err(Refusal::of_option(
-            "for_all limits the forces that a block can carry, so it needs capacity too",
-        )),
+        (None, Some(_)) => {
+            Err(Refusal::of_option("for_all limits the forces that a block can carry, so it needs capacity too"))
+        }
         (Some(typed), cases) => match typed_capacity(scene, typed, cases) {
             Ok(request) => Ok(analysis_options.capacity(request)),
             // The message names options as on the command line, with hyphens. Use the names of this interface.
@@ -90,24 +88,18 @@ pub(super) fn with_capacity(
 /// limit.
 pub(super) fn deadline(time_limit: Option<f64>) -> Result<Option<Instant>, Refusal> {
     match time_limit {
-        Some(seconds) if !(0.0..=1e6).contains(&seconds) => Err(Refusal::of_option(
-            "time_limit is a time in seconds, from 0 to 1000000",
-        )),
+        Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
+            Err(Refusal::of_option("time_limit is a time in seconds, from 0 to 1000000"))
+        }
         limit => Ok(limit.and_then(|s| Instant::now().checked_add(Duration::from_secs_f64(s)))),
     }
 }
 
 /// Reads a scene. `tolerance`, in metres, replaces the contact tolerance of the file. With `frame`, the scene keeps
 /// only this frame.
-pub(super) fn scene(
-    text: &str,
-    tolerance: Option<f64>,
-    frame: Option<FrameChoice>,
-) -> Result<Scene, Refusal> {
+pub(super) fn scene(text: &str, tolerance: Option<f64>, frame: Option<FrameChoice>) -> Result<Scene, Refusal> {
     if tolerance.is_some_and(|metres| !(0.0..=1e12).contains(&metres)) {
-        return Err(Refusal::of_option(
-            "contact_tolerance is a length in metres, at least 0",
-        ));
+        return Err(Refusal::of_option("contact_tolerance is a length in metres, at least 0"));
     }
     let scene: Result<Scene, SceneError> = Scene::from_json_within(text, tolerance);
     let mut scene = scene?;

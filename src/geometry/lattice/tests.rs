@@ -46,11 +46,7 @@ fn corners_run_anticlockwise_around_the_area_of_a_cell() {
         let (cell, lattice) = (cell(-4, 3, shape), lattice(shape, 0.7));
         let ring: Vec<Point> = cell.corners().iter().map(|c| lattice.node(*c)).collect();
         let polygon = Polygon::new(ring.clone(), vec![]).expect("a valid polygon");
-        assert_eq!(
-            polygon.outline(),
-            ring,
-            "a clockwise ring would be reversed"
-        );
+        assert_eq!(polygon.outline(), ring, "a clockwise ring would be reversed");
         assert!((polygon.area() - lattice.cell_area()).abs() < 1e-15);
         assert!((polygon.centroid() - lattice.cell_centre(cell)).norm() < 1e-14);
         for side in polygon.edges() {
@@ -70,29 +66,13 @@ fn centres_and_nodes_have_the_expected_coordinates() {
     let triangles = lattice(CellShape::Up, 2.0);
     let third = 3f64.sqrt() / 3.0;
     let near = |found: Point, x: f64, y: f64| (found - Point::new(x, y)).norm() < 1e-14;
-    assert!(near(
-        triangles.cell_centre(cell(0, 0, CellShape::Up)),
-        1.0,
-        third
-    ));
-    assert!(near(
-        triangles.cell_centre(cell(0, 0, CellShape::Down)),
-        1.0,
-        -third
-    ));
-    assert!(near(
-        triangles.cell_centre(cell(2, 1, CellShape::Down)),
-        6.0,
-        2.0 * third
-    ));
+    assert!(near(triangles.cell_centre(cell(0, 0, CellShape::Up)), 1.0, third));
+    assert!(near(triangles.cell_centre(cell(0, 0, CellShape::Down)), 1.0, -third));
+    assert!(near(triangles.cell_centre(cell(2, 1, CellShape::Down)), 6.0, 2.0 * third));
     assert!(near(triangles.node((1, -2)), 0.0, -6.0 * third));
     assert!(near(triangles.point(0.5, 1.0), 2.0, 3.0 * third));
     let square = lattice(CellShape::Square, 2.0);
-    assert!(near(
-        square.cell_centre(cell(3, -1, CellShape::Square)),
-        7.0,
-        -1.0
-    ));
+    assert!(near(square.cell_centre(cell(3, -1, CellShape::Square)), 7.0, -1.0));
 }
 
 #[test]
@@ -106,11 +86,7 @@ fn a_moved_cell_keeps_its_shape() {
 fn rotations_on_the_lattice_are_rotations_of_the_plane() {
     for shape in SHAPES {
         let lattice = lattice(shape, 1.3);
-        let angle = if shape == CellShape::Square {
-            90.0
-        } else {
-            60.0
-        };
+        let angle = if shape == CellShape::Square { 90.0 } else { 60.0 };
         for steps in -7..=7 {
             let (sin, cos) = libm::sincos((angle * steps as f64).to_radians());
             let in_plane = |p: Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
@@ -129,21 +105,10 @@ fn rotations_on_the_lattice_are_rotations_of_the_plane() {
 fn each_boundary_edge_belongs_to_only_one_cell() {
     let one = cell(1, 2, CellShape::Up);
     let own = [((1, 2), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
-    let sorted = |steps: &[LatticeEdge]| {
-        steps
-            .iter()
-            .copied()
-            .collect::<BTreeSet<LatticeEdge>>()
-            .into_iter()
-    };
+    let sorted = |steps: &[LatticeEdge]| steps.iter().copied().collect::<BTreeSet<LatticeEdge>>().into_iter();
     assert!(boundary(&[one]).into_iter().eq(sorted(&own)));
     // The triangle below shares the lower edge.
-    let below = [
-        ((1, 2), (2, 1)),
-        ((2, 1), (2, 2)),
-        ((2, 2), (1, 3)),
-        ((1, 3), (1, 2)),
-    ];
+    let below = [((1, 2), (2, 1)), ((2, 1), (2, 2)), ((2, 2), (1, 3)), ((1, 3), (1, 2))];
     let both = boundary(&[one, cell(1, 2, CellShape::Down)]);
     assert!(both.into_iter().eq(sorted(&below)));
 }
@@ -201,43 +166,19 @@ fn a_hole_that_touches_the_outside_forms_one_ring_with_the_outline() {
     // The corner square is missing, so the hole touches the outside at (1, 2). The ring passes this node twice, each
     // time along the two edges of one of the squares there.
     let traced = trace(&squares(3, 3, &[(1, 1), (0, 2)])).expect("connected cells");
-    let wanted = [
-        (0, 0),
-        (3, 0),
-        (3, 3),
-        (1, 3),
-        (1, 2),
-        (2, 2),
-        (2, 1),
-        (1, 1),
-        (1, 2),
-        (0, 2),
-    ];
+    let wanted = [(0, 0), (3, 0), (3, 3), (1, 3), (1, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)];
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), wanted);
     // The mirror image.
     let traced = trace(&squares(3, 3, &[(1, 1), (2, 2)])).expect("connected cells");
-    let wanted = [
-        (0, 0),
-        (3, 0),
-        (3, 2),
-        (2, 2),
-        (2, 1),
-        (1, 1),
-        (1, 2),
-        (2, 2),
-        (2, 3),
-        (0, 3),
-    ];
+    let wanted = [(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (2, 2), (2, 3), (0, 3)];
     assert_eq!(traced.len(), 1);
     assert_eq!(nodes(&traced[0]), wanted);
 }
 
 /// The six triangles around the origin, anticlockwise from the triangle between 0° and 60°.
 fn wheel() -> Vec<Cell> {
-    (0..6)
-        .map(|k| cell(0, 0, CellShape::Up).turned(k))
-        .collect()
+    (0..6).map(|k| cell(0, 0, CellShape::Up).turned(k)).collect()
 }
 
 /// A hexagon whose sides are two triangles long. Of the six triangles around its centre, those with the numbers
@@ -272,14 +213,10 @@ fn the_ring_passes_separately_around_triangles_that_meet_only_in_a_node() {
                 wanted.insert((begin, (begin + count) % 6));
             }
         }
-        let spoke =
-            |n: Node| (0..6).find(|k| turned(LatticeKind::Triangular, (1, 0), *k as i64) == n);
+        let spoke = |n: Node| (0..6).find(|k| turned(LatticeKind::Triangular, (1, 0), *k as i64) == n);
         let ring = &traced[1];
         let passes = (0..ring.len()).filter(|i| ring[*i] == (0, 0)).map(|i| {
-            let (back, on) = (
-                ring[(i + ring.len() - 1) % ring.len()],
-                ring[(i + 1) % ring.len()],
-            );
+            let (back, on) = (ring[(i + ring.len() - 1) % ring.len()], ring[(i + 1) % ring.len()]);
             spoke(on).zip(spoke(back)).expect("ends of spokes")
         });
         assert_eq!(passes.collect::<BTreeSet<_>>(), wanted, "{pattern:b}");

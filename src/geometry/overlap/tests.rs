@@ -3,40 +3,17 @@
 use super::*;
 
 fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
-    Polygon::new(
-        vec![
-            Point::new(x, y),
-            Point::new(x + w, y),
-            Point::new(x + w, y + h),
-            Point::new(x, y + h),
-        ],
-        vec![],
-    )
-    .expect("a valid polygon")
+    Polygon::new(vec![Point::new(x, y), Point::new(x + w, y), Point::new(x + w, y + h), Point::new(x, y + h)], vec![])
+        .expect("a valid polygon")
 }
 
 #[test]
 fn touching_is_not_overlapping_and_an_overlap_has_an_area_and_a_centroid() {
     let a = rectangle(0.0, 0.0, 2.0, 1.0);
     let a = ConvexPieces::new(&a);
-    assert_eq!(
-        overlap(&a, &ConvexPieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0),
-        None
-    );
-    assert_eq!(
-        overlap(
-            &a,
-            &ConvexPieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)),
-            1e-6
-        ),
-        None
-    );
-    let found = overlap(
-        &a,
-        &ConvexPieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)),
-        1e-6,
-    )
-    .expect("overlap");
+    assert_eq!(overlap(&a, &ConvexPieces::new(&rectangle(2.0, 0.0, 1.0, 1.0)), 0.0), None);
+    assert_eq!(overlap(&a, &ConvexPieces::new(&rectangle(2.0 - 1e-7, 0.0, 1.0, 1.0)), 1e-6), None);
+    let found = overlap(&a, &ConvexPieces::new(&rectangle(1.5, 0.75, 3.0, 1.0)), 1e-6).expect("overlap");
     assert!((found.area - 0.125).abs() < 1e-12);
     assert!((found.at - Point::new(1.75, 0.875)).norm() < 1e-12);
     assert!((found.depth - 0.25).abs() < 1e-12);
@@ -44,30 +21,12 @@ fn touching_is_not_overlapping_and_an_overlap_has_an_area_and_a_centroid() {
 
 #[test]
 fn a_block_in_the_hole_of_another_does_not_overlap_it() {
-    let corners = |x: f64, w: f64| {
-        vec![
-            Point::new(x, x),
-            Point::new(x + w, x),
-            Point::new(x + w, x + w),
-            Point::new(x, x + w),
-        ]
-    };
+    let corners =
+        |x: f64, w: f64| vec![Point::new(x, x), Point::new(x + w, x), Point::new(x + w, x + w), Point::new(x, x + w)];
     let frame = Polygon::new(corners(0.0, 4.0), vec![corners(1.0, 2.0)]).expect("a valid polygon");
     let pieces = ConvexPieces::new(&frame);
-    assert_eq!(
-        overlap(
-            &pieces,
-            &ConvexPieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)),
-            1e-9
-        ),
-        None
-    );
-    let stuck = overlap(
-        &pieces,
-        &ConvexPieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)),
-        1e-9,
-    )
-    .expect("overlap");
+    assert_eq!(overlap(&pieces, &ConvexPieces::new(&rectangle(1.0, 1.0, 2.0, 1.0)), 1e-9), None);
+    let stuck = overlap(&pieces, &ConvexPieces::new(&rectangle(1.0, 1.0, 2.5, 1.0)), 1e-9).expect("overlap");
     assert!((stuck.area - 0.5).abs() < 1e-12);
 }
 
@@ -92,14 +51,7 @@ fn the_area_and_the_centroid_of_an_overlap_include_all_pieces() {
     // An L and a square over its corner. They share a rectangle of 2 by ½ around (1½, ¾) and one of ½ by 1½ around
     // (¾, 1¾).
     for (x, y) in [(0.0, 0.0), (40.0, -70.0)] {
-        let corners = [
-            [0.0, 0.0],
-            [3.0, 0.0],
-            [3.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 3.0],
-            [0.0, 3.0],
-        ];
+        let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
         let l = polygon(&corners.map(|p| [p[0] + x, p[1] + y]));
         let found = both(&l, &rectangle(0.5 + x, 0.5 + y, 2.0, 2.0));
         assert!((found.area - 1.75).abs() < 1e-12);
@@ -115,18 +67,9 @@ fn the_area_and_the_centroid_of_an_overlap_include_all_pieces() {
 #[test]
 fn the_depth_is_the_shortest_distance_that_separates_the_bodies() {
     let slab = rectangle(0.0, 0.0, 4.0, 4.0);
-    for (x, y, depth) in [
-        (1.0, 1.0, 2.0),
-        (2.5, 1.0, 1.5),
-        (-0.75, 2.0, 0.25),
-        (3.5, 3.75, 0.25),
-    ] {
+    for (x, y, depth) in [(1.0, 1.0, 2.0), (2.5, 1.0, 1.5), (-0.75, 2.0, 0.25), (3.5, 3.75, 0.25)] {
         let found = both(&slab, &rectangle(x, y, 1.0, 1.0));
-        assert!(
-            (found.depth - depth).abs() < 1e-12,
-            "{x} {y}: {}",
-            found.depth
-        );
+        assert!((found.depth - depth).abs() < 1e-12, "{x} {y}: {}", found.depth);
     }
     // The tip of a triangle penetrates the top of the slab by ¼. A box penetrates the hypotenuse of a triangle with
     // legs of 3 and 4 by ¼.
@@ -135,9 +78,7 @@ fn the_depth_is_the_shortest_distance_that_separates_the_bodies() {
     let slope = polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]);
     let box_at = |d: f64| rectangle(1.5 - 0.8 * d, 2.0 - 0.6 * d, 5.0, 5.0);
     assert!((both(&slope, &box_at(0.25)).depth - 0.25).abs() < 1e-12);
-    let deep = |a: &Polygon, b: &Polygon, gap: f64| {
-        overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap)
-    };
+    let deep = |a: &Polygon, b: &Polygon, gap: f64| overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), gap);
     assert_eq!(deep(&slope, &box_at(-1e-6), 0.0), None);
     // An overlap that is exactly as deep as the gap is not reported.
     let stone = rectangle(1.0, 3.75, 1.0, 1.0);
@@ -167,14 +108,7 @@ fn the_pieces_cover_the_polygon_exactly_once() {
     assert!((area - 71.0).abs() < 1e-12);
     // At this distance from the origin, only multiples of a quarter of a metre can be represented.
     let far = |p: [f64; 2]| p.map(|v| v / 4.0 + FAR);
-    let corners = [
-        [0.0, 0.0],
-        [3.0, 0.0],
-        [3.0, 1.0],
-        [1.0, 1.0],
-        [1.0, 3.0],
-        [0.0, 3.0],
-    ];
+    let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
     let l = polygon(&corners.map(far));
     let pieces = ConvexPieces::new(&l);
     let parts = pieces.pieces().iter().map(|piece| {
@@ -184,11 +118,7 @@ fn the_pieces_cover_the_polygon_exactly_once() {
     assert_eq!(parts.sum::<f64>(), 5.0 / 16.0);
     let square = rectangle(0.0, 0.0, 1.0, 1.0);
     let pieces = ConvexPieces::new(&square);
-    let sizes: Vec<usize> = pieces
-        .pieces()
-        .iter()
-        .map(|piece| piece.corners.len())
-        .collect();
+    let sizes: Vec<usize> = pieces.pieces().iter().map(|piece| piece.corners.len()).collect();
     assert_eq!(sizes, [4], "a convex body is one piece");
 }
 

@@ -74,10 +74,7 @@ impl Lines {
     /// the node's gap. Otherwise each of these sides gets its own line.
     pub(super) fn new(nodes: &Nodes, on: &BTreeMap<[usize; 2], BTreeSet<usize>>) -> Lines {
         let sides: Vec<[usize; 2]> = on.keys().copied().collect();
-        let sets: Vec<BTreeSet<usize>> = on
-            .iter()
-            .map(|(ends, on)| on.iter().chain(ends).copied().collect())
-            .collect();
+        let sets: Vec<BTreeSet<usize>> = on.iter().map(|(ends, on)| on.iter().chain(ends).copied().collect()).collect();
         let mut by_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, set) in sets.iter().enumerate() {
             for node in set {
@@ -110,8 +107,7 @@ impl Lines {
         let mut lines = Vec::new();
         for members in joined.into_values() {
             let line = |members: &[usize]| {
-                let all: BTreeSet<usize> =
-                    members.iter().flat_map(|m| &sets[*m]).copied().collect();
+                let all: BTreeSet<usize> = members.iter().flat_map(|m| &sets[*m]).copied().collect();
                 let sides: Vec<[usize; 2]> = members.iter().map(|m| sides[*m]).collect();
                 Line::new(nodes, all.into_iter().collect(), &sides)
             };
@@ -133,8 +129,7 @@ impl Lines {
             }
         }
         lines_of.retain(|node, _| !nodes.all[*node].fixed);
-        let begun: BTreeMap<usize, Point> =
-            lines_of.keys().map(|n| (*n, nodes.all[*n].at)).collect();
+        let begun: BTreeMap<usize, Point> = lines_of.keys().map(|n| (*n, nodes.all[*n].at)).collect();
         for _ in 0..MAX_ITERATIONS {
             // Fit all lines to the current nodes, then move every node towards its lines.
             let fits: Vec<Fit> = self.0.iter().map(|line| line.fit(nodes)).collect();
@@ -170,13 +165,8 @@ impl Line {
     fn new(nodes: &Nodes, members: Vec<usize>, sides: &[[usize; 2]]) -> Option<Line> {
         let place = |n: usize| nodes.all[n].at;
         let length = |s: &[usize; 2]| (place(s[1]) - place(s[0])).norm();
-        let longest = *sides
-            .iter()
-            .reduce(|a, b| if length(b) > length(a) { b } else { a })?;
-        let line = |kind| Line {
-            nodes: members.clone(),
-            kind,
-        };
+        let longest = *sides.iter().reduce(|a, b| if length(b) > length(a) { b } else { a })?;
+        let line = |kind| Line { nodes: members.clone(), kind };
         let fits = |line: &Line| {
             let fit = line.fit(nodes);
             // If the two ends of a side coincide, every distance is NaN and the comparison is false: the line does
@@ -204,20 +194,15 @@ impl Line {
         let off = distances.fold(0.0, f64::max);
         let spread = |axis: usize| {
             let all = members.iter().map(|n| place(*n)[axis]);
-            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                (l.min(x), h.max(x))
-            });
+            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             high - low
         };
         // A flat line becomes horizontal if it rises over the width of the nodes by at most twice their scatter. A
         // steep line becomes vertical if it shifts sideways over the height of the nodes by at most twice their
         // scatter. A steep line is not tested for being horizontal: the width of its nodes can be near 0, so it would
         // pass that test.
-        let (axis, kind) = if normal.y.abs() >= normal.x.abs() {
-            (0, LineKind::Horizontal)
-        } else {
-            (1, LineKind::Vertical)
-        };
+        let (axis, kind) =
+            if normal.y.abs() >= normal.x.abs() { (0, LineKind::Horizontal) } else { (1, LineKind::Vertical) };
         let rounding = ROUNDING_TOL * nodes.all[members[0]].gap;
         if normal[axis].abs() * spread(axis) <= 2.0 * off + rounding {
             return Some(line(kind));
@@ -229,10 +214,7 @@ impl Line {
     fn fit(&self, nodes: &Nodes) -> Fit {
         let place = |n: usize| nodes.all[n].at;
         if let LineKind::Side([a, b]) = self.kind {
-            return Fit {
-                through: place(a),
-                normal: quarter_turn((place(b) - place(a)).normalize()),
-            };
+            return Fit { through: place(a), normal: quarter_turn((place(b) - place(a)).normalize()) };
         }
         let first = place(self.nodes[0]);
         let count = self.nodes.len() as f64;

@@ -50,10 +50,7 @@ pub(crate) fn polygon(rings: &Rings) -> Result<Polygon, Vec<PolygonError>> {
 pub(crate) fn area(ring: &[Corner]) -> f64 {
     let Some(base) = ring.first() else { return 0.0 };
     let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-    pairs
-        .map(|(a, b)| cross(a.at - base.at, b.at - base.at))
-        .sum::<f64>()
-        / 2.0
+    pairs.map(|(a, b)| cross(a.at - base.at, b.at - base.at)).sum::<f64>() / 2.0
 }
 
 /// The largest number of attempts. After each attempt, damaged bodies are fixed as drawn and the rest is snapped again.
@@ -86,10 +83,7 @@ impl<'g> Gaps<'g> {
     /// Creates the gaps of all corners from the gap of each body, in metres. Every corner has the gap of its body,
     /// however short the sides at this corner are.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
-        Gaps {
-            of_body,
-            share_of_edge: f64::INFINITY,
-        }
+        Gaps { of_body, share_of_edge: f64::INFINITY }
     }
 }
 
@@ -122,12 +116,7 @@ pub(crate) struct Moved {
 /// A body marked in `fixed` does not change: corners of other bodies may move onto it, but its own corners never move.
 /// Bodies that snapping would damage stay as drawn. Snapping may deepen an overlap of two bodies by at most `noise`
 /// times the smaller of their gaps.
-pub(crate) fn snapped<'b>(
-    bodies: &'b [Rings],
-    gaps: Gaps<'_>,
-    fixed: &[bool],
-    noise: f64,
-) -> Outcome<'b> {
+pub(crate) fn snapped<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, fixed: &[bool], noise: f64) -> Outcome<'b> {
     let mut kept = fixed.to_vec();
     for _ in 0..MAX_ATTEMPTS {
         let mut outcome = attempt(bodies, gaps, &kept);
@@ -162,9 +151,7 @@ pub(crate) fn snapped<'b>(
 /// Returns the indices of the bodies that snapping left as drawn, except those that the caller fixed.
 fn kept_but_not_fixed(kept: &[bool], fixed: &[bool]) -> Vec<usize> {
     let pairs = kept.iter().zip(fixed).enumerate();
-    pairs
-        .filter_map(|(b, (kept, fixed))| (*kept && !*fixed).then_some(b))
-        .collect()
+    pairs.filter_map(|(b, (kept, fixed))| (*kept && !*fixed).then_some(b)).collect()
 }
 
 /// A side of a body: it leads from the node `ends[0]` to the node `ends[1]`.
@@ -197,15 +184,9 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     let found = nodes_near_sides(&nodes, &sides, gaps, kept);
     // Return the bodies unchanged if every corner is exactly at its node, every node near a side lies on this side, and
     // no such side is curved.
-    let fits = |b: &NodeNearSide<'_>| {
-        !b.side.curved && b.off <= EXACT_DISTANCE_TOL * nodes.all[b.node].gap
-    };
+    let fits = |b: &NodeNearSide<'_>| !b.side.curved && b.off <= EXACT_DISTANCE_TOL * nodes.all[b.node].gap;
     if nodes.exact && found.iter().all(fits) {
-        return Outcome {
-            bodies: Cow::Borrowed(bodies),
-            moved: Vec::new(),
-            kept: Vec::new(),
-        };
+        return Outcome { bodies: Cow::Borrowed(bodies), moved: Vec::new(), kept: Vec::new() };
     }
     // The bodies that share a node touch each other.
     let mut touching: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); bodies.len()];
@@ -220,10 +201,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
     // of the side.
     let mut on: BTreeMap<[usize; 2], BTreeSet<usize>> = BTreeMap::new();
     let mut taken: BTreeMap<(usize, usize, usize), Vec<(f64, usize)>> = BTreeMap::new();
-    for NodeNearSide {
-        node, side, reach, ..
-    } in found
-    {
+    for NodeNearSide { node, side, reach, .. } in found {
         for body in nodes.bodies(&nodes.all[node]) {
             touching[*body].insert(side.body);
             touching[side.body].insert(*body);
@@ -247,12 +225,7 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
 ///
 /// The index contains the nodes, and each side is a query. An index of the sides would be slower: the boxes of hundreds
 /// of sides of thin stones can overlap, whereas nodes are points.
-fn nodes_near_sides<'s>(
-    nodes: &Nodes,
-    sides: &'s [Side],
-    gaps: &[f64],
-    kept: &[bool],
-) -> Vec<NodeNearSide<'s>> {
+fn nodes_near_sides<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<NodeNearSide<'s>> {
     let nearby = BoxIndex::new((0..nodes.all.len()).collect(), |n: &usize| {
         let at = nodes.all[*n].at.into();
         Aabb { min: at, max: at }
@@ -280,12 +253,7 @@ fn nodes_near_sides<'s>(
             // A side of length 0 gives NaN here. Every comparison with NaN fails, so no node is near such a side.
             let gap = node.gap.min(gaps[side.body]);
             if reach > 0.0 && reach < length && off <= gap {
-                found.push(NodeNearSide {
-                    node: number,
-                    side,
-                    reach,
-                    off,
-                });
+                found.push(NodeNearSide { node: number, side, reach, off });
             }
         }
     }
@@ -298,15 +266,8 @@ fn sides(bodies: &[Rings], nodes: &Nodes) -> Vec<Side> {
     for (body, rings) in bodies.iter().enumerate() {
         for (ring, corners) in rings.iter().enumerate() {
             for corner in 0..corners.len() {
-                let ends =
-                    [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
-                sides.push(Side {
-                    body,
-                    ring,
-                    corner,
-                    ends,
-                    curved: corners[corner].curved,
-                });
+                let ends = [corner, (corner + 1) % corners.len()].map(|c| nodes.number(body, ring, c));
+                sides.push(Side { body, ring, corner, ends, curved: corners[corner].curved });
             }
         }
     }
@@ -341,30 +302,18 @@ fn rebuild_bodies(
                 if let Some(mut more) = taken.remove(&(body, ring, i)) {
                     more.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
                     corners += more.len();
-                    let added = |m: &(f64, usize)| Corner {
-                        at: nodes.all[m.1].at,
-                        curved: true,
-                    };
+                    let added = |m: &(f64, usize)| Corner { at: nodes.all[m.1].at, curved: true };
                     new.extend(more.iter().map(added));
                 }
             }
             built.push(new);
         }
         if corners > 0 {
-            moved.push(Moved {
-                body,
-                corners,
-                distance,
-                to: std::mem::take(&mut touching[body]),
-            });
+            moved.push(Moved { body, corners, distance, to: std::mem::take(&mut touching[body]) });
         }
         out.push(built);
     }
-    Outcome {
-        bodies: Cow::Owned(out),
-        moved,
-        kept: Vec::new(),
-    }
+    Outcome { bodies: Cow::Owned(out), moved, kept: Vec::new() }
 }
 
 /// Returns the indices of the bodies that snapping damaged. A body is damaged if its rings are no longer a valid
@@ -387,15 +336,10 @@ fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -
         polygons.push(made);
     }
     // Compare the depth of each overlap after snapping with the depth before.
-    let pieces: Vec<Option<ConvexPieces>> = polygons
-        .iter()
-        .map(|p| p.as_ref().map(ConvexPieces::new))
-        .collect();
+    let pieces: Vec<Option<ConvexPieces>> = polygons.iter().map(|p| p.as_ref().map(ConvexPieces::new)).collect();
     let drawn = |body: usize| polygon(&before[body]).ok();
-    let entries = polygons
-        .iter()
-        .enumerate()
-        .filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::with_diagonals(p.outline()), i)));
+    let entries =
+        polygons.iter().enumerate().filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::with_diagonals(p.outline()), i)));
     let nearby = BoxIndex::new(entries.collect(), |entry| entry.0);
     for (own, (_, a)) in nearby.all() {
         for (_, b) in nearby.intersecting(*own) {
@@ -412,9 +356,7 @@ fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -
             };
             let then = drawn(*a)
                 .zip(drawn(*b))
-                .and_then(|(one, two)| {
-                    overlap(&ConvexPieces::new(&one), &ConvexPieces::new(&two), 0.0)
-                })
+                .and_then(|(one, two)| overlap(&ConvexPieces::new(&one), &ConvexPieces::new(&two), 0.0))
                 .map_or(0.0, |o| o.depth);
             if now.depth > then + noise {
                 wrong.extend([*a, *b]);

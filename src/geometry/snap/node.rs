@@ -70,8 +70,7 @@ impl Nodes {
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
         // List all corners with their gaps.
         let rings = bodies.iter().flatten();
-        let mut corners: Vec<UnplacedCorner> =
-            Vec::with_capacity(rings.clone().map(Vec::len).sum());
+        let mut corners: Vec<UnplacedCorner> = Vec::with_capacity(rings.clone().map(Vec::len).sum());
         let mut first_ring = Vec::with_capacity(bodies.len());
         let mut first_corner = Vec::with_capacity(rings.count());
         for (body, rings) in bodies.iter().enumerate() {
@@ -79,11 +78,7 @@ impl Nodes {
             for ring in rings {
                 first_corner.push(corners.len());
                 let gaps = gaps_of_corners(ring, gaps.of_body[body], gaps.share_of_edge);
-                let loose = |(c, gap): (&Corner, f64)| UnplacedCorner {
-                    at: c.at,
-                    body,
-                    gap,
-                };
+                let loose = |(c, gap): (&Corner, f64)| UnplacedCorner { at: c.at, body, gap };
                 corners.extend(ring.iter().zip(gaps).map(loose));
             }
         }
@@ -93,14 +88,7 @@ impl Nodes {
         let of_corner: Vec<usize> = joined.first.iter().map(|first| number[*first]).collect();
         let places = of_corner.iter().map(|n| all[*n].at);
         let exact = places.zip(&corners).all(|(at, corner)| at == corner.at);
-        Nodes {
-            all,
-            bodies,
-            first_ring,
-            first_corner,
-            of_corner,
-            exact,
-        }
+        Nodes { all, bodies, first_ring, first_corner, of_corner, exact }
     }
 
     /// Returns the bodies with a corner at a node, each once, in ascending order.
@@ -145,11 +133,7 @@ impl Clusters {
 
 /// Makes one node for each cluster. Returns the nodes, the bodies of all nodes in one list, and a list of node indices:
 /// the entry at the first corner of a cluster is the index of the cluster's node.
-fn merge(
-    corners: &[UnplacedCorner],
-    joined: &Clusters,
-    kept: &[bool],
-) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
+fn merge(corners: &[UnplacedCorner], joined: &Clusters, kept: &[bool]) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
     // Create the node of each cluster when the loop reaches the first corner of the cluster.
     let mut members = Vec::new();
     let mut number = vec![0; corners.len()];
@@ -169,11 +153,7 @@ fn merge(
         let mut gap = f64::INFINITY;
         let mut fixed = false;
         for k in &members {
-            let UnplacedCorner {
-                at: own,
-                body,
-                gap: own_gap,
-            } = corners[*k];
+            let UnplacedCorner { at: own, body, gap: own_gap } = corners[*k];
             if kept[body] && !fixed {
                 (at, fixed) = (own, true);
             }
@@ -181,12 +161,7 @@ fn merge(
             bodies.push(body);
         }
         number[first] = all.len();
-        all.push(Node {
-            at,
-            bodies: begin..bodies.len(),
-            gap,
-            fixed,
-        });
+        all.push(Node { at, bodies: begin..bodies.len(), gap, fixed });
     }
     (all, bodies, number)
 }
@@ -194,10 +169,7 @@ fn merge(
 /// Clusters close corners of different bodies by complete linkage, the closest pairs first. Two corners are close if
 /// their distance is at most the smaller of their gaps.
 fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
-    let mut clusters = Clusters {
-        first: (0..corners.len()).collect(),
-        next: (0..corners.len()).collect(),
-    };
+    let mut clusters = Clusters { first: (0..corners.len()).collect(), next: (0..corners.len()).collect() };
     for (_, i, j) in close_pairs(corners) {
         let (i, j) = (clusters.first[i], clusters.first[j]);
         let (a, b) = (i.min(j), i.max(j));
@@ -240,10 +212,7 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
         // gaps.
         let (x, y) = (corner.at.x, corner.at.y);
         let gap = corner.gap;
-        let around = Aabb {
-            min: [x - gap, y - gap],
-            max: [x + gap, y + gap],
-        };
+        let around = Aabb { min: [x - gap, y - gap], max: [x + gap, y + gap] };
         for j in nearby.intersecting(around).copied() {
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(corners[j].gap);

@@ -5,27 +5,15 @@ use super::*;
 mod part;
 
 fn ring(corners: &[(f64, f64)]) -> Rings {
-    let corner = |p: &(f64, f64)| Corner {
-        at: Point::new(p.0, p.1),
-        curved: false,
-    };
+    let corner = |p: &(f64, f64)| Corner { at: Point::new(p.0, p.1), curved: false };
     vec![corners.iter().map(corner).collect()]
 }
 
 /// Snaps all bodies with the same gap, in metres. Overlaps of up to 10⁻⁶ m are ignored.
 fn snap_all(bodies: &[Rings], gap: f64) -> Outcome<'static> {
     let count = bodies.len();
-    let outcome = snapped(
-        bodies,
-        Gaps::new(&vec![gap; count]),
-        &vec![false; count],
-        1e-6 / gap,
-    );
-    Outcome {
-        bodies: Cow::Owned(outcome.bodies.into_owned()),
-        moved: outcome.moved,
-        kept: outcome.kept,
-    }
+    let outcome = snapped(bodies, Gaps::new(&vec![gap; count]), &vec![false; count], 1e-6 / gap);
+    Outcome { bodies: Cow::Owned(outcome.bodies.into_owned()), moved: outcome.moved, kept: outcome.kept }
 }
 
 fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Rings {
@@ -34,9 +22,7 @@ fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Rings {
 
 /// Pseudo-random numbers between −1 and 1.
 fn noise(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     ((*seed >> 33) as f64) / f64::from(1_u32 << 30) - 1.0
 }
 
@@ -90,15 +76,8 @@ fn the_joints_of_a_wall_with_slightly_wrong_corners_are_closed() {
     let outcome = snap_all(&drawn, 0.02);
     assert!(outcome.kept.is_empty(), "{:?}", outcome.kept);
     assert!(misfit(&drawn, 0.02) > 1e-3);
-    assert!(
-        misfit(&outcome.bodies, 0.02) < 1e-9,
-        "{}",
-        misfit(&outcome.bodies, 0.02)
-    );
-    assert_eq!(
-        damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
-        BTreeSet::new()
-    );
+    assert!(misfit(&outcome.bodies, 0.02) < 1e-9, "{}", misfit(&outcome.bodies, 0.02));
+    assert_eq!(damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6), BTreeSet::new());
     for moved in &outcome.moved {
         assert!(moved.distance < 0.02 && !moved.to.is_empty(), "{moved:?}");
     }
@@ -157,40 +136,24 @@ fn the_corners_of_an_exact_vertical_joint_do_not_move() {
     off[5][0][0].at.y += 0.0004;
     let outcome = snap_all(&off, 0.0015);
     assert_eq!(outcome.moved.len(), 1);
-    for (healed, meant) in outcome
-        .bodies
-        .iter()
-        .flatten()
-        .flatten()
-        .zip(drawn.iter().flatten().flatten())
-    {
+    for (healed, meant) in outcome.bodies.iter().flatten().flatten().zip(drawn.iter().flatten().flatten()) {
         assert!((healed.at - meant.at).norm() < 1e-9, "{healed:?} {meant:?}");
     }
 }
 
 #[test]
 fn a_body_thinner_than_the_gap_is_not_flattened() {
-    let drawn = vec![
-        rectangle(0.0, 0.0, 4.0, 1.0),
-        rectangle(1.0, 1.0, 2.0, 0.01),
-        rectangle(0.0, 1.01, 4.0, 1.0),
-    ];
+    let drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 1.0, 2.0, 0.01), rectangle(0.0, 1.01, 4.0, 1.0)];
     let outcome = snap_all(&drawn, 0.05);
     for (old, new) in drawn.iter().zip(outcome.bodies.iter()) {
         assert!(area(&new[0]) > 0.5 * area(&old[0]));
     }
-    assert_eq!(
-        damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6),
-        BTreeSet::new()
-    );
+    assert_eq!(damaged_bodies(&drawn, &outcome.bodies, &vec![1.0; drawn.len()], 1e-6), BTreeSet::new());
 }
 
 #[test]
 fn the_earlier_body_stays_and_the_later_body_moves_to_it() {
-    let drawn = vec![
-        rectangle(-1.0, -1.0, 9.0, 1.0),
-        rectangle(2.0, 0.003, 1.0, 2.0),
-    ];
+    let drawn = vec![rectangle(-1.0, -1.0, 9.0, 1.0), rectangle(2.0, 0.003, 1.0, 2.0)];
     let outcome = snap_all(&drawn, 0.01);
     assert_eq!(outcome.bodies[0], drawn[0]);
     assert_eq!(outcome.bodies[1][0][0].at, Point::new(2.0, 0.0));
@@ -204,10 +167,7 @@ fn the_earlier_body_stays_and_the_later_body_moves_to_it() {
 
 #[test]
 fn an_overlap_of_less_than_the_gap_is_closed_and_a_deep_overlap_stays() {
-    let shallow = vec![
-        rectangle(0.0, 0.0, 4.0, 1.0),
-        rectangle(1.0, 0.996, 2.0, 1.0),
-    ];
+    let shallow = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 0.996, 2.0, 1.0)];
     let healed = snap_all(&shallow, 0.01);
     assert!(misfit(&healed.bodies, 0.01) < 1e-12);
     let deep = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 0.7, 2.0, 1.0)];
@@ -219,12 +179,8 @@ fn touching_curves_share_corners() {
     let arc = |steps: usize, radius: f64, back: bool| {
         let mut points: Vec<Corner> = (0..=steps)
             .map(|k| {
-                let (sin, cos) =
-                    libm::sincos(core::f64::consts::PI * (0.25 + 0.5 * k as f64 / steps as f64));
-                Corner {
-                    at: Point::new(radius * cos, radius * sin),
-                    curved: true,
-                }
+                let (sin, cos) = libm::sincos(core::f64::consts::PI * (0.25 + 0.5 * k as f64 / steps as f64));
+                Corner { at: Point::new(radius * cos, radius * sin), curved: true }
             })
             .collect();
         if back {
@@ -244,11 +200,7 @@ fn touching_curves_share_corners() {
     let gap = 2.0 * (1.0 - libm::cos(core::f64::consts::PI / 44.0)) + 1e-3;
     let outcome = snap_all(&drawn, gap);
     assert!(outcome.kept.is_empty());
-    assert!(
-        misfit(&outcome.bodies, gap) < 1e-12,
-        "{}",
-        misfit(&outcome.bodies, gap)
-    );
+    assert!(misfit(&outcome.bodies, gap) < 1e-12, "{}", misfit(&outcome.bodies, gap));
     assert_eq!(outcome.bodies[0][0].len(), drawn[0][0].len() + 10);
 }
 
@@ -267,10 +219,7 @@ fn each_move_lists_its_corners_its_distance_and_its_targets() {
     let moved = |body: usize| outcome.moved.iter().find(|m| m.body == body);
     assert_eq!(outcome.moved.len(), 2);
     let second = moved(2).expect("the second stone moves");
-    assert_eq!(
-        (second.corners, &second.to),
-        (2, &BTreeSet::from([0, 1, 4]))
-    );
+    assert_eq!((second.corners, &second.to), (2, &BTreeSet::from([0, 1, 4])));
     assert!((second.distance - 0.004).abs() < 1e-12);
     let last = moved(4).expect("the triangle moves");
     assert_eq!((last.corners, &last.to), (1, &BTreeSet::from([2])));
@@ -278,12 +227,7 @@ fn each_move_lists_its_corners_its_distance_and_its_targets() {
     // An earlier body moves to a side of a later body.
     let tip = ring(&[(2.0, 1.004), (3.0, 5.0), (1.0, 5.0)]);
     let outcome = snap_all(&[tip, rectangle(0.0, 0.0, 4.0, 1.0)], 0.01);
-    let wanted = Moved {
-        body: 0,
-        corners: 1,
-        distance: outcome.moved[0].distance,
-        to: BTreeSet::from([1]),
-    };
+    let wanted = Moved { body: 0, corners: 1, distance: outcome.moved[0].distance, to: BTreeSet::from([1]) };
     assert_eq!(outcome.moved, [wanted]);
     assert!((outcome.moved[0].distance - 0.004).abs() < 1e-12);
     assert_eq!(outcome.bodies[0][0][0].at, Point::new(2.0, 1.0));
@@ -291,11 +235,7 @@ fn each_move_lists_its_corners_its_distance_and_its_targets() {
 
 #[test]
 fn a_body_without_a_gap_does_not_take_part() {
-    let drawn = vec![
-        rectangle(0.0, 0.0, 4.0, 1.0),
-        rectangle(0.003, 1.003, 1.0, 1.0),
-        rectangle(2.0, 1.003, 1.0, 1.0),
-    ];
+    let drawn = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(0.003, 1.003, 1.0, 1.0), rectangle(2.0, 1.003, 1.0, 1.0)];
     let outcome = snapped(&drawn, Gaps::new(&[0.01, 0.0, 0.01]), &[false; 3], 1e-4);
     assert_eq!(outcome.moved.len(), 1);
     assert_eq!(outcome.moved[0].body, 2);
@@ -304,10 +244,7 @@ fn a_body_without_a_gap_does_not_take_part() {
 
 #[test]
 fn a_fixed_body_stays_and_is_not_listed_as_kept() {
-    let drawn = vec![
-        rectangle(0.0, 0.003, 4.0, 1.0),
-        rectangle(-1.0, -1.0, 9.0, 1.0),
-    ];
+    let drawn = vec![rectangle(0.0, 0.003, 4.0, 1.0), rectangle(-1.0, -1.0, 9.0, 1.0)];
     // The later body is fixed, so the earlier body moves to it.
     let outcome = snapped(&drawn, Gaps::new(&[0.01; 2]), &[false, true], 1e-4);
     assert_eq!((outcome.moved.len(), outcome.kept.len()), (1, 0));
@@ -316,12 +253,7 @@ fn a_fixed_body_stays_and_is_not_listed_as_kept() {
     assert!(outcome.bodies[0][0][0].at.coords.norm() < 1e-12);
     // A sliver 1 mm away from the stone would be flattened. It stays, and is listed as kept.
     let mut sliver = drawn.clone();
-    sliver.push(ring(&[
-        (4.001, 0.5),
-        (4.003, 0.5),
-        (4.003, 0.9),
-        (4.001, 0.9),
-    ]));
+    sliver.push(ring(&[(4.001, 0.5), (4.003, 0.5), (4.003, 0.9), (4.001, 0.9)]));
     let outcome = snapped(&sliver, Gaps::new(&[0.01; 3]), &[false, true, false], 1e-4);
     assert_eq!(outcome.kept, [2]);
     assert_eq!(outcome.bodies[2], sliver[2]);
@@ -341,10 +273,7 @@ fn a_corner_that_lies_on_a_curve_is_inserted_into_it() {
     wanted[0][0].insert(3, Corner { at: tip, ..from });
     assert_eq!(outcome.bodies, wanted);
     assert_eq!((outcome.moved.len(), outcome.moved[0].body), (1, 0));
-    assert_eq!(
-        (outcome.moved[0].corners, outcome.moved[0].distance),
-        (1, 0.0)
-    );
+    assert_eq!((outcome.moved[0].corners, outcome.moved[0].distance), (1, 0.0));
 }
 
 #[test]
@@ -356,9 +285,6 @@ fn several_corners_are_inserted_into_a_curve_in_order() {
     let upper: Vec<f64> = outcome.bodies[0][0][2..].iter().map(|c| c.at.x).collect();
     assert_eq!(upper, [4.0, 3.0, 2.0, 1.0, 0.0]);
     assert_eq!(outcome.moved.len(), 1);
-    assert_eq!(
-        (outcome.moved[0].corners, outcome.moved[0].distance),
-        (3, 0.0)
-    );
+    assert_eq!((outcome.moved[0].corners, outcome.moved[0].distance), (3, 0.0));
     assert_eq!(outcome.moved[0].to, BTreeSet::from([1, 2, 3]));
 }

@@ -62,10 +62,7 @@ fn scaling_rotation_and_reflection_do_not_change_the_gauge() {
         for way in ways {
             let changed: Vec<Vec3> = g.iter().map(|v| way(*v)).collect();
             let other = zonotope_gauge(&changed, way(point));
-            assert!(
-                (other / scale - 1.0).abs() < 1e-9,
-                "{other} against {scale}"
-            );
+            assert!((other / scale - 1.0).abs() < 1e-9, "{other} against {scale}");
         }
         let quick = zonotope_gauge_bound(&g, point).expect("up to twelve generators have a bound");
         assert!(quick >= scale * (1.0 - 1e-9));
@@ -75,12 +72,7 @@ fn scaling_rotation_and_reflection_do_not_change_the_gauge() {
 /// A pebble of weight 1 between two frictionless vertical faces that press it with 10⁸: nothing holds it up.
 #[test]
 fn a_pebble_between_smooth_faces_is_not_balanced_by_their_thrust() {
-    let forces = [
-        [1e8, 0.0, 3e7],
-        [-1e8, 0.0, -3e7],
-        [0.0, -1.0, 0.0],
-        [0.0, 0.0, 2e8],
-    ];
+    let forces = [[1e8, 0.0, 3e7], [-1e8, 0.0, -3e7], [0.0, -1.0, 0.0], [0.0, 0.0, 2e8]];
     assert!((zonotope_gauge(&forces, [0.0, -1.0, 0.0]) - 1.0).abs() < 1e-5);
     // Friction of up to half the weight on either side balances a residual force of 10⁻⁷.
     let mut held = forces.to_vec();
@@ -136,10 +128,7 @@ fn the_origin_has_gauge_zero_and_numbers_that_are_not_finite_have_an_infinite_ga
     let cube = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     assert_eq!(zonotope_gauge(&cube, [0.0; 3]), 0.0);
     assert_eq!(zonotope_gauge(&[], [0.0; 3]), 0.0);
-    assert_eq!(
-        zonotope_gauge(&[[0.0; 3]; 2], [0.0, 1.0, 0.0]),
-        f64::INFINITY
-    );
+    assert_eq!(zonotope_gauge(&[[0.0; 3]; 2], [0.0, 1.0, 0.0]), f64::INFINITY);
     for odd in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
         assert_eq!(zonotope_gauge(&cube, [0.0, odd, 0.0]), f64::INFINITY);
         let mut forces = cube.to_vec();
@@ -190,12 +179,7 @@ fn a_rectangle_in_space_is_flat_and_bounded_by_its_sides() {
     // coordinates, each relative to its side.
     for way in ways() {
         let sides = [way([2.0, 0.0, 0.0]), way([0.0, 3.0, 0.0])];
-        for (x, y, scale) in [
-            (1.0, 1.0, 0.5),
-            (-1.0, 2.4, 0.8),
-            (0.0, -6.0, 2.0),
-            (3.0, 0.0, 1.5),
-        ] {
+        for (x, y, scale) in [(1.0, 1.0, 0.5), (-1.0, 2.4, 0.8), (0.0, -6.0, 2.0), (3.0, 0.0, 1.5)] {
             let found = zonotope_gauge(&sides, way([x, y, 0.0]));
             assert!((found - scale).abs() < 1e-12, "{found} for {scale}");
             assert_eq!(zonotope_gauge(&sides, way([x, y, 1e-3])), f64::INFINITY);

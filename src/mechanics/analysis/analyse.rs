@@ -51,21 +51,13 @@ pub(super) fn analyse(scene: &Scene, options: &Options) -> (Interfaces, Vec<Fram
 }
 
 /// Analyses every frame of a scene. `interfaces` are the interfaces of the whole scene.
-pub(super) fn analyse_frames(
-    scene: &Scene,
-    interfaces: &Interfaces,
-    options: &Options,
-) -> Vec<FrameAnalysis> {
+pub(super) fn analyse_frames(scene: &Scene, interfaces: &Interfaces, options: &Options) -> Vec<FrameAnalysis> {
     let mut known = ResultCache::default();
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
             let frame_interfaces = interfaces.in_frame(scene, frame);
-            let context = FrameContext {
-                scene,
-                frame,
-                interfaces: &frame_interfaces,
-            };
+            let context = FrameContext { scene, frame, interfaces: &frame_interfaces };
             let mut analysis = analyse_frame(&context, *options, &mut known);
             analysis.notices.extend(interfaces.notices.iter().cloned());
             analysis
@@ -75,11 +67,7 @@ pub(super) fn analyse_frames(
 
 /// Analyses one frame. Takes the results of components from `known` if they are there, and adds the results of new
 /// components to `known`.
-pub(super) fn analyse_frame(
-    context: &FrameContext,
-    options: Options,
-    known: &mut ResultCache,
-) -> FrameAnalysis {
+pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mut ResultCache) -> FrameAnalysis {
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
     // Assemble bodies, contacts and loads. Split them into components: no force can act between bodies of different
@@ -87,19 +75,12 @@ pub(super) fn analyse_frame(
     let (assembly, reports) = effect::assemble(context);
     let components = assembly.components();
     let keys: Vec<Key> = components.iter().map(key).collect();
-    let mut stages = Stages {
-        assembly: seconds(),
-        ..Stages::default()
-    };
+    let mut stages = Stages { assembly: seconds(), ..Stages::default() };
     // Decide each component.
     let (effort, fresh) = decide_fresh(&components, &keys, options, &mut known.findings);
     let solved = (components.iter().zip(&keys)).map(|(component, key)| {
         let findings = known.findings.get(key)?;
-        Some(SolvedComponent {
-            component,
-            key,
-            findings,
-        })
+        Some(SolvedComponent { component, key, findings })
     });
     let solved: Vec<SolvedComponent> = solved.flatten().collect();
     // Combine the verdicts and forces of the components.
@@ -122,13 +103,7 @@ pub(super) fn analyse_frame(
     if options.wedging {
         analysis.solve.stages.wedging = after - before;
     }
-    let decided_count = find_margins(
-        context.scene,
-        &mut analysis,
-        &solved,
-        options,
-        &mut known.intervals,
-    );
+    let decided_count = find_margins(context.scene, &mut analysis, &solved, options, &mut known.intervals);
     if decided_count.is_some() {
         analysis.solve.stages.margins = seconds() - after;
     }
@@ -147,9 +122,7 @@ fn decide_fresh(
     options: Options,
     known: &mut BTreeMap<Key, Findings>,
 ) -> (Effort, usize) {
-    let fresh: Vec<usize> = (0..components.len())
-        .filter(|k| !known.contains_key(&keys[*k]))
-        .collect();
+    let fresh: Vec<usize> = (0..components.len()).filter(|k| !known.contains_key(&keys[*k])).collect();
     let decide_one = |k: &usize| {
         // A deadline guard applies only to the thread that creates it, so each task creates one.
         let _until = DeadlineGuard::new(options.deadline);
@@ -164,9 +137,7 @@ fn decide_fresh(
     };
     #[cfg(not(feature = "parallel"))]
     let findings: Vec<Findings> = fresh.iter().map(decide_one).collect();
-    let effort = findings
-        .iter()
-        .fold(Effort::default(), |sum, f| sum.plus(f.effort));
+    let effort = findings.iter().fold(Effort::default(), |sum, f| sum.plus(f.effort));
     for (k, findings) in fresh.iter().zip(findings) {
         known.insert(keys[*k].clone(), findings);
     }
@@ -182,17 +153,10 @@ fn combine(
     options: Options,
 ) -> FrameAnalysis {
     let mut analysis = unloaded_frame(context, assembly, reports);
-    for SolvedComponent {
-        component,
-        findings,
-        ..
-    } in solved
-    {
+    for SolvedComponent { component, findings, .. } in solved {
         add_component(&mut analysis, component, findings, context.scene.kernel);
     }
-    let count = solved.iter().fold(UnknownCounts::default(), |sum, s| {
-        sum.plus(&s.findings.count)
-    });
+    let count = solved.iter().fold(UnknownCounts::default(), |sum, s| sum.plus(&s.findings.count));
     complete_frame(&mut analysis, context, &count, options.verdict_only);
     if analysis.verdict == Verdict::Undecided && options.is_late() {
         analysis.doubts.insert(0, UndecidedReason::Late);
@@ -202,12 +166,7 @@ fn combine(
 
 /// If `options` request it, checks whether a stable frame stands only by wedging. Writes the answer to `analysis`, and
 /// returns the outcome for the effect report.
-fn find_wedging(
-    scene: &Scene,
-    analysis: &mut FrameAnalysis,
-    solved: &[SolvedComponent],
-    options: Options,
-) -> Wedging {
+fn find_wedging(scene: &Scene, analysis: &mut FrameAnalysis, solved: &[SolvedComponent], options: Options) -> Wedging {
     match (options.wedging, analysis.verdict) {
         (false, _) => Wedging::NotRequested,
         (true, Verdict::Stable) => {
@@ -230,11 +189,7 @@ fn find_margins(
     known: &mut BTreeMap<Key, ComponentIntervals>,
 ) -> Option<usize> {
     let kinds = options.wanted_margins()?;
-    let parts = solved.iter().map(|s| Part {
-        component: s.component,
-        key: s.key,
-        findings: s.findings,
-    });
+    let parts = solved.iter().map(|s| Part { component: s.component, key: s.key, findings: s.findings });
     let parts: Vec<Part> = parts.collect();
     let (margins, decided_count) = margin::find_margins(&parts, kinds, known);
     let name = |robot: RobotId| scene.robots[robot.0].id.clone();
@@ -256,9 +211,7 @@ fn find_sensitivity(
     let intervals = &analysis.margins.as_ref()?.intervals;
     let parts = solved.iter().map(|s| sensitivity::Part {
         component: s.component,
-        interval: known
-            .get(s.key)
-            .and_then(|intervals| intervals.interval(kind)),
+        interval: known.get(s.key).and_then(|intervals| intervals.interval(kind)),
     });
     let parts: Vec<sensitivity::Part> = parts.collect();
     Some(sensitivity::find(context, &parts, intervals, kind))

@@ -121,17 +121,11 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Finding
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.complete(&generous, component.decide_by_programs(&generous));
         if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
-            return Findings {
-                count,
-                ..component.findings(decision)
-            };
+            return Findings { count, ..component.findings(decision) };
         }
     }
     let decision = component.complete(&program, component.decide_by_programs(&program));
-    Findings {
-        count,
-        ..component.findings(decision)
-    }
+    Findings { count, ..component.findings(decision) }
 }
 
 impl<'a> Component<'a> {
@@ -210,11 +204,7 @@ impl<'a> Component<'a> {
         }
         // The mechanism is proved with all bodies, but bodies slower than MIN_SHOWN_SPEED are not reported.
         let mut bodies = self.assembly.bodies.iter();
-        mechanism.retain(|m| {
-            bodies
-                .next()
-                .is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED)
-        });
+        mechanism.retain(|m| bodies.next().is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED));
         for motion in &mut mechanism {
             // Set velocities that are only rounding of the solver to 0. The spin is measured as the speed of a point
             // at distance L.
@@ -225,9 +215,7 @@ impl<'a> Component<'a> {
         // If a component falls, its contact forces balance it only together with the missing adhesion.
         let forces = match (decision.verdict, &decision.adhesion) {
             (Verdict::Unstable, _) if !self.complete_result => Forces::zero(self.assembly),
-            (Verdict::Unstable, Some(adhesion)) => {
-                self.prove_with_adhesion(&decision.amounts, adhesion).0
-            }
+            (Verdict::Unstable, Some(adhesion)) => self.prove_with_adhesion(&decision.amounts, adhesion).0,
             _ => self.prove_forces(&decision.amounts).forces,
         };
         Findings {

@@ -37,9 +37,7 @@ impl Analysis {
     /// Units and signs: see [`Toward`].
     pub fn edges(&self, frame: usize, toward: Toward) -> Vec<(f64, Vec<Motion>)> {
         let limits = self.limits(frame, toward).into_iter();
-        limits
-            .map(|limit| self.beyond(frame, toward, limit))
-            .collect()
+        limits.map(|limit| self.beyond(frame, toward, limit)).collect()
     }
 
     /// Returns the limits of a parameter that have a mechanism, first the limit of [`Analysis::edge`].
@@ -49,11 +47,9 @@ impl Analysis {
             return Vec::new();
         };
         let side = |margin: &Margin, sign: f64| match margin {
-            Margin::Value { at, mechanism } if !mechanism.is_empty() => Some(Limit {
-                at: sign * at,
-                outward: sign,
-                motions: mechanism.clone(),
-            }),
+            Margin::Value { at, mechanism } if !mechanism.is_empty() => {
+                Some(Limit { at: sign * at, outward: sign, motions: mechanism.clone() })
+            }
             _ => None,
         };
         let sides = |sides: &Sides| [side(&sides.right, 1.0), side(&sides.left, -1.0)];
@@ -62,11 +58,7 @@ impl Analysis {
             Toward::HorizontalLoad => sides(&margins.horizontal_load),
             Toward::LoadFactor => {
                 let largest = side(&margins.load_factor, 1.0);
-                let least = margins.least_factor().map(|(at, motions)| Limit {
-                    at,
-                    outward: -1.0,
-                    motions,
-                });
+                let least = margins.least_factor().map(|(at, motions)| Limit { at, outward: -1.0, motions });
                 let least = least.filter(|least| largest.is_none() || least.at > 0.0);
                 [largest, least]
             }
@@ -82,18 +74,11 @@ impl Analysis {
     /// along the mechanism is 0; slightly beyond the limit it is positive.
     fn beyond(&self, frame: usize, toward: Toward, limit: Limit) -> (f64, Vec<Motion>) {
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
-        let Limit {
-            at,
-            outward,
-            motions,
-        } = limit;
+        let Limit { at, outward, motions } = limit;
         match toward {
             Toward::Tilt => {
                 let (sin, cos) = sin_cos_degrees(at + DEGREES_BEYOND_LIMIT * outward);
-                scene.gravity = Vector::new(
-                    cos * gravity.x - sin * gravity.y,
-                    sin * gravity.x + cos * gravity.y,
-                );
+                scene.gravity = Vector::new(cos * gravity.x - sin * gravity.y, sin * gravity.x + cos * gravity.y);
             }
             Toward::HorizontalLoad => {
                 let fraction = at + DEGREES_BEYOND_LIMIT.to_radians() * outward;

@@ -122,9 +122,9 @@ impl Failure {
     /// torque is missing.
     pub fn force(&self) -> Vector {
         match *self {
-            Failure::Tension { force, .. }
-            | Failure::Friction { force, .. }
-            | Failure::RobotForce { force, .. } => force,
+            Failure::Tension { force, .. } | Failure::Friction { force, .. } | Failure::RobotForce { force, .. } => {
+                force
+            }
             Failure::RobotTorque { .. } => Vector::zeros(),
         }
     }

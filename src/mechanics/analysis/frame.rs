@@ -11,37 +11,17 @@ use crate::proof::Proof;
 pub(super) fn weaker_proof(a: Proof, b: Proof) -> Proof {
     match (a, b) {
         (
-            Proof::Forces {
-                worst_imbalance: i,
-                worst_share: r,
-                worst_pull: p,
-                worst_slip: s,
-            },
-            Proof::Forces {
-                worst_imbalance: j,
-                worst_share: q,
-                worst_pull: t,
-                worst_slip: u,
-            },
+            Proof::Forces { worst_imbalance: i, worst_share: r, worst_pull: p, worst_slip: s },
+            Proof::Forces { worst_imbalance: j, worst_share: q, worst_pull: t, worst_slip: u },
         ) => Proof::Forces {
             worst_imbalance: i.max(j),
             worst_share: r.max(q),
             worst_pull: p.max(t),
             worst_slip: s.max(u),
         },
-        (
-            Proof::Mechanism {
-                power: p,
-                worst_violation: v,
-            },
-            Proof::Mechanism {
-                power: q,
-                worst_violation: w,
-            },
-        ) => Proof::Mechanism {
-            power: p.min(q),
-            worst_violation: v.max(w),
-        },
+        (Proof::Mechanism { power: p, worst_violation: v }, Proof::Mechanism { power: q, worst_violation: w }) => {
+            Proof::Mechanism { power: p.min(q), worst_violation: v.max(w) }
+        }
         (Proof::Mechanism { .. }, _) => a,
         _ => b,
     }
@@ -70,11 +50,7 @@ pub(super) fn complete_frame(
         _ if analysis.failures.is_empty() => AdhesionSearch::NotNeeded,
         _ => AdhesionSearch::Found,
     };
-    analysis.effects.push(sticking::report(
-        blocks,
-        search,
-        counts.get(EffectName::Sticking),
-    ));
+    analysis.effects.push(sticking::report(blocks, search, counts.get(EffectName::Sticking)));
     analysis.effects.push(mechanism::report(unstable));
     add_notices(analysis, context, verdict_only);
 }
@@ -83,35 +59,27 @@ pub(super) fn complete_frame(
 fn add_notices(analysis: &mut FrameAnalysis, context: &FrameContext, verdict_only: bool) {
     match (verdict_only, analysis.verdict) {
         (true, Verdict::Stable) => analysis.notices.push(
-            "only the verdict was asked for: where more than one set of forces balances, any of them is shown"
-                .into(),
+            "only the verdict was asked for: where more than one set of forces balances, any of them is shown".into(),
         ),
-        (true, Verdict::Unstable) => analysis.notices.push(
-            "only the verdict was asked for: the failures and the forces were not computed"
-                .into(),
-        ),
+        (true, Verdict::Unstable) => analysis
+            .notices
+            .push("only the verdict was asked for: the failures and the forces were not computed".into()),
         _ => {}
     }
     if analysis.verdict == Verdict::Stable && !analysis.least_force {
-        analysis.notices.push(
-            "the forces shown balance every block; it was not proved that their sum is the least"
-                .into(),
-        );
+        analysis
+            .notices
+            .push("the forces shown balance every block; it was not proved that their sum is the least".into());
     }
     if !analysis.unsupported.is_empty() {
-        let names: Vec<&str> = analysis
-            .unsupported
-            .iter()
-            .take(10)
-            .map(|b| context.scene.blocks[b.0].id.as_str())
-            .collect();
+        let names: Vec<&str> =
+            analysis.unsupported.iter().take(10).map(|b| context.scene.blocks[b.0].id.as_str()).collect();
         let more = match analysis.unsupported.len() - names.len() {
             0 => String::new(),
             n => format!(" and {n} more"),
         };
-        analysis.notices.push(format!(
-            "no sticking at the points where forces act could hold {}{more}",
-            names.join(", ")
-        ));
+        analysis
+            .notices
+            .push(format!("no sticking at the points where forces act could hold {}{more}", names.join(", ")));
     }
 }

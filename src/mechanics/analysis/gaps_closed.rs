@@ -40,35 +40,20 @@ struct AmbiguousPlace {
 
 impl From<&NearMiss> for AmbiguousPlace {
     fn from(gap: &NearMiss) -> AmbiguousPlace {
-        AmbiguousPlace {
-            bodies: gap.bodies,
-            at: gap.at,
-            size: gap.distance,
-            overlaps: false,
-        }
+        AmbiguousPlace { bodies: gap.bodies, at: gap.at, size: gap.distance, overlaps: false }
     }
 }
 
 impl From<&Penetration> for AmbiguousPlace {
     fn from(overlap: &Penetration) -> AmbiguousPlace {
-        AmbiguousPlace {
-            bodies: overlap.bodies,
-            at: overlap.at,
-            size: overlap.depth,
-            overlaps: true,
-        }
+        AmbiguousPlace { bodies: overlap.bodies, at: overlap.at, size: overlap.depth, overlaps: true }
     }
 }
 
 /// Analyses the scene again: once with very short contacts added, and once with all small gaps and overlaps closed. A
 /// frame becomes undecided if this changes its verdict. If the deadline has passed, every frame with overlapping bodies
 /// becomes undecided. Does nothing if the scene gives a contact tolerance.
-pub(super) fn recheck(
-    scene: &Scene,
-    interfaces: &Interfaces,
-    frames: &mut [FrameAnalysis],
-    options: &Options,
-) {
+pub(super) fn recheck(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
     if scene.healed.source == ToleranceSource::Given {
         return;
     }
@@ -118,9 +103,7 @@ fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<Ambiguous
             .filter(|gap| gap.bodies.iter().all(is_placed))
             .filter(|gap| pinning_stone(gap, &touching, is_placed, scene.tolerance.gap).is_none());
         let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(is_placed));
-        gaps.map(AmbiguousPlace::from)
-            .chain(overlaps.map(AmbiguousPlace::from))
-            .collect()
+        gaps.map(AmbiguousPlace::from).chain(overlaps.map(AmbiguousPlace::from)).collect()
     };
     scene.frames.iter().map(in_frame).collect()
 }
@@ -139,10 +122,9 @@ fn closed_verdicts(
     let options = without_extras(options);
     let closed = |closing: f64| (closing, analyse(&scene.closed(closing), &options).1);
     let mut all = vec![closed(CLOSING_FACTOR * widest)];
-    let is_unchanged =
-        |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<AmbiguousPlace>)| {
-            !places.is_empty() && frame.verdict == other.verdict
-        };
+    let is_unchanged = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<AmbiguousPlace>)| {
+        !places.is_empty() && frame.verdict == other.verdict
+    };
     if frames.iter().zip(&all[0].1).zip(places).any(is_unchanged) {
         let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
         let smallest = sizes.fold(f64::INFINITY, f64::min);
@@ -156,12 +138,7 @@ fn closed_verdicts(
 
 /// Makes a frame undecided if its verdict changes when gaps and overlaps are closed. Otherwise, if bodies overlap, adds
 /// a notice. `closed` contains each closing length in metres with its verdict; `places` are sorted, the largest first.
-fn compare_verdicts(
-    scene: &Scene,
-    frame: &mut FrameAnalysis,
-    places: &[AmbiguousPlace],
-    closed: &[(f64, Verdict)],
-) {
+fn compare_verdicts(scene: &Scene, frame: &mut FrameAnalysis, places: &[AmbiguousPlace], closed: &[(f64, Verdict)]) {
     let overlaps: Vec<AmbiguousPlace> = places.iter().copied().filter(|p| p.overlaps).collect();
     // Use the first closing length whose verdict is decided and differs from the verdict of the frame. If there is
     // none, use the first length.
@@ -186,11 +163,7 @@ fn compare_verdicts(
 
 /// Returns the options for the second analysis, which computes no margins and does not check wedging.
 fn without_extras(options: &Options) -> Options {
-    Options {
-        margins: false,
-        wedging: false,
-        ..*options
-    }
+    Options { margins: false, wedging: false, ..*options }
 }
 
 fn is_undecided(verdict: Verdict) -> bool {
@@ -214,12 +187,7 @@ fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
 
 /// Analyses the scene again, also using contacts that are shorter than the minimum length. A frame that falls without
 /// these contacts and stands with them becomes undecided.
-fn recheck_with_slivers(
-    scene: &Scene,
-    interfaces: &Interfaces,
-    frames: &mut [FrameAnalysis],
-    options: &Options,
-) {
+fn recheck_with_slivers(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
     let falls = frames.iter().any(|f| f.verdict == Verdict::Unstable);
     if interfaces.slivers.is_empty() || !falls {
         return;
@@ -247,10 +215,7 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let named = slivers.iter().take(MAX_NAMED_PLACES).map(|sliver| {
         let [a, b] = sliver.bodies.map(|body| scene.name(body));
         let (length, at) = (sliver.length(), sliver.middle());
-        let (length, at) = (
-            scene.units.small_length(length, 2),
-            scene.units.coordinates(at),
-        );
+        let (length, at) = (scene.units.small_length(length, 2), scene.units.coordinates(at));
         format!("{length} between {a} and {b} at {at}")
     });
     let named: Vec<String> = named.collect();
@@ -259,10 +224,7 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
         n => format!(" and {n} more"),
     };
     let length = |sliver: Option<&&Interface>| sliver.map_or(0.0, |s| s.length());
-    let (counting, ignoring) = (
-        0.5 * length(slivers.last()),
-        CLOSING_FACTOR * length(slivers.first()),
-    );
+    let (counting, ignoring) = (0.5 * length(slivers.last()), CLOSING_FACTOR * length(slivers.first()));
     let words = format!(
         "it stands if contacts of almost no length carry force and falls if they are only touching corners: {}{more}; \
          a contact_tolerance of {} counts them, one of {} does not",
@@ -270,11 +232,7 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
         scene.units.small_length(counting, 2),
         scene.units.small_length(ignoring, 2),
     );
-    UndecidedReason::Slivers {
-        counting,
-        ignoring,
-        words,
-    }
+    UndecidedReason::Slivers { counting, ignoring, words }
 }
 
 /// Returns the notes of the scene, and further notes for the first few gaps that are nearly contacts.
@@ -301,11 +259,7 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
     for (number, gap) in gaps.iter().take(MAX_NOTED_GAPS).enumerate() {
         let [a, b] = gap.bodies.map(|body| scene.name(body));
         let is_last = number + 1 == MAX_NOTED_GAPS && gaps.len() > MAX_NOTED_GAPS;
-        let more = if is_last {
-            "; there are more such gaps"
-        } else {
-            ""
-        };
+        let more = if is_last { "; there are more such gaps" } else { "" };
         let message = format!(
             "{a} and {b} nearly touch at {}, {} apart{more}",
             scene.units.coordinates(gap.at),
@@ -323,12 +277,7 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
 }
 
 /// Returns the reason why a frame is undecided. `verdicts` are the verdicts with the gaps open and with them closed.
-fn gaps_reason(
-    scene: &Scene,
-    verdicts: [Verdict; 2],
-    places: &[AmbiguousPlace],
-    closing: f64,
-) -> UndecidedReason {
+fn gaps_reason(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace], closing: f64) -> UndecidedReason {
     UndecidedReason::Gaps {
         open: verdicts[0],
         closed: verdicts[1],
@@ -337,12 +286,7 @@ fn gaps_reason(
     }
 }
 
-fn gaps_explanation(
-    scene: &Scene,
-    verdicts: [Verdict; 2],
-    places: &[AmbiguousPlace],
-    closing: f64,
-) -> String {
+fn gaps_explanation(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace], closing: f64) -> String {
     let [written, closed] = verdicts.map(|verdict| match verdict {
         Verdict::Stable => "stands",
         Verdict::Unstable => "falls",
@@ -350,10 +294,7 @@ fn gaps_explanation(
     });
     let closing = scene.units.small_length(closing, 2);
     let enough = format!("a contact_tolerance of {closing} closes them");
-    let (places, overlap) = (
-        list_places(scene, places),
-        places.iter().any(|p| p.overlaps),
-    );
+    let (places, overlap) = (list_places(scene, places), places.iter().any(|p| p.overlaps));
     if overlap {
         return format!(
             "it {written} if overlaps and narrow gaps carry no force and {closed} if bodies touch there: {places}; \

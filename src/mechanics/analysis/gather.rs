@@ -12,11 +12,7 @@ use crate::scene::Hold;
 
 /// Creates the analysis of a frame with zero force at every contact and grip. The results of the components are added
 /// later.
-pub(super) fn unloaded_frame(
-    context: &FrameContext,
-    assembly: &Assembly,
-    effects: Vec<EffectReport>,
-) -> FrameAnalysis {
+pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effects: Vec<EffectReport>) -> FrameAnalysis {
     let (scene, frame) = (context.scene, context.frame);
     let contacts = context.interfaces.iter();
     let contacts = contacts.map(|interface| unloaded_contact(interface, scene.kernel));
@@ -41,12 +37,7 @@ pub(super) fn unloaded_frame(
         only_by_wedging: None,
         wedged: None,
         effects,
-        proof: Proof::Forces {
-            worst_imbalance: 0.0,
-            worst_share: 0.0,
-            worst_pull: 0.0,
-            worst_slip: 0.0,
-        },
+        proof: Proof::Forces { worst_imbalance: 0.0, worst_share: 0.0, worst_pull: 0.0, worst_slip: 0.0 },
         solve: SolveReport {
             method: Method::ClosedForm,
             iterations: 0,
@@ -85,12 +76,7 @@ fn unloaded_robot(hold: &Hold) -> RobotForce {
 }
 
 /// Adds the results of one component to the frame.
-pub(super) fn add_component(
-    analysis: &mut FrameAnalysis,
-    component: &Assembly,
-    findings: &Findings,
-    kernel: f64,
-) {
+pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Findings, kernel: f64) {
     add_forces(analysis, component, findings, kernel);
     // The bounds of the components add up, because no force acts between two components. If one bound is unknown,
     // or one component is not stable, the sum is unknown.
@@ -101,9 +87,7 @@ pub(super) fn add_component(
     analysis.least_force &= findings.least_force;
     analysis.total_sticking += findings.total_sticking;
     analysis.failures.extend(findings.failures.iter().copied());
-    analysis
-        .mechanism
-        .extend(findings.mechanism.iter().copied());
+    analysis.mechanism.extend(findings.mechanism.iter().copied());
     if findings.unsupported {
         let blocks = component.bodies.iter().map(|body| body.block);
         analysis.unsupported.extend(blocks);
@@ -120,12 +104,7 @@ pub(super) fn add_component(
 }
 
 /// Sets the forces of one component at its contacts and robots, and adds their magnitudes to `total_force`.
-fn add_forces(
-    analysis: &mut FrameAnalysis,
-    component: &Assembly,
-    findings: &Findings,
-    kernel: f64,
-) {
+fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Findings, kernel: f64) {
     // Set the normal forces, the friction and the resultant of each contact.
     for (assembled, forces) in component.contacts.iter().zip(&findings.forces.contacts) {
         let contact = &mut analysis.contacts[assembled.interface];
@@ -139,11 +118,7 @@ fn add_forces(
     // Set the force and the torque of each robot, and the largest fraction of its limits that they use.
     for (grip, held) in component.grips.iter().zip(&findings.forces.grips) {
         let used_fraction = |value: f64, limit: f64| {
-            if limit.is_finite() && limit > 0.0 {
-                value.abs() / limit
-            } else {
-                0.0
-            }
+            if limit.is_finite() && limit > 0.0 { value.abs() / limit } else { 0.0 }
         };
         let (force, torque, limits) = (held.force, held.torque, grip.limits);
         let robot = &mut analysis.robots[grip.hold];

@@ -12,15 +12,7 @@ pub(super) fn key(component: &Assembly) -> Key {
     let blocks = component.bodies.iter().map(|body| body.block);
     let holds = component.grips.iter().map(|grip| {
         let block = component.bodies[grip.body].block;
-        (
-            grip.robot,
-            block,
-            [grip.at.x.to_bits(), grip.at.y.to_bits()],
-        )
+        (grip.robot, block, [grip.at.x.to_bits(), grip.at.y.to_bits()])
     });
-    (
-        blocks.collect(),
-        holds.collect(),
-        component.length.to_bits(),
-    )
+    (blocks.collect(), holds.collect(), component.length.to_bits())
 }

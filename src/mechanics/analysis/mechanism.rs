@@ -89,10 +89,7 @@ impl Analysis {
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         // Scale all parts by one factor, so that the fastest point has speed 1.
-        let fastest = all
-            .iter()
-            .map(|m| m.fastest(&self.scene))
-            .fold(0.0, f64::max);
+        let fastest = all.iter().map(|m| m.fastest(&self.scene)).fold(0.0, f64::max);
         if fastest > 0.0 {
             for motion in &mut all {
                 motion.velocity /= fastest;
@@ -150,24 +147,9 @@ struct FallingPart<'a> {
 }
 
 impl<'a> FallingPart<'a> {
-    fn new(
-        scene: &'a Scene,
-        analysis: &'a FrameAnalysis,
-        motions: Vec<Motion>,
-        length: f64,
-    ) -> FallingPart<'a> {
-        let index_of_block = motions
-            .iter()
-            .enumerate()
-            .map(|(k, m)| (m.block, k))
-            .collect();
-        FallingPart {
-            scene,
-            analysis,
-            motions,
-            index_of_block,
-            length,
-        }
+    fn new(scene: &'a Scene, analysis: &'a FrameAnalysis, motions: Vec<Motion>, length: f64) -> FallingPart<'a> {
+        let index_of_block = motions.iter().enumerate().map(|(k, m)| (m.block, k)).collect();
+        FallingPart { scene, analysis, motions, index_of_block, length }
     }
 
     /// Returns an elementary mechanism of this part, in which blocks slide along their joints if possible. `None` if
@@ -176,11 +158,8 @@ impl<'a> FallingPart<'a> {
         if self.motions.len() > MAX_BLOCKS {
             return None;
         }
-        let start: Vec<f64> = self
-            .motions
-            .iter()
-            .flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length])
-            .collect();
+        let start: Vec<f64> =
+            self.motions.iter().flat_map(|m| [m.velocity.x, m.velocity.y, m.spin * self.length]).collect();
         // Go from the motion of the proof to an extreme ray of the cone of motions. Each step closes one contact.
         let y = extreme_ray::extreme_ray(&self.rows(&start), &self.power(&start), &start)?;
         // In the extreme ray, sliding joints also open. If a motion along the joints exists, use it instead.
@@ -266,10 +245,7 @@ impl<'a> FallingPart<'a> {
             };
             let limits = &self.scene.robots[robot.robot.0].limits;
             let body = BodyId::Block(robot.block);
-            let axes = [
-                (Vector::new(1.0, 0.0), limits.fx),
-                (Vector::new(0.0, 1.0), limits.fy),
-            ];
+            let axes = [(Vector::new(1.0, 0.0), limits.fx), (Vector::new(0.0, 1.0), limits.fy)];
             for (axis, limit) in axes {
                 grips.push((self.velocity_row(body, robot.at, axis, 1.0), limit));
             }
@@ -340,12 +316,9 @@ impl<'a> FallingPart<'a> {
         }
         let along_joints = extreme_ray::project_onto_null_space(&closed_rows, y);
         let square_norm = |y: &[f64]| y.iter().map(|v| v * v).sum::<f64>();
-        let is_similar =
-            square_norm(&along_joints) >= MIN_KEPT_NORM * MIN_KEPT_NORM * square_norm(y);
+        let is_similar = square_norm(&along_joints) >= MIN_KEPT_NORM * MIN_KEPT_NORM * square_norm(y);
         let falls = value(&self.power(y), &along_joints) > 0.0;
-        let closes_no_contact = normals
-            .iter()
-            .all(|n| value(n, &along_joints) >= -CLOSED_TOL * largest);
+        let closes_no_contact = normals.iter().all(|n| value(n, &along_joints) >= -CLOSED_TOL * largest);
         (is_similar && falls && closes_no_contact).then_some(along_joints)
     }
 

@@ -42,22 +42,20 @@ pub(crate) use capacity::capacity_of;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;
 pub use capacity::{
-    CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt,
-    LoadCapacity, VertexForce,
+    CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt, LoadCapacity,
+    VertexForce,
 };
 pub use cost::{SolveReport, Stages};
 pub use decide::Method;
 pub use force::{Contact, Failure, RobotForce};
 pub use margin::{
-    End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals,
-    RobotMargins, Sides, trials,
+    End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals, RobotMargins, Sides,
+    trials,
 };
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
-pub use sensitivity::{
-    CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope,
-};
+pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
 pub use warm_start::{Source, verdicts};
@@ -193,20 +191,12 @@ impl Analysis {
         gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
-        Analysis {
-            scene,
-            frames,
-            notes,
-        }
+        Analysis { scene, frames, notes }
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.
     pub fn verdict(&self) -> Verdict {
-        self.frames
-            .iter()
-            .map(|f| f.verdict)
-            .max()
-            .unwrap_or(Verdict::Stable)
+        self.frames.iter().map(|f| f.verdict).max().unwrap_or(Verdict::Stable)
     }
 }
 

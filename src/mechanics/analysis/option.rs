@@ -120,10 +120,7 @@ impl Options {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
             // A strict proof needs a smaller tolerance: only a more accurate solution reduces the solver's error in a
             // motion.
-            Accuracy::Proved => SolverSettings {
-                tolerance: TOLERANCE * 1e-2,
-                ..Conditioning::Full.into()
-            },
+            Accuracy::Proved => SolverSettings { tolerance: TOLERANCE * 1e-2, ..Conditioning::Full.into() },
         };
         let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
         for settings in &mut list {

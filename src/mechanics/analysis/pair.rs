@@ -31,58 +31,40 @@ pub fn pair(
     if first.title != second.title {
         scene.title.clear();
     }
-    let new_indices = NewIndices {
-        blocks: add_blocks(&mut scene, first, second),
-        robots: add_robots(&mut scene, second),
-    };
+    let new_indices =
+        NewIndices { blocks: add_blocks(&mut scene, first, second), robots: add_robots(&mut scene, second) };
     // A block that both scenes share has the same loads in both. Add the loads on new blocks.
     let new = |load: &&Load| new_indices.block(load.block).0 >= first.blocks.len();
-    let more = second.loads.iter().filter(new).map(|load| Load {
-        block: new_indices.block(load.block),
-        ..*load
-    });
+    let more = second.loads.iter().filter(new).map(|load| Load { block: new_indices.block(load.block), ..*load });
     scene.loads.extend(more);
     // Take one frame of each scene. The title of the second frame also lists how the scenes
     // differ in kernel, friction and corner contacts.
     let [title, later] = titles;
     let differences = differences(first, second);
-    let mut frames = vec![
-        first.frames[before.1].clone(),
-        new_indices.frame(&second.frames[after.1]),
-    ];
+    let mut frames = vec![first.frames[before.1].clone(), new_indices.frame(&second.frames[after.1])];
     frames[0].title = title;
     frames[1].title = match differences.is_empty() {
         true => later,
         false => format!("{later}: {}", differences.join(", ")),
     };
     scene.frames = frames;
-    let found = vec![
-        before.0.frames[before.1].clone(),
-        new_indices.frame_analysis(&after.0.frames[after.1]),
-    ];
+    let found = vec![before.0.frames[before.1].clone(), new_indices.frame_analysis(&after.0.frames[after.1])];
     Ok((scene, found))
 }
 
 /// Returns an error if two scenes differ in their ground, their direction of gravity or their listed contacts.
 fn check_ground_and_gravity(first: &Scene, second: &Scene) -> Result<(), String> {
     if (first.down() - second.down()).norm() > EQUAL_TOL {
-        return Err(
-            "the second scene has another direction of gravity; turn one of the two scenes".into(),
-        );
+        return Err("the second scene has another direction of gravity; turn one of the two scenes".into());
     }
     if first.contacts != second.contacts {
-        return Err(
-            "the second scene lists other contacts; compare scenes with the same contacts".into(),
-        );
+        return Err("the second scene lists other contacts; compare scenes with the same contacts".into());
     }
     let mut parts = first.ground.iter().zip(&second.ground);
     let same = first.ground.len() == second.ground.len()
         && parts.all(|(a, b)| has_same_corners(&a.body.polygon, &b.body.polygon));
     if !same {
-        return Err(
-            "the second scene has another ground; give both scenes the same ground, part by part"
-                .into(),
-        );
+        return Err("the second scene has another ground; give both scenes the same ground, part by part".into());
     }
     Ok(())
 }
@@ -94,8 +76,7 @@ fn add_blocks(scene: &mut Scene, first: &Scene, second: &Scene) -> Vec<BlockId> 
     for (number, block) in second.blocks.iter().enumerate() {
         let known = first.blocks.iter().position(|b| b.id == block.id);
         let known = known.filter(|k| {
-            is_same_block(&first.blocks[*k], block)
-                && loads(first, BlockId(*k)) == loads(second, BlockId(number))
+            is_same_block(&first.blocks[*k], block) && loads(first, BlockId(*k)) == loads(second, BlockId(number))
         });
         ids.push(BlockId(known.unwrap_or(scene.blocks.len())));
         if known.is_none() {
@@ -134,10 +115,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
     // Collect the different friction coefficients of all bodies of each scene, and compare them.
     let friction_coefficients = |scene: &Scene| {
         let bodies = scene.blocks.iter().map(|b| &b.body);
-        let mut all: Vec<f64> = bodies
-            .chain(scene.ground.iter().map(|g| &g.body))
-            .map(|body| body.friction)
-            .collect();
+        let mut all: Vec<f64> = bodies.chain(scene.ground.iter().map(|g| &g.body)).map(|body| body.friction).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
         all
@@ -149,11 +127,7 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
         _ => {}
     }
     if first.corner_contacts != second.corner_contacts {
-        let how = if second.corner_contacts {
-            "with"
-        } else {
-            "without"
-        };
+        let how = if second.corner_contacts { "with" } else { "without" };
         words.push(format!("{how} corner contacts"));
     }
     words
@@ -164,9 +138,7 @@ fn has_same_corners(a: &Polygon, b: &Polygon) -> bool {
     let tolerance = EQUAL_TOL * a.bounds().diagonal().max(b.bounds().diagonal());
     let (a, b) = (a.rings(), b.rings());
     a.len() == b.len()
-        && a.iter().zip(b).all(|(a, b)| {
-            a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() <= tolerance)
-        })
+        && a.iter().zip(b).all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() <= tolerance))
 }
 
 fn is_same_block(a: &Block, b: &Block) -> bool {
@@ -177,8 +149,7 @@ fn is_same_block(a: &Block, b: &Block) -> bool {
 /// Returns the loads on a block, each as force x, force y (N), point x, point y (m) and torque (N·m).
 fn loads(scene: &Scene, block: BlockId) -> Vec<[f64; 5]> {
     let own = scene.loads.iter().filter(|l| l.block == block);
-    own.map(|l| [l.force.x, l.force.y, l.at.x, l.at.y, l.torque])
-        .collect()
+    own.map(|l| [l.force.x, l.force.y, l.at.x, l.at.y, l.torque]).collect()
 }
 
 /// The indices in the common scene of the blocks and robots of the second scene.
@@ -219,12 +190,7 @@ impl NewIndices {
 
     fn frame_analysis(&self, found: &FrameAnalysis) -> FrameAnalysis {
         let mut found = found.clone();
-        for Contact {
-            interface,
-            resultant,
-            ..
-        } in &mut found.contacts
-        {
+        for Contact { interface, resultant, .. } in &mut found.contacts {
             interface.bodies = interface.bodies.map(|b| self.body(b));
             resultant.on = self.body(resultant.on);
         }
@@ -236,8 +202,7 @@ impl NewIndices {
                 Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
                     *bodies = bodies.map(|b| self.body(b));
                 }
-                Failure::RobotForce { robot, block, .. }
-                | Failure::RobotTorque { robot, block, .. } => {
+                Failure::RobotForce { robot, block, .. } | Failure::RobotTorque { robot, block, .. } => {
                     (*robot, *block) = (self.robot(*robot), self.block(*block));
                 }
             }

@@ -75,10 +75,7 @@ impl Analysis {
         };
         let few = self.scene.frames[frame].placed.len() <= MAX_BLOCKS;
         let feet: BTreeSet<BlockId> = supports(&found.contacts).iter().map(|s| s.0).collect();
-        let none = ThrustStates {
-            supports: feet.len(),
-            ..ThrustStates::default()
-        };
+        let none = ThrustStates { supports: feet.len(), ..ThrustStates::default() };
         if found.verdict != Verdict::Stable || !few || feet.len() != 2 {
             return none;
         }
@@ -93,9 +90,7 @@ impl Analysis {
             return none;
         }
         let least = self.extreme(frame, 1.0);
-        let needed = least
-            .as_ref()
-            .is_some_and(|s| s.thrust > NO_THRUST * found.weight);
+        let needed = least.as_ref().is_some_and(|s| s.thrust > NO_THRUST * found.weight);
         if !needed {
             return none;
         }
@@ -114,11 +109,7 @@ impl Analysis {
         let scene = &*self.scene;
         let frame = &scene.frames[number];
         let interfaces = Interfaces::new(scene);
-        let context = FrameContext {
-            scene,
-            frame,
-            interfaces: &interfaces.in_frame(scene, frame),
-        };
+        let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
         let (assembly, _) = effect::assemble(&context);
         let mut state = self.frames[number].clone();
         for component in assembly.components() {
@@ -126,10 +117,7 @@ impl Analysis {
             set_forces(&mut state, &component, &forces, scene.kernel);
         }
         let thrust = thrust(scene, &state.contacts);
-        Some(ThrustState {
-            frame: state,
-            thrust,
-        })
+        Some(ThrustState { frame: state, thrust })
     }
 
     /// Computes the most central forces: forces that balance the frame with almost the largest safety kernel with
@@ -138,14 +126,8 @@ impl Analysis {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
-        let found = Analysis::with(scene, &Options::default())
-            .frames
-            .swap_remove(number);
-        let frame = FrameAnalysis {
-            contacts: found.contacts,
-            robots: found.robots,
-            ..self.frames[number].clone()
-        };
+        let found = Analysis::with(scene, &Options::default()).frames.swap_remove(number);
+        let frame = FrameAnalysis { contacts: found.contacts, robots: found.robots, ..self.frames[number].clone() };
         let thrust = thrust(&self.scene, &frame.contacts);
         (found.verdict == Verdict::Stable).then_some(ThrustState { frame, thrust })
     }
@@ -156,33 +138,23 @@ impl Analysis {
 fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     let across = quarter_turn(scene.down());
     let supports = supports(contacts);
-    let places = supports
-        .iter()
-        .map(|(_, c)| across.dot(&c.interface.middle().coords));
+    let places = supports.iter().map(|(_, c)| across.dot(&c.interface.middle().coords));
     let middle = middle(places.clone());
-    let pushes = supports
-        .iter()
-        .zip(places)
-        .map(|((block, contact), place)| {
-            let on_block = contact.resultant.on == BodyId::Block(*block);
-            let force = contact.resultant.force * if on_block { 1.0 } else { -1.0 };
-            force.dot(&across) * if place < middle { 1.0 } else { -1.0 }
-        });
+    let pushes = supports.iter().zip(places).map(|((block, contact), place)| {
+        let on_block = contact.resultant.on == BodyId::Block(*block);
+        let force = contact.resultant.force * if on_block { 1.0 } else { -1.0 };
+        force.dot(&across) * if place < middle { 1.0 } else { -1.0 }
+    });
     0.5 * pushes.sum::<f64>()
 }
 
 /// Returns the contacts between a block and the ground, each with its block.
 fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
     let support = |contact: &'_ Contact| match contact.interface.bodies {
-        [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => {
-            Some(block)
-        }
+        [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => Some(block),
         _ => None,
     };
-    contacts
-        .iter()
-        .filter_map(|contact| Some((support(contact)?, contact)))
-        .collect()
+    contacts.iter().filter_map(|contact| Some((support(contact)?, contact))).collect()
 }
 
 /// Returns the mean of the smallest and the largest coordinate, in metres.
@@ -202,12 +174,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     let columns = columns(&program);
     let cost = |column: &Column| {
         let inward = match column.force {
-            Force::Ray {
-                contact,
-                normal,
-                friction,
-                ..
-            } if component.contacts[contact].from.is_none() => {
+            Force::Ray { contact, normal, friction, .. } if component.contacts[contact].from.is_none() => {
                 let axis = component.contacts[contact].normal;
                 let force: Vector = axis * normal + quarter_turn(axis) * friction;
                 let side = if place(contact) < middle { 1.0 } else { -1.0 };
@@ -217,13 +184,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
         };
         sign * inward + PRICE_OF_FORCE
     };
-    let solved = dual(
-        &program.loads,
-        &columns,
-        Conditioning::Full,
-        &mut Effort::default(),
-        cost,
-    );
+    let solved = dual(&program.loads, &columns, Conditioning::Full, &mut Effort::default(), cost);
     if solved.status != Status::Solved {
         return None;
     }
@@ -233,9 +194,7 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     }
     let forces = in_newtons(component, &program, &amounts);
     match proof::check_forces(component, &forces) {
-        Proof::Forces {
-            worst_imbalance, ..
-        } if worst_imbalance <= BALANCE_TOL => Some(forces),
+        Proof::Forces { worst_imbalance, .. } if worst_imbalance <= BALANCE_TOL => Some(forces),
         _ => None,
     }
 }
@@ -246,19 +205,13 @@ fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> For
     let contacts = component.contacts.iter().enumerate().map(|(k, contact)| {
         let normal = amounts.normal[k].map(|v| (v * unit).max(0.0));
         let friction_limit = contact.friction * (normal[0] + normal[1]);
-        ContactForces {
-            normal,
-            friction: (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit),
-        }
+        ContactForces { normal, friction: (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit) }
     });
     let grips = amounts.grip.iter().map(|[x, y, moment]| GripForces {
         force: Vector::new(x * unit, y * unit),
         torque: moment * unit * program.scale.length,
     });
-    Forces {
-        contacts: contacts.collect(),
-        grips: grips.collect(),
-    }
+    Forces { contacts: contacts.collect(), grips: grips.collect() }
 }
 
 /// Copies the forces of a component, in newtons, to the contacts and robots of a frame, and computes their resultants.

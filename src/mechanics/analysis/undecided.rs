@@ -43,14 +43,9 @@ pub enum UndecidedReason {
 impl fmt::Display for UndecidedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            UndecidedReason::Late => {
-                f.write_str("the time limit was reached before it was decided")
-            }
+            UndecidedReason::Late => f.write_str("the time limit was reached before it was decided"),
             UndecidedReason::Unproved { forces, motion } => {
-                if let Proof::Forces {
-                    worst_imbalance, ..
-                } = forces
-                {
+                if let Proof::Forces { worst_imbalance, .. } = forces {
                     write!(
                         f,
                         "the forces found miss the balance of a block by {worst_imbalance:.1e} of the forces on it"
@@ -61,19 +56,13 @@ impl fmt::Display for UndecidedReason {
                         f,
                         "; a motion violates no contact, but its power may be zero within the tolerance of the forces"
                     ),
-                    Some(Proof::Mechanism {
-                        power,
-                        worst_violation,
-                    }) => write!(
-                        f,
-                        "; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}"
-                    ),
+                    Some(Proof::Mechanism { power, worst_violation }) => {
+                        write!(f, "; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}")
+                    }
                     _ => f.write_str("; no motion was found"),
                 }
             }
-            UndecidedReason::Gaps { words, .. } | UndecidedReason::Slivers { words, .. } => {
-                f.write_str(words)
-            }
+            UndecidedReason::Gaps { words, .. } | UndecidedReason::Slivers { words, .. } => f.write_str(words),
         }
     }
 }
@@ -106,16 +95,8 @@ mod tests {
         let mut frame = Analysis::new(&scene).frames.remove(0);
         assert_eq!(frame.doubt(), "");
         let unproved = |power: Option<f64>| UndecidedReason::Unproved {
-            forces: Proof::Forces {
-                worst_imbalance: 1e-3,
-                worst_share: 0.0,
-                worst_pull: 0.0,
-                worst_slip: 0.0,
-            },
-            motion: power.map(|power| Proof::Mechanism {
-                power,
-                worst_violation: 1e-4,
-            }),
+            forces: Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.0, worst_pull: 0.0, worst_slip: 0.0 },
+            motion: power.map(|power| Proof::Mechanism { power, worst_violation: 1e-4 }),
         };
         frame.doubts = vec![UndecidedReason::Late];
         let late = "the time limit was reached before it was decided";

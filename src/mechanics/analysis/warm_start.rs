@@ -56,8 +56,7 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
 /// True if verdicts may depend on narrow gaps, overlaps or very short contacts. The analysis must then decide every
 /// frame twice: with and without them.
 pub(crate) fn hinges_on_gaps(scene: &Scene, found: &Interfaces) -> bool {
-    let none =
-        found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
+    let none = found.near_misses.is_empty() && found.slivers.is_empty() && scene.penetrations.is_empty();
     scene.healed.source != ToleranceSource::Given && !none
 }
 
@@ -98,11 +97,7 @@ impl WarmStart {
         interfaces: &[&Interface],
         options: &Options,
     ) -> (Verdict, Source) {
-        let context = FrameContext {
-            scene,
-            frame,
-            interfaces,
-        };
+        let context = FrameContext { scene, frame, interfaces };
         if !options.is_late() {
             let (assembly, _) = effect::assemble(&context);
             if let Some(verdict) = self.decide_verdict(&assembly, *options) {
@@ -149,10 +144,7 @@ impl WarmStart {
         match self.scale {
             Some(scale) if near(scale.length, own.length) && near(scale.force, own.force) => scale,
             _ => {
-                *self = WarmStart {
-                    scale: Some(own),
-                    ..WarmStart::default()
-                };
+                *self = WarmStart { scale: Some(own), ..WarmStart::default() };
                 own
             }
         }
@@ -162,8 +154,7 @@ impl WarmStart {
     /// unchanged.
     fn move_to(&mut self, assembly: &Assembly, columns: Vec<Column>) {
         let begins = begins(assembly, &columns);
-        let mut new: Vec<(Origin, usize)> =
-            begins.iter().map(|(k, origin)| (*origin, *k)).collect();
+        let mut new: Vec<(Origin, usize)> = begins.iter().map(|(k, origin)| (*origin, *k)).collect();
         new.sort_unstable();
         let (old, old_begins) = (&self.columns, &self.begins);
         self.active_set.renumber(|k| {

@@ -85,11 +85,7 @@ impl Wedged {
                 .map(|least| (least * scale.force, motion(&self_stress.bounding_motion))),
             gives_way: motion(&self_stress.motion),
             presses_nothing: self_stress.presses_nothing,
-            ruled_out: self_stress
-                .ruled_out
-                .iter()
-                .map(|c| with_frame_indices(assembly, c))
-                .collect(),
+            ruled_out: self_stress.ruled_out.iter().map(|c| with_frame_indices(assembly, c)).collect(),
         }
     }
 }
@@ -101,17 +97,8 @@ fn with_frame_indices(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
     let faces = case.faces.iter();
     RuledOut {
         points: points
-            .map(|&(contact, point, presses)| PointCase {
-                interface: interface(contact),
-                point,
-                presses,
-            })
+            .map(|&(contact, point, presses)| PointCase { interface: interface(contact), point, presses })
             .collect(),
-        faces: faces
-            .map(|&(contact, slides)| FaceCase {
-                interface: interface(contact),
-                slides,
-            })
-            .collect(),
+        faces: faces.map(|&(contact, slides)| FaceCase { interface: interface(contact), slides }).collect(),
     }
 }

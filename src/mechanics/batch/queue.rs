@@ -26,11 +26,7 @@ impl Capacity {
     /// stop the others, and 64 MiB in total.
     pub fn new(threads: usize) -> Capacity {
         let threads = threads.max(1);
-        Capacity {
-            threads,
-            items: 64 * threads,
-            bytes: 64 << 20,
-        }
+        Capacity { threads, items: 64 * threads, bytes: 64 << 20 }
     }
 }
 
@@ -90,13 +86,7 @@ pub fn in_order<T, R>(
     R: Send + 'static,
 {
     let shared = Arc::new(Shared {
-        state: Mutex::new(State {
-            waiting: VecDeque::new(),
-            items: 0,
-            bytes: 0,
-            ended: false,
-            stopped: false,
-        }),
+        state: Mutex::new(State { waiting: VecDeque::new(), items: 0, bytes: 0, ended: false, stopped: false }),
         work: Condvar::new(),
         space: Condvar::new(),
     });
@@ -124,14 +114,9 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, cap
     for (number, item) in (0..).zip(input) {
         let size = item.byte_size();
         let mut state = shared.lock();
-        let is_full = |s: &State<T>| {
-            s.items > 0 && (s.items >= capacity.items || s.bytes + size > capacity.bytes)
-        };
+        let is_full = |s: &State<T>| s.items > 0 && (s.items >= capacity.items || s.bytes + size > capacity.bytes);
         while is_full(&state) && !state.stopped {
-            state = shared
-                .space
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
+            state = shared.space.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
         if state.stopped {
             return;
@@ -148,11 +133,7 @@ fn read_all<T: ByteSize>(shared: &Shared<T>, input: impl Iterator<Item = T>, cap
 
 /// Takes items from the queue, processes them and sends the answers, until the input has ended or the receiver has
 /// stopped. Runs in each worker thread.
-fn answer_all<T: ByteSize, R>(
-    shared: &Shared<T>,
-    work: &impl Fn(T) -> R,
-    answers: &Sender<(u64, usize, R)>,
-) {
+fn answer_all<T: ByteSize, R>(shared: &Shared<T>, work: &impl Fn(T) -> R, answers: &Sender<(u64, usize, R)>) {
     loop {
         let mut state = shared.lock();
         let (number, item) = loop {
@@ -163,10 +144,7 @@ fn answer_all<T: ByteSize, R>(
                 Some(next) => break next,
                 None if state.ended => return,
                 None => {
-                    state = shared
-                        .work
-                        .wait(state)
-                        .unwrap_or_else(PoisonError::into_inner);
+                    state = shared.work.wait(state).unwrap_or_else(PoisonError::into_inner);
                 }
             }
         };
@@ -237,11 +215,7 @@ mod tests {
         }
     }
 
-    const CAPACITY: Capacity = Capacity {
-        threads: 4,
-        items: 16,
-        bytes: 1_000_000,
-    };
+    const CAPACITY: Capacity = Capacity { threads: 4, items: 16, bytes: 1_000_000 };
 
     #[test]
     fn answers_come_in_order_however_long_each_takes() {
@@ -259,16 +233,7 @@ mod tests {
 
     #[test]
     fn no_more_items_are_read_than_the_capacity_allows() {
-        for (capacity, most) in [
-            (CAPACITY, 16),
-            (
-                Capacity {
-                    bytes: 500,
-                    ..CAPACITY
-                },
-                5,
-            ),
-        ] {
+        for (capacity, most) in [(CAPACITY, 16), (Capacity { bytes: 500, ..CAPACITY }, 5)] {
             let read = Arc::new(AtomicUsize::new(0));
             let counted = Arc::clone(&read);
             let input = (0..200).inspect(move |_| {
@@ -289,20 +254,14 @@ mod tests {
                 },
             );
             assert_eq!(received, 200);
-            assert!(
-                worst <= most + 1,
-                "{worst} in progress, and the limit is {most}"
-            );
+            assert!(worst <= most + 1, "{worst} in progress, and the limit is {most}");
         }
     }
 
     #[test]
     fn an_item_larger_than_the_capacity_is_processed() {
         let mut received = 0;
-        let capacity = Capacity {
-            bytes: 10,
-            ..CAPACITY
-        };
+        let capacity = Capacity { bytes: 10, ..CAPACITY };
         in_order(
             0..20,
             capacity,

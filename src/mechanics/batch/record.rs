@@ -54,10 +54,7 @@ impl fmt::Debug for Input {
 impl Input {
     /// Creates an input from an open stream that contains one scene on each line.
     pub fn lines(file: Option<PathBuf>, reader: Box<dyn Read + Send>) -> Input {
-        Input::Lines {
-            file,
-            reader: Some(reader),
-        }
+        Input::Lines { file, reader: Some(reader) }
     }
 }
 
@@ -85,11 +82,7 @@ impl fmt::Debug for Open {
 impl Records {
     /// Creates an iterator over the scenes of the inputs, in order.
     pub fn new(inputs: Vec<Input>) -> Records {
-        Records {
-            inputs: inputs.into_iter(),
-            open: None,
-            read: Arc::new(AtomicU64::new(0)),
-        }
+        Records { inputs: inputs.into_iter(), open: None, read: Arc::new(AtomicU64::new(0)) }
     }
 
     /// Returns a shared counter of the bytes that were read so far, for showing progress.
@@ -103,21 +96,14 @@ impl Records {
 
     fn whole(&self, path: PathBuf) -> Record {
         let mut bytes = Vec::new();
-        let read = File::open(&path).and_then(|file| {
-            file.take(MAX_RECORD_BYTES as u64 + 1)
-                .read_to_end(&mut bytes)
-        });
+        let read = File::open(&path).and_then(|file| file.take(MAX_RECORD_BYTES as u64 + 1).read_to_end(&mut bytes));
         self.add(bytes.len());
         let bytes = match read {
             Ok(size) if size > MAX_RECORD_BYTES => Err(too_long()),
             Ok(_) => Ok(bytes),
             Err(error) => Err(unreadable(&error)),
         };
-        Record {
-            file: Some(path),
-            line: None,
-            bytes,
-        }
+        Record { file: Some(path), line: None, bytes }
     }
 }
 
@@ -131,11 +117,7 @@ impl Iterator for Records {
                 let (size, bytes) = next_line(&mut open.reader);
                 if size > 0 || bytes.is_err() {
                     open.line = number;
-                    let record = Record {
-                        file: open.file.clone(),
-                        line: Some(number),
-                        bytes,
-                    };
+                    let record = Record { file: open.file.clone(), line: Some(number), bytes };
                     // Stop reading this stream if it cannot be read: it could return the same error forever.
                     if size == 0 {
                         self.open = None;
@@ -150,25 +132,15 @@ impl Iterator for Records {
                 Input::Lines { file, reader } => {
                     let opened = match (reader, &file) {
                         (Some(reader), _) => Ok(reader),
-                        (None, Some(path)) => {
-                            File::open(path).map(|f| Box::new(f) as Box<dyn Read + Send>)
-                        }
+                        (None, Some(path)) => File::open(path).map(|f| Box::new(f) as Box<dyn Read + Send>),
                         (None, None) => continue,
                     };
                     match opened {
                         Ok(reader) => {
-                            self.open = Some(Open {
-                                file,
-                                reader: BufReader::with_capacity(1 << 16, reader),
-                                line: 0,
-                            });
+                            self.open = Some(Open { file, reader: BufReader::with_capacity(1 << 16, reader), line: 0 });
                         }
                         Err(error) => {
-                            return Some(Record {
-                                file,
-                                line: None,
-                                bytes: Err(unreadable(&error)),
-                            });
+                            return Some(Record { file, line: None, bytes: Err(unreadable(&error)) });
                         }
                     }
                 }
@@ -237,12 +209,7 @@ mod tests {
         let input = Input::lines(None, Box::new(endless(MAX_RECORD_BYTES + 5)));
         let records: Vec<Record> = Records::new(vec![input]).collect();
         assert_eq!(records.len(), 2);
-        assert!(
-            records[0]
-                .bytes
-                .as_ref()
-                .is_err_and(|why| why.contains("256 MiB"))
-        );
+        assert!(records[0].bytes.as_ref().is_err_and(|why| why.contains("256 MiB")));
         assert_eq!(records[1].bytes, Ok(b"after".to_vec()));
     }
 
@@ -258,10 +225,7 @@ mod tests {
         let missing = PathBuf::from("no/such/file.json");
         let inputs = vec![
             Input::Whole(missing.clone()),
-            Input::Lines {
-                file: Some(missing.clone()),
-                reader: None,
-            },
+            Input::Lines { file: Some(missing.clone()), reader: None },
             Input::lines(None, Box::new(&b"a"[..])),
         ];
         let records: Vec<Record> = Records::new(inputs).collect();

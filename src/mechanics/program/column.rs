@@ -63,29 +63,22 @@ impl Force {
     /// True if the force is adhesion (sticking), which no contact or robot can exert. It only shows which force is
     /// missing in a structure that falls.
     pub fn is_adhesion(&self) -> bool {
-        matches!(
-            self,
-            Force::AdhesionNormal { .. }
-                | Force::AdhesionFriction { .. }
-                | Force::AdhesionGrip { .. }
-        )
+        matches!(self, Force::AdhesionNormal { .. } | Force::AdhesionFriction { .. } | Force::AdhesionGrip { .. })
     }
 
     /// Returns the effect that the force belongs to, such as friction or robots.
     fn effect(&self, program: &Program) -> EffectName {
         match *self {
-            Force::Ray {
-                contact, friction, ..
-            } => match (program.contacts[contact].kind, friction) {
+            Force::Ray { contact, friction, .. } => match (program.contacts[contact].kind, friction) {
                 (ContactKind::Corner, _) => EffectName::CornerContacts,
                 (ContactKind::Edge, 0.0) => EffectName::Contact,
                 (ContactKind::Edge, _) => EffectName::Friction,
             },
             Force::Grip { component: 2, .. } => EffectName::RobotTorque,
             Force::Grip { .. } => EffectName::Robots,
-            Force::AdhesionNormal { .. }
-            | Force::AdhesionFriction { .. }
-            | Force::AdhesionGrip { .. } => EffectName::Sticking,
+            Force::AdhesionNormal { .. } | Force::AdhesionFriction { .. } | Force::AdhesionGrip { .. } => {
+                EffectName::Sticking
+            }
         }
     }
 }
@@ -117,9 +110,7 @@ impl Column {
     /// True if two columns have the same coefficients, regardless of their rows, and the same limit.
     pub(crate) fn has_values_of(&self, other: &Column) -> bool {
         let mut pairs = self.filled().iter().zip(other.filled());
-        self.count == other.count
-            && pairs.all(|(own, its)| own.1 == its.1)
-            && self.limit == other.limit
+        self.count == other.count && pairs.all(|(own, its)| own.1 == its.1) && self.limit == other.limit
     }
 
     /// Returns the power of one unit of the force at the velocities `y` of the blocks: the inner product of the column
@@ -168,9 +159,7 @@ impl Column {
     /// Returns this column minus another column. Both must act on the same bodies.
     pub(super) fn minus(&self, other: &Column) -> Column {
         let mut difference = Column { count: 0, ..*self };
-        let mut put = |row: usize, value: f64| match (0..difference.count)
-            .find(|i| difference.places[*i].0 == row)
-        {
+        let mut put = |row: usize, value: f64| match (0..difference.count).find(|i| difference.places[*i].0 == row) {
             Some(i) => difference.places[i].1 += value,
             None => {
                 difference.places[difference.count] = (row, value);
@@ -183,13 +172,7 @@ impl Column {
     }
 
     fn new(force: Force, cost: f64, limit: f64) -> Column {
-        Column {
-            places: [(0, 0.0); 6],
-            count: 0,
-            cost,
-            limit,
-            force,
-        }
+        Column { places: [(0, 0.0); 6], count: 0, cost, limit, force }
     }
 
     /// Appends the coefficients of a force on the body with index `block`, and of its moment about the centroid.
@@ -212,10 +195,7 @@ pub struct UnknownCounts {
 
 impl UnknownCounts {
     /// Counts the unknowns of a program for each effect.
-    pub fn new<'a>(
-        program: &Program,
-        columns: impl IntoIterator<Item = &'a Column>,
-    ) -> UnknownCounts {
+    pub fn new<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> UnknownCounts {
         let mut counts = UnknownCounts::default();
         for column in columns {
             counts.add(column.force.effect(program), 1);
@@ -251,24 +231,12 @@ pub fn columns(program: &Program) -> Vec<Column> {
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
             let mu = contact.friction;
-            for side in if mu > 0.0 {
-                &[0.0, 1.0, -1.0][..]
-            } else {
-                &[0.0][..]
-            } {
+            for side in if mu > 0.0 { &[0.0, 1.0, -1.0][..] } else { &[0.0][..] } {
                 // Scale each generator so that the magnitudes of its normal force and its friction sum to 1. Columns
                 // then have similar sizes for every friction coefficient.
-                let (normal, friction) = if *side == 0.0 {
-                    (1.0, 0.0)
-                } else {
-                    (1.0 / (1.0 + mu), side * mu / (1.0 + mu))
-                };
-                let force = Force::Ray {
-                    contact: number,
-                    point,
-                    normal,
-                    friction,
-                };
+                let (normal, friction) =
+                    if *side == 0.0 { (1.0, 0.0) } else { (1.0 / (1.0 + mu), side * mu / (1.0 + mu)) };
+                let force = Force::Ray { contact: number, point, normal, friction };
                 let direction = contact.normal * normal + quarter_turn(contact.normal) * friction;
                 columns.push(contact_column(contact, point, direction, force, 1.0));
             }
@@ -277,18 +245,8 @@ pub fn columns(program: &Program) -> Vec<Column> {
     for (number, grip) in program.grips.iter().enumerate() {
         for component in (0..3).filter(|c| grip.limits[*c] > 0.0) {
             for sign in [1.0, -1.0] {
-                let force = Force::Grip {
-                    grip: number,
-                    component,
-                    sign,
-                };
-                columns.push(grip_column(
-                    grip,
-                    component,
-                    sign,
-                    force,
-                    grip.limits[component],
-                ));
+                let force = Force::Grip { grip: number, component, sign };
+                columns.push(grip_column(grip, component, sign, force, grip.limits[component]));
             }
         }
     }
@@ -305,34 +263,18 @@ pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
-            let force = Force::AdhesionNormal {
-                contact: number,
-                point,
-            };
+            let force = Force::AdhesionNormal { contact: number, point };
             columns.push(contact_column(contact, point, -contact.normal, force, 1.0));
         }
         for sign in [1.0, -1.0] {
-            let force = Force::AdhesionFriction {
-                contact: number,
-                sign,
-            };
-            columns.push(contact_column(
-                contact,
-                0,
-                quarter_turn(contact.normal) * sign,
-                force,
-                1.0,
-            ));
+            let force = Force::AdhesionFriction { contact: number, sign };
+            columns.push(contact_column(contact, 0, quarter_turn(contact.normal) * sign, force, 1.0));
         }
     }
     for (number, grip) in program.grips.iter().enumerate() {
         for component in 0..3 {
             for sign in [1.0, -1.0] {
-                let force = Force::AdhesionGrip {
-                    grip: number,
-                    component,
-                    sign,
-                };
+                let force = Force::AdhesionGrip { grip: number, component, sign };
                 columns.push(grip_column(grip, component, sign, force, f64::INFINITY));
             }
         }
@@ -342,13 +284,7 @@ pub fn adhesion_columns(program: &Program) -> Vec<Column> {
 
 /// Creates the column of a force at an application point of a contact. If the contact has a second body, the opposite
 /// force acts on that body.
-fn contact_column(
-    contact: &ContactTerm,
-    point: usize,
-    direction: Vector,
-    force: Force,
-    cost: f64,
-) -> Column {
+fn contact_column(contact: &ContactTerm, point: usize, direction: Vector, force: Force, cost: f64) -> Column {
     let mut column = Column::new(force, cost, f64::INFINITY);
     let (on, arms) = contact.on;
     column.enter(on, direction, cross(arms[point], direction));

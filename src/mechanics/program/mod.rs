@@ -24,8 +24,8 @@ mod tests;
 pub use column::{Column, Force, UnknownCounts, adhesion_columns, columns};
 pub(crate) use pose::product;
 pub use pose::{
-    Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm,
-    least_residual_dual, least_squares, load_factor_dual, nearest_factor_dual,
+    Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm, least_residual_dual,
+    least_squares, load_factor_dual, nearest_factor_dual,
 };
 pub use scale::Scale;
 pub use vallat::vallat_program;
@@ -104,19 +104,9 @@ impl Program {
         let grips = assembly.grips.iter().map(|grip| GripTerm {
             block: grip.body,
             arm: (grip.at - assembly.bodies[grip.body].centroid) / scale.length,
-            limits: [
-                grip.limits.fx / scale.force,
-                grip.limits.fy / scale.force,
-                grip.limits.torque / scale.moment(),
-            ],
+            limits: [grip.limits.fx / scale.force, grip.limits.fy / scale.force, grip.limits.torque / scale.moment()],
         });
-        Program {
-            blocks: assembly.bodies.len(),
-            loads,
-            contacts: contacts.collect(),
-            grips: grips.collect(),
-            scale,
-        }
+        Program { blocks: assembly.bodies.len(), loads, contacts: contacts.collect(), grips: grips.collect(), scale }
     }
 
     /// A robot's limit above this multiple of the sum of all loads counts as non-binding.
@@ -134,12 +124,7 @@ impl Program {
         let any = self.grips.iter().flat_map(|g| g.limits).any(non_binding);
         any.then(|| {
             let mut program = self.clone();
-            for limit in program
-                .grips
-                .iter_mut()
-                .flat_map(|g| &mut g.limits)
-                .filter(|l| non_binding(**l))
-            {
+            for limit in program.grips.iter_mut().flat_map(|g| &mut g.limits).filter(|l| non_binding(**l)) {
                 *limit = f64::INFINITY;
             }
             program
@@ -150,10 +135,7 @@ impl Program {
     /// torque of each grip, in program units.
     pub fn allows(&self, grips: &[[f64; 3]]) -> bool {
         self.grips.iter().zip(grips).all(|(term, given)| {
-            term.limits
-                .iter()
-                .zip(given)
-                .all(|(limit, amount)| amount.abs() <= limit * (1.0 + 1e-9) + 1e-9)
+            term.limits.iter().zip(given).all(|(limit, amount)| amount.abs() <= limit * (1.0 + 1e-9) + 1e-9)
         })
     }
 }

@@ -46,10 +46,7 @@ impl Program {
     pub fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let alignment_angles = alignment_angles(&normals);
-        if alignment_angles
-            .iter()
-            .all(|turn| turn.abs() <= ROUNDING_TOL)
-        {
+        if alignment_angles.iter().all(|turn| turn.abs() <= ROUNDING_TOL) {
             return None;
         }
         let mut straight = self.clone();
@@ -71,9 +68,7 @@ fn alignment_angles(directions: &[Vector]) -> Vec<f64> {
     angles.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Angles are periodic: a cluster at 45° lies at both ends of the list. Rotate the list so that it starts after a
     // gap.
-    let gap = angles
-        .windows(2)
-        .position(|w| w[1].0 - w[0].0 > PARALLEL_TOL);
+    let gap = angles.windows(2).position(|w| w[1].0 - w[0].0 > PARALLEL_TOL);
     let first = gap.map_or(0, |gap| gap + 1);
     for (angle, _) in &mut angles[..first] {
         *angle += FRAC_PI_2;
@@ -92,10 +87,7 @@ fn alignment_angles(directions: &[Vector]) -> Vec<f64> {
 /// Returns a direction rotated anticlockwise by an angle in radians.
 fn rotated(direction: Vector, angle: f64) -> Vector {
     let (sin, cos) = libm::sincos(angle);
-    Vector::new(
-        cos * direction.x - sin * direction.y,
-        sin * direction.x + cos * direction.y,
-    )
+    Vector::new(cos * direction.x - sin * direction.y, sin * direction.x + cos * direction.y)
 }
 
 /// Returns the angle from the nearest coordinate half-axis (±x or ±y) to a direction, in radians from −π/4 to π/4,
@@ -122,26 +114,18 @@ mod tests {
     fn nearly_parallel_or_perpendicular_joints_are_aligned_and_no_others() {
         for turn in [0.0, -0.7, 0.3, FRAC_PI_2 / 2.0, -FRAC_PI_2 / 2.0] {
             let off = [1e-6, -2e-6, 5e-7, 0.0, -1e-6];
-            let mut directions: Vec<Vector> = (0..5_u8)
-                .zip(off)
-                .map(|(k, off)| unit_vector(turn + off + f64::from(k) * FRAC_PI_2))
-                .collect();
+            let mut directions: Vec<Vector> =
+                (0..5_u8).zip(off).map(|(k, off)| unit_vector(turn + off + f64::from(k) * FRAC_PI_2)).collect();
             directions.push(unit_vector(turn + 0.01));
             let alignment_angles = alignment_angles(&directions);
             assert_eq!(alignment_angles[5], 0.0, "{turn}");
-            let straight: Vec<Vector> = directions
-                .iter()
-                .zip(&alignment_angles)
-                .map(|(d, turn)| rotated(*d, *turn))
-                .collect();
+            let straight: Vec<Vector> =
+                directions.iter().zip(&alignment_angles).map(|(d, turn)| rotated(*d, *turn)).collect();
             for other in &straight[1..5] {
                 let (parallel, square) = (cross(straight[0], *other), straight[0].dot(other));
                 assert!(parallel.abs().min(square.abs()) < 1e-15, "{turn}");
             }
-            assert!(
-                alignment_angles.iter().all(|turn| turn.abs() < 4e-6),
-                "{turn}"
-            );
+            assert!(alignment_angles.iter().all(|turn| turn.abs() < 4e-6), "{turn}");
         }
         let exact = alignment_angles(&[unit_vector(0.0), unit_vector(FRAC_PI_2)]);
         assert!(exact.iter().all(|turn| turn.abs() <= ROUNDING_TOL));

@@ -32,8 +32,7 @@ impl QuadraticProgram {
     /// of the row decides whether it is = or ≤.
     fn push_column_row(&mut self, column: &Column, bound: f64) {
         let row = self.bound.len();
-        self.matrix
-            .extend(column.entries().map(|(i, v)| (row, i, v)));
+        self.matrix.extend(column.entries().map(|(i, v)| (row, i, v)));
         self.bound.push(bound);
     }
 }
@@ -107,16 +106,8 @@ pub fn kinematic_dual(
 fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     let next = columns.get(k + 1).map(|column| column.force);
     match columns[k].force {
-        Force::Grip {
-            grip,
-            component,
-            sign,
-        } if sign > 0.0 => {
-            next == Some(Force::Grip {
-                grip,
-                component,
-                sign: -1.0,
-            })
+        Force::Grip { grip, component, sign } if sign > 0.0 => {
+            next == Some(Force::Grip { grip, component, sign: -1.0 })
         }
         _ => false,
     }
@@ -126,11 +117,7 @@ fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
 /// is max loadsᵀy s.t. columnᵀy ≤ 0, towardᵀy ≥ 1.
 ///
 /// The multiplier of the last row is the largest λ ≥ 0. The returned rows are those of [`kinematic_dual`].
-pub fn load_factor_dual(
-    loads: &[f64],
-    toward: &[f64],
-    columns: &[Column],
-) -> (QuadraticProgram, Vec<usize>) {
+pub fn load_factor_dual(loads: &[f64], toward: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     let row = problem.bound.len();
     let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
@@ -144,18 +131,12 @@ pub fn load_factor_dual(
 ///
 /// Also returns the rows that [`kinematic_dual`] returns. λ is the multiplier of the second-last row of the problem
 /// minus the multiplier of the last row.
-pub fn nearest_factor_dual(
-    loads: &[f64],
-    toward: &[f64],
-    columns: &[Column],
-) -> (QuadraticProgram, Vec<usize>) {
+pub fn nearest_factor_dual(loads: &[f64], toward: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
     let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
     for sign in [-1.0, 1.0] {
         let row = problem.bound.len();
         let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
-        problem
-            .matrix
-            .extend(entries.map(|(i, v)| (row, i, sign * v)));
+        problem.matrix.extend(entries.map(|(i, v)| (row, i, sign * v)));
         problem.bound.push(1.0);
     }
     (problem, row_of)
@@ -179,11 +160,7 @@ pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgr
 
 /// Returns the problem of the least change d of given velocities: min ½ |d|² s.t. columnᵀd = value for the first
 /// `equalities` columns, and columnᵀd ≥ value for the other columns.
-pub fn least_change(
-    unknowns: usize,
-    columns: &[(&Column, f64)],
-    equalities: usize,
-) -> QuadraticProgram {
+pub fn least_change(unknowns: usize, columns: &[(&Column, f64)], equalities: usize) -> QuadraticProgram {
     let mut problem = QuadraticProgram {
         unknowns,
         quadratic: (0..unknowns).map(|i| (i, i, 1.0)).collect(),
@@ -196,9 +173,7 @@ pub fn least_change(
         // The solver's inequalities are Ax ≤ b, so the signs of columnᵀd ≥ value are reversed.
         let sign = if row < equalities { 1.0 } else { -1.0 };
         let entries = column.entries();
-        problem
-            .matrix
-            .extend(entries.map(|(i, v)| (row, i, sign * v)));
+        problem.matrix.extend(entries.map(|(i, v)| (row, i, sign * v)));
         problem.bound.push(sign * value);
     }
     problem
@@ -211,9 +186,7 @@ pub fn least_norm(loads: &[f64], columns: &[Column]) -> QuadraticProgram {
         unknowns: columns.len(),
         quadratic: (0..columns.len()).map(|i| (i, i, 1.0)).collect(),
         linear: vec![0.0; columns.len()],
-        matrix: entries
-            .flat_map(|(j, column)| column.entries().map(move |(row, value)| (row, j, value)))
-            .collect(),
+        matrix: entries.flat_map(|(j, column)| column.entries().map(move |(row, value)| (row, j, value))).collect(),
         bound: loads.to_vec(),
         equalities: loads.len(),
     }
@@ -238,11 +211,7 @@ pub struct Correction<'a> {
 /// column. Here `loads` are the part of the loads that the given amounts do not balance. With squares of forces,
 /// opposite columns, such as the two directions of a robot's force, could grow together without bound, and the solver
 /// would end without a result.
-pub fn least_squares(
-    loads: &[f64],
-    columns: &[Column],
-    correction: Option<Correction>,
-) -> QuadraticProgram {
+pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Correction>) -> QuadraticProgram {
     let mut quadratic = Vec::new();
     if correction.is_some() {
         quadratic.extend((0..columns.len()).map(|j| (j, j, 1.0)));
@@ -333,21 +302,12 @@ enum Site {
 fn components(force: &Force) -> (Site, [f64; 3]) {
     let mut own = [0.0; 3];
     let site = match *force {
-        Force::Ray {
-            contact,
-            point,
-            normal,
-            friction,
-        } => {
+        Force::Ray { contact, point, normal, friction } => {
             own[point] = normal;
             own[2] = friction;
             Site::Contact(contact)
         }
-        Force::Grip {
-            grip,
-            component,
-            sign,
-        } => {
+        Force::Grip { grip, component, sign } => {
             own[component] = sign;
             Site::Grip(grip)
         }
@@ -359,11 +319,7 @@ fn components(force: &Force) -> (Site, [f64; 3]) {
             own[2] = sign;
             Site::ContactAdhesion(contact)
         }
-        Force::AdhesionGrip {
-            grip,
-            component,
-            sign,
-        } => {
+        Force::AdhesionGrip { grip, component, sign } => {
             own[component] = sign;
             Site::GripAdhesion(grip)
         }

@@ -30,10 +30,7 @@ impl Scale {
     /// heaviest load counts as 1 N.
     pub fn new(length: f64, heaviest: f64) -> Scale {
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
-        Scale {
-            length,
-            force: heaviest / Self::HEAVIEST,
-        }
+        Scale { length, force: heaviest / Self::HEAVIEST }
     }
 
     /// Returns the unit of moment of the program, in N·m.

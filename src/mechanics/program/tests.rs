@@ -35,11 +35,7 @@ fn held(fx: f64, fy: f64, torque: f64) -> Program {
             friction: 0.5,
             points: 2,
         }],
-        grips: vec![GripTerm {
-            block: 0,
-            arm: Vector::new(-1.0, 0.75),
-            limits: [fx / 2.0, fy / 2.0, torque / 4.0],
-        }],
+        grips: vec![GripTerm { block: 0, arm: Vector::new(-1.0, 0.75), limits: [fx / 2.0, fy / 2.0, torque / 4.0] }],
         scale: Scale::new(2.0, 600.0),
     }
 }
@@ -58,10 +54,7 @@ fn assert_columns(columns: &[Column], expected: &[&[(usize, f64)]]) {
 fn assert_entries(column: &Column, expected: &[(usize, f64)]) {
     let found: Vec<(usize, f64)> = column.entries().collect();
     let same = |(a, b): (&(usize, f64), &(usize, f64))| a.0 == b.0 && (a.1 - b.1).abs() < 1e-15;
-    assert!(
-        found.len() == expected.len() && found.iter().zip(expected).all(same),
-        "{found:?}, not {expected:?}"
-    );
+    assert!(found.len() == expected.len() && found.iter().zip(expected).all(same), "{found:?}, not {expected:?}");
 }
 
 /// A row of a quadratic program as dense numbers.
@@ -100,11 +93,7 @@ fn columns_are_the_edges_of_friction_cones_and_the_components_of_robots() {
         &[(2, -1.0)],
     ];
     assert_columns(&columns, &expected);
-    assert!(
-        columns
-            .iter()
-            .all(|c| c.cost == 1.0 && !c.force.is_adhesion())
-    );
+    assert!(columns.iter().all(|c| c.cost == 1.0 && !c.force.is_adhesion()));
     let limits: Vec<f64> = columns[6..].iter().map(|c| c.limit).collect();
     let free = f64::INFINITY;
     assert_eq!(limits, [1.0, 1.0, free, free, 2.0, 2.0]);
@@ -134,9 +123,7 @@ fn adhesion_columns_allow_tension_any_friction_and_unlimited_robots() {
     assert_columns(&columns, &expected);
     assert!((columns.iter()).all(|c| c.force.is_adhesion() && c.limit.is_infinite()));
     let admissible = UnknownCounts::new(&program, &super::columns(&program));
-    let all = admissible
-        .clone()
-        .plus(&UnknownCounts::new(&program, &columns));
+    let all = admissible.clone().plus(&UnknownCounts::new(&program, &columns));
     assert_eq!(by_effect(&all), [2, 4, 0, 4, 2, 10]);
     let twice = admissible.clone().plus(&admissible);
     assert_eq!(by_effect(&twice), [4, 8, 0, 8, 4, 0]);
@@ -214,23 +201,15 @@ fn the_quadratic_form_sums_squares_of_forces() {
         let (mut normal, mut friction, mut grip) = ([0.0; 2], 0.0, [0.0; 3]);
         for (column, amount) in columns.iter().zip(&amounts) {
             match column.force {
-                Force::Ray {
-                    point,
-                    normal: n,
-                    friction: t,
-                    ..
-                } => {
+                Force::Ray { point, normal: n, friction: t, .. } => {
                     normal[point] += n * amount;
                     friction += t * amount;
                 }
                 Force::AdhesionNormal { point, .. } => normal[point] += amount,
                 Force::AdhesionFriction { sign, .. } => friction += sign * amount,
-                Force::Grip {
-                    component, sign, ..
+                Force::Grip { component, sign, .. } | Force::AdhesionGrip { component, sign, .. } => {
+                    grip[component] += sign * amount
                 }
-                | Force::AdhesionGrip {
-                    component, sign, ..
-                } => grip[component] += sign * amount,
             }
         }
         let squares = normal.iter().chain(&grip).map(|v| v * v);
@@ -242,17 +221,10 @@ fn the_quadratic_form_sums_squares_of_forces() {
             twice * value * amounts[*i] * amounts[*j]
         };
         let found: f64 = conic.quadratic.iter().map(of).sum();
-        assert!(
-            (found - expected).abs() < 1e-12 * expected,
-            "{found} {expected}"
-        );
+        assert!((found - expected).abs() < 1e-12 * expected, "{found} {expected}");
         assert!(conic.linear.iter().all(|v| *v == 0.0));
     }
-    let place = |grip, component, sign| Force::Grip {
-        grip,
-        component,
-        sign,
-    };
+    let place = |grip, component, sign| Force::Grip { grip, component, sign };
     assert_eq!(product(&place(0, 1, 1.0), &place(1, 1, 1.0)), None);
     assert_eq!(product(&place(0, 1, 1.0), &place(0, 2, 1.0)), Some(0.0));
     let stick = |contact, point| Force::AdhesionNormal { contact, point };
@@ -268,10 +240,7 @@ fn bounds_keep_amounts_and_corrected_amounts_between_zero_and_their_limits() {
     let program = example();
     let columns = columns(&program);
     let amounts: Vec<f64> = (0..columns.len()).map(|k| 0.125 * k as f64).collect();
-    let correction = Correction {
-        amounts: &amounts,
-        size: 0.5,
-    };
+    let correction = Correction { amounts: &amounts, size: 0.5 };
     for correction in [None, Some(correction)] {
         let conic = least_squares(&program.loads, &columns, correction);
         assert_eq!((conic.unknowns, conic.equalities), (12, 3));
@@ -284,10 +253,7 @@ fn bounds_keep_amounts_and_corrected_amounts_between_zero_and_their_limits() {
             let (floor, size) = correction.map_or((0.0, 1.0), |c| (2.0 * c.amounts[j], c.size));
             let mut unit = vec![0.0; 12];
             unit[j] = -1.0;
-            assert_eq!(
-                (row(&conic, next), conic.bound[next]),
-                (unit.clone(), floor)
-            );
+            assert_eq!((row(&conic, next), conic.bound[next]), (unit.clone(), floor));
             next += 1;
             if column.limit.is_finite() {
                 unit[j] = 1.0;
@@ -323,21 +289,14 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
             positive[3 + w] = -1.0;
             assert_eq!((row(&conic, 12 + w), conic.bound[12 + w]), (positive, 0.0));
         }
-        assert_eq!(
-            (row(&conic, row_of[k]), conic.bound[row_of[k]]),
-            (expected, 1.0)
-        );
+        assert_eq!((row(&conic, row_of[k]), conic.bound[row_of[k]]), (expected, 1.0));
     }
     // Without cost, the pair of columns of the unlimited vertical force is one equality.
     let (conic, row_of) = kinematic_dual(&program.loads, &columns, |_| 0.0);
     assert_eq!((conic.equalities, conic.bound.len()), (1, 11 + 4));
     assert_eq!((row_of[8], row_of[9]), (0, usize::MAX));
     assert_eq!(row(&conic, 0), dense(&columns[8], 7));
-    let others: Vec<usize> = row_of
-        .iter()
-        .copied()
-        .filter(|r| (1..11).contains(r))
-        .collect();
+    let others: Vec<usize> = row_of.iter().copied().filter(|r| (1..11).contains(r)).collect();
     assert_eq!(others.len(), 10);
 
     let (conic, _) = load_factor_dual(&program.loads, &[0.0, 2.0, -1.0], &columns);
@@ -359,10 +318,7 @@ fn the_programs_of_least_change_and_least_norm_have_the_expected_rows() {
     let columns = columns(&program);
     let rows = [(&columns[0], 2.0), (&columns[2], 3.0)];
     let conic = least_change(3, &rows, 1);
-    assert_eq!(
-        (row(&conic, 0), conic.bound[0]),
-        (dense(&columns[0], 3), 2.0)
-    );
+    assert_eq!((row(&conic, 0), conic.bound[0]), (dense(&columns[0], 3), 2.0));
     let turned: Vec<f64> = dense(&columns[2], 3).iter().map(|v| -v).collect();
     assert_eq!((row(&conic, 1), conic.bound[1]), (turned, -3.0));
     assert_eq!(conic.quadratic, [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0)]);
@@ -378,11 +334,7 @@ fn the_programs_of_least_change_and_least_norm_have_the_expected_rows() {
 #[test]
 fn limits_of_more_than_ten_times_all_loads_do_not_bind() {
     // The loads are 5.25 units in total, so a limit above 52.5 units does not bind.
-    assert!(
-        held(105.0, f64::INFINITY, 8.0)
-            .without_non_binding_limits()
-            .is_none()
-    );
+    assert!(held(105.0, f64::INFINITY, 8.0).without_non_binding_limits().is_none());
     let without = held(106.0, 4.0, 211.0).without_non_binding_limits();
     let limits = without.map(|program| program.grips[0].limits);
     assert_eq!(limits, Some([f64::INFINITY, 2.0, f64::INFINITY]));

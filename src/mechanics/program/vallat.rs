@@ -28,11 +28,7 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     // Friction cone at each application point: f⁺ + f⁻ − μN ≤ 0.
     for (first, friction) in unknowns.cones {
         let row = bound.len();
-        matrix.extend([
-            (row, first, -friction),
-            (row, first + 1, 1.0),
-            (row, first + 2, 1.0),
-        ]);
+        matrix.extend([(row, first, -friction), (row, first + 1, 1.0), (row, first + 2, 1.0)]);
         bound.push(0.0);
     }
     for (j, limit) in unknowns.limits.into_iter().filter(|l| l.1.is_finite()) {
@@ -45,14 +41,7 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
         bound.push(0.0);
     }
     let linear = (0..2 * n).map(|j| if j < n { 1.0 } else { beta }).collect();
-    QuadraticProgram {
-        unknowns: 2 * n,
-        quadratic: Vec::new(),
-        linear,
-        matrix,
-        bound,
-        equalities,
-    }
+    QuadraticProgram { unknowns: 2 * n, quadratic: Vec::new(), linear, matrix, bound, equalities }
 }
 
 /// The unknowns of Vallat's program without their opposite partners.
@@ -67,18 +56,9 @@ struct SourceUnknowns {
 /// Builds Vallat's unknowns from the columns of two auxiliary programs: one with friction coefficient 1, and one with
 /// robots without limits.
 fn source_unknowns(program: &Program) -> SourceUnknowns {
-    let mut unknowns = SourceUnknowns {
-        columns: Vec::new(),
-        cones: Vec::new(),
-        limits: Vec::new(),
-    };
+    let mut unknowns = SourceUnknowns { columns: Vec::new(), cones: Vec::new(), limits: Vec::new() };
     let rough = Program {
-        contacts: (program.contacts.iter())
-            .map(|contact| ContactTerm {
-                friction: 1.0,
-                ..*contact
-            })
-            .collect(),
+        contacts: (program.contacts.iter()).map(|contact| ContactTerm { friction: 1.0, ..*contact }).collect(),
         grips: Vec::new(),
         ..program.clone()
     };
@@ -97,19 +77,11 @@ fn source_unknowns(program: &Program) -> SourceUnknowns {
     }
     let unlimited = Program {
         contacts: Vec::new(),
-        grips: (program.grips.iter())
-            .map(|grip| GripTerm {
-                limits: [f64::INFINITY; 3],
-                ..*grip
-            })
-            .collect(),
+        grips: (program.grips.iter()).map(|grip| GripTerm { limits: [f64::INFINITY; 3], ..*grip }).collect(),
         ..program.clone()
     };
     for column in columns(&unlimited) {
-        if let Force::Grip {
-            grip, component, ..
-        } = column.force
-        {
+        if let Force::Grip { grip, component, .. } = column.force {
             let limit = program.grips[grip].limits[component];
             unknowns.limits.push((unknowns.columns.len(), limit));
         }

@@ -14,8 +14,7 @@
 use super::Forces;
 use crate::assembly::{Assembly, AssemblyBody};
 use crate::geometry::{
-    CompensatedSum, Point, Vec3, Vector, cross, quick_gauge_bound, zonotope_gauge,
-    zonotope_gauge_bound,
+    CompensatedSum, Point, Vec3, Vector, cross, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound,
 };
 
 /// An upper bound of the relative rounding error of a few sums and products.
@@ -75,8 +74,7 @@ impl BodyForces {
         self.residual[0].add(force.x);
         self.residual[1].add(force.y);
         self.residual[2].add(moment);
-        self.generators
-            .push([force.x, force.y, moment / self.radius]);
+        self.generators.push([force.x, force.y, moment / self.radius]);
         self.total += force.norm();
         self.load += force.norm() + moment.abs() / self.radius;
     }
@@ -88,8 +86,7 @@ impl BodyForces {
         self.residual[1].add(force.y);
         self.residual[2].add_product(arm.x, force.y);
         self.residual[2].add_product(-arm.y, force.x);
-        self.generators
-            .push([force.x, force.y, cross(arm, force) / self.radius]);
+        self.generators.push([force.x, force.y, cross(arm, force) / self.radius]);
         self.total += force.norm();
     }
 
@@ -192,9 +189,8 @@ pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64
 /// Collects the forces on each body: its loads, and the forces at its contacts and grips.
 fn forces_by_body(assembly: &Assembly, forces: &Forces) -> Vec<BodyForces> {
     let bodies = assembly.bodies.iter();
-    let mut acting: Vec<BodyForces> = bodies
-        .map(|body| BodyForces::on(body, assembly.pull, assembly.load_factor))
-        .collect();
+    let mut acting: Vec<BodyForces> =
+        bodies.map(|body| BodyForces::on(body, assembly.pull, assembly.load_factor)).collect();
     for (contact, pressed) in assembly.contacts.iter().zip(&forces.contacts) {
         let [first, second] = pressed.normal;
         // Two normal forces act at their points. The friction force acts along the interface, so any point of the

@@ -5,9 +5,7 @@
 //! most its amount times the speed of the grip point. Forces with a sum below P/δ therefore cannot balance the loads. A
 //! robot with a limit may absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
 
-use super::{
-    Forces, Motion, NON_BINDING_RATIO, ROUNDING_TOL, moving_load, power_of_loads, worst_violation,
-};
+use super::{Forces, Motion, NON_BINDING_RATIO, ROUNDING_TOL, moving_load, power_of_loads, worst_violation};
 use crate::assembly::Assembly;
 
 impl Forces {
@@ -42,10 +40,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
         for (speed, limit) in [
             (at_grip.x.abs() + rounding.x, grip.limits.fx),
             (at_grip.y.abs() + rounding.y, grip.limits.fy),
-            (
-                motion.spin.abs() * assembly.length,
-                grip.limits.torque / assembly.length,
-            ),
+            (motion.spin.abs() * assembly.length, grip.limits.torque / assembly.length),
         ] {
             if limit > binding {
                 worst = worst.max(speed);
@@ -56,9 +51,7 @@ pub fn force_sum_lower_bound(assembly: &Assembly, motions: &[Motion]) -> f64 {
     }
     // The bound is (power of the loads − excess of limited robots − rounding error) / δ.
     let (power, summed) = power_of_loads(assembly, motions);
-    let spent = limited
-        .iter()
-        .map(|(v, limit)| limit * (v - worst).max(0.0));
+    let spent = limited.iter().map(|(v, limit)| limit * (v - worst).max(0.0));
     let rounding = (motions.len() + 8) as f64 * f64::EPSILON * summed;
     ((power - spent.sum::<f64>() - rounding) / worst).max(0.0)
 }

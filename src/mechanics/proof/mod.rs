@@ -84,13 +84,10 @@ impl Proof {
     /// True if the errors of the proof are within the threshold. The power of a motion must also exceed 10⁻¹².
     pub fn meets(&self, threshold: ProofThreshold) -> bool {
         match *self {
-            Proof::Forces { .. } => {
-                (self.force_error()).is_some_and(|error| error <= threshold.imbalance)
+            Proof::Forces { .. } => (self.force_error()).is_some_and(|error| error <= threshold.imbalance),
+            Proof::Mechanism { power, worst_violation } => {
+                power > 1e-12 && power >= threshold.power_ratio * worst_violation
             }
-            Proof::Mechanism {
-                power,
-                worst_violation,
-            } => power > 1e-12 && power >= threshold.power_ratio * worst_violation,
         }
     }
 
@@ -98,12 +95,9 @@ impl Proof {
     /// a robot over its limits. Each is relative to the forces there. `None` for a proof by a motion.
     pub fn force_error(&self) -> Option<f64> {
         match *self {
-            Proof::Forces {
-                worst_imbalance,
-                worst_pull,
-                worst_slip,
-                ..
-            } => Some(worst_imbalance.max(worst_pull).max(worst_slip)),
+            Proof::Forces { worst_imbalance, worst_pull, worst_slip, .. } => {
+                Some(worst_imbalance.max(worst_pull).max(worst_slip))
+            }
             Proof::Mechanism { .. } => None,
         }
     }
@@ -115,10 +109,7 @@ impl Proof {
     /// the power is not positive.
     pub fn excluded_force_sum(&self) -> f64 {
         match *self {
-            Proof::Mechanism {
-                power,
-                worst_violation,
-            } if power > 0.0 => power / worst_violation,
+            Proof::Mechanism { power, worst_violation } if power > 0.0 => power / worst_violation,
             _ => 0.0,
         }
     }
@@ -135,16 +126,11 @@ pub struct ProofThreshold {
 
 impl ProofThreshold {
     /// The threshold for every verdict.
-    pub const STANDARD: ProofThreshold = ProofThreshold {
-        imbalance: Proof::IMBALANCE_TOL,
-        power_ratio: Proof::MIN_POWER_RATIO,
-    };
+    pub const STANDARD: ProofThreshold =
+        ProofThreshold { imbalance: Proof::IMBALANCE_TOL, power_ratio: Proof::MIN_POWER_RATIO };
 
     /// The threshold of `--accuracy proved`: a hundred times stricter for forces, a thousand times for motions.
-    pub const STRICT: ProofThreshold = ProofThreshold {
-        imbalance: 1e-9,
-        power_ratio: 1e10,
-    };
+    pub const STRICT: ProofThreshold = ProofThreshold { imbalance: 1e-9, power_ratio: 1e10 };
 }
 
 /// The forces at all contacts and grips of an assembly.
@@ -177,10 +163,7 @@ pub struct GripForces {
 impl Forces {
     /// Creates forces that are zero at all contacts and grips of an assembly.
     pub fn zero(assembly: &Assembly) -> Forces {
-        let held = GripForces {
-            force: Vector::zeros(),
-            torque: 0.0,
-        };
+        let held = GripForces { force: Vector::zeros(), torque: 0.0 };
         Forces {
             contacts: vec![ContactForces::default(); assembly.contacts.len()],
             grips: vec![held; assembly.grips.len()],
@@ -269,22 +252,15 @@ pub fn check_forces(assembly: &Assembly, forces: &Forces) -> Proof {
     // Check the limits of robots: for each component of the force, and for the torque.
     for (grip, held) in assembly.grips.iter().zip(&forces.grips) {
         let limits = grip.limits;
-        for (given, limit) in [
-            (held.force.x.abs(), limits.fx),
-            (held.force.y.abs(), limits.fy),
-            (held.torque.abs(), limits.torque),
-        ] {
+        for (given, limit) in
+            [(held.force.x.abs(), limits.fx), (held.force.y.abs(), limits.fy), (held.torque.abs(), limits.torque)]
+        {
             worst_slip = worst_slip.max(share(given - limit, given));
         }
     }
     // Check the balance of each body.
     let (worst_imbalance, worst_share) = balance::worst_imbalance(assembly, forces);
-    Proof::Forces {
-        worst_imbalance,
-        worst_share,
-        worst_pull,
-        worst_slip,
-    }
+    Proof::Forces { worst_imbalance, worst_share, worst_pull, worst_slip }
 }
 
 /// Returns the total load on the moving bodies, N. The [`gross_load`] of each body is weighted by its speed.
@@ -297,11 +273,7 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
         sum += gross_load(assembly, body) * speed;
         max_speed = max_speed.max(speed);
     }
-    if max_speed > 0.0 {
-        sum / max_speed
-    } else {
-        0.0
-    }
+    if max_speed > 0.0 { sum / max_speed } else { 0.0 }
 }
 
 /// Returns the size of all loads on a body, N: the magnitudes of its weight and its listed force, plus the magnitude of
@@ -380,11 +352,7 @@ pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
             continue;
         };
         let speed = m.about(body.centroid, grip.at);
-        for (speed, limit) in [
-            (speed.x, grip.limits.fx),
-            (speed.y, grip.limits.fy),
-            (m.spin, grip.limits.torque),
-        ] {
+        for (speed, limit) in [(speed.x, grip.limits.fx), (speed.y, grip.limits.fy), (m.spin, grip.limits.torque)] {
             if limit.is_finite() {
                 power -= speed.abs() * limit;
             }
@@ -398,18 +366,11 @@ pub fn net_power(assembly: &Assembly, motions: &[Motion]) -> f64 {
 /// act.
 pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     let load = moving_load(assembly, motions);
-    let speeds = assembly
-        .bodies
-        .iter()
-        .zip(motions)
-        .map(|(b, m)| fastest(b, m));
+    let speeds = assembly.bodies.iter().zip(motions).map(|(b, m)| fastest(b, m));
     let fastest = speeds.fold(0.0, f64::max);
     // Without motion or loads, nothing is proved: a power of 0 meets no threshold.
     if fastest == 0.0 || load == 0.0 {
-        return Proof::Mechanism {
-            power: 0.0,
-            worst_violation: 0.0,
-        };
+        return Proof::Mechanism { power: 0.0, worst_violation: 0.0 };
     }
     // Compute the worst violation of a contact, and the power of the loads.
     let mut violation = worst_violation(assembly, motions);
@@ -438,8 +399,5 @@ pub fn check_mechanism(assembly: &Assembly, motions: &[Motion]) -> Proof {
     }
     // Subtract the rounding error of the sum, which grows with the number of terms.
     power -= (motions.len() + 8) as f64 * f64::EPSILON * summed;
-    Proof::Mechanism {
-        power: power / (load * fastest),
-        worst_violation: violation / fastest,
-    }
+    Proof::Mechanism { power: power / (load * fastest), worst_violation: violation / fastest }
 }

@@ -24,10 +24,7 @@ fn body(number: usize, bottom: f64, height: f64, weight: f64, listed: LoadVector
 }
 
 fn listed(x: f64, y: f64, moment: f64) -> LoadVector {
-    LoadVector {
-        force: Vector::new(x, y),
-        moment,
-    }
+    LoadVector { force: Vector::new(x, y), moment }
 }
 
 /// A level joint at this height, with application points at x = 3 and x = 1 and a friction coefficient of 0.5.
@@ -35,10 +32,7 @@ fn joint(on: usize, from: Option<usize>, height: f64) -> AssemblyContact {
     let at = |x: f64| Point::new(x, height);
     AssemblyContact {
         interface: on,
-        bodies: [
-            BodyId::Block(BlockId(on)),
-            from.map_or(BodyId::Ground(0), |n| BodyId::Block(BlockId(n))),
-        ],
+        bodies: [BodyId::Block(BlockId(on)), from.map_or(BodyId::Ground(0), |n| BodyId::Block(BlockId(n)))],
         on,
         from,
         kind: ContactKind::Edge,
@@ -50,68 +44,39 @@ fn joint(on: usize, from: Option<usize>, height: f64) -> AssemblyContact {
 }
 
 fn grip(body: usize, fx: f64, fy: f64, torque: f64) -> AssemblyGrip {
-    AssemblyGrip {
-        hold: 0,
-        robot: RobotId(0),
-        body,
-        at: Point::new(0.0, 3.0),
-        limits: Limits { fx, fy, torque },
-    }
+    AssemblyGrip { hold: 0, robot: RobotId(0), body, at: Point::new(0.0, 3.0), limits: Limits { fx, fy, torque } }
 }
 
 fn assembly(bodies: Vec<AssemblyBody>, contacts: Vec<AssemblyContact>) -> Assembly {
-    Assembly {
-        bodies,
-        contacts,
-        grips: Vec::new(),
-        pull: Vector::new(0.0, -1.0),
-        load_factor: 1.0,
-        length: 2.0,
-    }
-    .with_summed_loads()
+    Assembly { bodies, contacts, grips: Vec::new(), pull: Vector::new(0.0, -1.0), load_factor: 1.0, length: 2.0 }
+        .with_summed_loads()
 }
 
 /// The box of 10 N on the ground, with a listed load.
 fn on_ground(listed: LoadVector) -> Assembly {
-    assembly(
-        vec![body(0, 0.0, 3.0, 10.0, listed)],
-        vec![joint(0, None, 0.0)],
-    )
+    assembly(vec![body(0, 0.0, 3.0, 10.0, listed)], vec![joint(0, None, 0.0)])
 }
 
 fn pressed(first: f64, second: f64, friction: f64) -> ContactForces {
-    ContactForces {
-        normal: [first, second],
-        friction,
-    }
+    ContactForces { normal: [first, second], friction }
 }
 
 fn moving(block: usize, x: f64, y: f64, spin: f64) -> Motion {
-    Motion {
-        block: BlockId(block),
-        velocity: Vector::new(x, y),
-        spin,
-    }
+    Motion { block: BlockId(block), velocity: Vector::new(x, y), spin }
 }
 
 /// Returns the imbalance, share, pull and slip of forces.
 fn found(assembly: &Assembly, contacts: Vec<ContactForces>, grips: Vec<GripForces>) -> [f64; 4] {
     match check_forces(assembly, &Forces { contacts, grips }) {
-        Proof::Forces {
-            worst_imbalance,
-            worst_share,
-            worst_pull,
-            worst_slip,
-        } => [worst_imbalance, worst_share, worst_pull, worst_slip],
+        Proof::Forces { worst_imbalance, worst_share, worst_pull, worst_slip } => {
+            [worst_imbalance, worst_share, worst_pull, worst_slip]
+        }
         Proof::Mechanism { .. } => [f64::NAN; 4],
     }
 }
 
 fn assert_near(found: f64, expected: f64, within: f64) {
-    assert!(
-        (found - expected).abs() <= within,
-        "{found}, not {expected}"
-    );
+    assert!((found - expected).abs() <= within, "{found}, not {expected}");
 }
 
 #[test]
@@ -120,10 +85,7 @@ fn forces_in_exact_balance_have_no_imbalance() {
     // each of the two friction forces has a moment of −1.5 N·m, so the ground presses 3 N more at its right point, 1
     // m from the middle, than at its left point. The uneven pressure of the upper joint adds 1 N to this difference.
     let two = assembly(
-        vec![
-            body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
-            body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0)),
-        ],
+        vec![body(0, 0.0, 3.0, 10.0, LoadVector::ZERO), body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0))],
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
     );
     let below = pressed(9.5 + 0.5, 6.5 - 0.5, 1.0);
@@ -135,10 +97,7 @@ fn forces_in_exact_balance_have_no_imbalance() {
     // lower; −4 N along y has a moment of +8 N·m.
     let mut held = on_ground(listed(2.0, 4.0, -4.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
-    let exerted = GripForces {
-        force: Vector::new(-2.0, -4.0),
-        torque: 4.0 - 3.0 - 8.0,
-    };
+    let exerted = GripForces { force: Vector::new(-2.0, -4.0), torque: 4.0 - 3.0 - 8.0 };
     let all = found(&held, vec![pressed(5.0, 5.0, 0.0)], vec![exerted]);
     assert_eq!(all, [0.0; 4]);
 }
@@ -146,10 +105,7 @@ fn forces_in_exact_balance_have_no_imbalance() {
 #[test]
 fn imbalance_is_the_fraction_by_which_forces_must_change_or_move() {
     let box_alone = on_ground(LoadVector::ZERO);
-    assert_eq!(
-        found(&box_alone, vec![pressed(5.0, 5.0, 0.0)], vec![]),
-        [0.0; 4]
-    );
+    assert_eq!(found(&box_alone, vec![pressed(5.0, 5.0, 0.0)], vec![]), [0.0; 4]);
     // The joint exerts 1 N too much: 1 N relative to 11 N of the joint and 10 N of weight.
     let all = found(&box_alone, vec![pressed(5.5, 5.5, 0.0)], vec![]);
     assert_near(all[0], 1.0 / 21.0, 1e-5);
@@ -169,13 +125,7 @@ fn imbalance_is_the_fraction_by_which_forces_must_change_or_move() {
     two.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     two.contacts.push(joint(1, Some(0), 3.0));
     let contacts = vec![pressed(8.0, 8.0, 0.0), pressed(3.5, 3.5, 0.0)];
-    let each = imbalances(
-        &two,
-        &Forces {
-            contacts: contacts.clone(),
-            grips: vec![],
-        },
-    );
+    let each = imbalances(&two, &Forces { contacts: contacts.clone(), grips: vec![] });
     assert_near(each[0], 1.0 / 33.0, 1e-5);
     assert_near(each[1], 1.0 / 13.0, 1e-5);
     assert_eq!(found(&two, contacts, vec![])[0], each[1]);
@@ -210,17 +160,11 @@ fn pull_slip_and_excess_over_limits_are_relative_to_the_forces_concerned() {
     assert_near(all(&tip, pressed(-6.0, 0.0, 0.0))[2], 1.0, 1e-15);
     assert_eq!(all(&tip, pressed(6.0, 0.0, 0.0))[2], 0.0);
     let mut held = on_ground(LoadVector::ZERO);
-    for (force, torque, over) in [
-        ((3.0, 4.0), 5.0, 0.0),
-        ((-4.0, 0.0), 0.0, 0.25),
-        ((0.0, 8.0), 0.0, 0.5),
-        ((0.0, 0.0), -20.0, 0.75),
-    ] {
+    for (force, torque, over) in
+        [((3.0, 4.0), 5.0, 0.0), ((-4.0, 0.0), 0.0, 0.25), ((0.0, 8.0), 0.0, 0.5), ((0.0, 0.0), -20.0, 0.75)]
+    {
         held.grips = vec![grip(0, 3.0, 4.0, 5.0)];
-        let exerted = GripForces {
-            force: Vector::new(force.0, force.1),
-            torque,
-        };
+        let exerted = GripForces { force: Vector::new(force.0, force.1), torque };
         let slip = found(&held, vec![pressed(5.0, 5.0, 0.0)], vec![exerted])[3];
         assert_near(slip, over, 1e-15);
     }
@@ -236,19 +180,12 @@ fn a_proof_holds_if_it_meets_the_threshold() {
     };
     let band = Proof::IMBALANCE_TOL;
     assert!(balances(band, band, band).holds());
-    for over in [
-        balances(2.0 * band, 0.0, 0.0),
-        balances(0.0, 2.0 * band, 0.0),
-        balances(0.0, 0.0, 2.0 * band),
-    ] {
+    for over in [balances(2.0 * band, 0.0, 0.0), balances(0.0, 2.0 * band, 0.0), balances(0.0, 0.0, 2.0 * band)] {
         assert!(!over.holds());
         assert_eq!(over.excluded_force_sum(), 0.0);
     }
     assert!(!balances(band, 0.0, 0.0).meets(ProofThreshold::STRICT));
-    let moves = |power, worst_violation| Proof::Mechanism {
-        power,
-        worst_violation,
-    };
+    let moves = |power, worst_violation| Proof::Mechanism { power, worst_violation };
     assert!(moves(0.5, 5e-8).holds());
     assert!(!moves(0.5, 6e-8).holds());
     assert!(!moves(0.5, 5e-8).meets(ProofThreshold::STRICT));

@@ -85,11 +85,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits {
-            fx: f64::INFINITY,
-            fy: f64::INFINITY,
-            torque: 0.0,
-        }
+        Limits { fx: f64::INFINITY, fy: f64::INFINITY, torque: 0.0 }
     }
 }
 

@@ -11,9 +11,7 @@ use super::frame::Frame;
 use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
-use crate::geometry::{
-    Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap,
-};
+use crate::geometry::{Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap};
 
 /// The largest number of overlaps that are reported. If a scene has more, they most likely have one cause.
 const MAX_LISTED_OVERLAPS: usize = 1000;
@@ -71,20 +69,16 @@ pub struct Penetration {
 /// more than [`MAX_LISTED_OVERLAPS`] pairs overlap, small overlaps are reported too and the returned list is empty.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
     let presence = Presence::new(scene.names.len(), scene.frames);
-    let bodies: Vec<Numbered<'_>> = scene
-        .bodies
-        .iter()
-        .copied()
-        .filter(|(id, _)| !presence.of_body(*id).is_empty())
-        .collect();
+    let bodies: Vec<Numbered<'_>> =
+        scene.bodies.iter().copied().filter(|(id, _)| !presence.of_body(*id).is_empty()).collect();
     let mut found = match scene.lattice {
         Some(lattice) => on_lattice(&bodies, lattice, &presence),
         None => off_lattice(&bodies, &presence),
     };
     found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
     let all = found.len();
-    let (slight, found): (Vec<Found>, Vec<Found>) = (found.into_iter())
-        .partition(|f| f.may_be_meant && !scene.given && all <= MAX_LISTED_OVERLAPS);
+    let (slight, found): (Vec<Found>, Vec<Found>) =
+        (found.into_iter()).partition(|f| f.may_be_meant && !scene.given && all <= MAX_LISTED_OVERLAPS);
     let top = Trail::Top;
     let list = top.key("blocks");
     for f in found.iter().take(MAX_LISTED_OVERLAPS) {
@@ -102,12 +96,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
         let wording = problem::outline::overlap(
             &name(f.bodies[1]),
             &name(f.bodies[0]),
-            &problem::outline::Common {
-                depth: f.depth,
-                area: f.area,
-                at: f.at,
-                may_be_meant: f.may_be_meant,
-            },
+            &problem::outline::Common { depth: f.depth, area: f.area, at: f.at, may_be_meant: f.may_be_meant },
             frame.as_deref(),
             findings.units,
         )
@@ -117,11 +106,7 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
     if found.len() > MAX_LISTED_OVERLAPS {
         findings.add(&list, problem::outline::more_overlaps(MAX_LISTED_OVERLAPS));
     }
-    let slight = slight.into_iter().map(|f| Penetration {
-        bodies: f.bodies,
-        depth: f.depth,
-        at: f.at,
-    });
+    let slight = slight.into_iter().map(|f| Penetration { bodies: f.bodies, depth: f.depth, at: f.at });
     slight.collect()
 }
 
@@ -145,10 +130,7 @@ impl Presence {
                 }
             }
         }
-        Presence {
-            blocks: spans,
-            always: vec![(0, frames.len().saturating_sub(1))],
-        }
+        Presence { blocks: spans, always: vec![(0, frames.len().saturating_sub(1))] }
     }
 
     fn of_body(&self, id: BodyId) -> &[(usize, usize)] {
@@ -200,20 +182,14 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
             }
         }
     }
-    let polygons: BTreeMap<BodyId, &Polygon> = (bodies.iter())
-        .map(|(id, body)| (*id, &body.polygon))
-        .collect();
+    let polygons: BTreeMap<BodyId, &Polygon> = (bodies.iter()).map(|(id, body)| (*id, &body.polygon)).collect();
     shared
         .into_iter()
         .map(|(bodies, (frame, cells))| {
-            let sum = cells
-                .iter()
-                .fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
+            let sum = cells.iter().fold(Vector::zeros(), |s, c| s + lattice.cell_centre(*c).coords);
             let count = cells.len() as f64;
             let pieces = |id: BodyId| polygons.get(&id).copied().map(ConvexPieces::new);
-            let deep = pieces(bodies[0])
-                .zip(pieces(bodies[1]))
-                .and_then(|(a, b)| overlap(&a, &b, 0.0));
+            let deep = pieces(bodies[0]).zip(pieces(bodies[1])).and_then(|(a, b)| overlap(&a, &b, 0.0));
             Found {
                 bodies,
                 area: count * lattice.cell_area(),
@@ -227,14 +203,8 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
 }
 
 fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
-    let boxes: Vec<Aabb<4>> = bodies
-        .iter()
-        .map(|(_, body)| Aabb::with_diagonals(body.polygon.outline()))
-        .collect();
-    let pieces: Vec<ConvexPieces> = bodies
-        .iter()
-        .map(|(_, body)| ConvexPieces::new(&body.polygon))
-        .collect();
+    let boxes: Vec<Aabb<4>> = bodies.iter().map(|(_, body)| Aabb::with_diagonals(body.polygon.outline())).collect();
+    let pieces: Vec<ConvexPieces> = bodies.iter().map(|(_, body)| ConvexPieces::new(&body.polygon)).collect();
     let nearby = BoxIndex::new((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
     let mut found = Vec::new();
     let mut near: Vec<usize> = Vec::new();
@@ -250,15 +220,12 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
                 && let Some(o) = overlap(&pieces[i], &pieces[j], gap)
             {
                 let blocks = [bodies[i], bodies[j]].into_iter();
-                let sizes = blocks
-                    .filter(|b| matches!(b.0, BodyId::Block(_)))
-                    .map(|b| size(&b.1.polygon));
+                let sizes = blocks.filter(|b| matches!(b.0, BodyId::Block(_))).map(|b| size(&b.1.polygon));
                 found.push(Found {
                     bodies: pair,
                     area: o.area,
                     depth: o.depth,
-                    may_be_meant: o.depth
-                        < MAX_ROUNDING_DEPTH * sizes.fold(f64::INFINITY, f64::min),
+                    may_be_meant: o.depth < MAX_ROUNDING_DEPTH * sizes.fold(f64::INFINITY, f64::min),
                     at: o.at,
                     frame,
                 });
@@ -287,22 +254,13 @@ mod tests {
 
     #[test]
     fn the_first_common_frame_of_two_bodies_is_found() {
-        let frames = [
-            frame(&[0]),
-            frame(&[0, 1]),
-            frame(&[1]),
-            frame(&[1, 2]),
-            frame(&[0]),
-        ];
+        let frames = [frame(&[0]), frame(&[0, 1]), frame(&[1]), frame(&[1, 2]), frame(&[0])];
         let presence = Presence::new(3, &frames);
         let block = |i| BodyId::Block(BlockId(i));
         assert_eq!(presence.together(block(0), block(1)), Some(1));
         assert_eq!(presence.together(block(0), block(2)), None);
         assert_eq!(presence.together(block(2), block(1)), Some(3));
         assert_eq!(presence.together(block(2), BodyId::Ground(0)), Some(3));
-        assert_eq!(
-            presence.together(BodyId::Ground(0), BodyId::Ground(1)),
-            None
-        );
+        assert_eq!(presence.together(BodyId::Ground(0), BodyId::Ground(1)), None);
     }
 }

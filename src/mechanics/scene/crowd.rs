@@ -27,10 +27,7 @@ pub(super) fn check(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[
     if let Some((at, count)) = crowded(bodies, frames, gap) {
         let top = Trail::Top;
         let key = top.key("corner_contacts");
-        findings.add(
-            &key,
-            problem::outline::crowded(count, MAX_BODIES_AT_POINT, at),
-        );
+        findings.add(&key, problem::outline::crowded(count, MAX_BODIES_AT_POINT, at));
     }
 }
 
@@ -44,26 +41,17 @@ fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point
         let own = body.polygon.rings().iter().flatten();
         corners.extend(own.map(|p| ([cell(p.x), cell(p.y)], *p, *id)));
     }
-    corners.sort_by(|(a, _, one), (b, _, two)| {
-        a[0].total_cmp(&b[0])
-            .then(a[1].total_cmp(&b[1]))
-            .then(one.cmp(two))
-    });
+    corners.sort_by(|(a, _, one), (b, _, two)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(one.cmp(two)));
     let together = corners.chunk_by(|a, b| a.0 == b.0);
-    together
-        .filter(|group| group.len() > MAX_BODIES_AT_POINT)
-        .find_map(|group| {
-            let meeting: BTreeSet<BodyId> = group.iter().map(|(_, _, id)| *id).collect();
-            let ground = meeting.iter().filter(|id| matches!(id, BodyId::Ground(_)));
-            let ground = ground.count();
-            let present = |frame: &Frame| {
-                let placed = frame.placed.iter();
-                ground
-                    + placed
-                        .filter(|id| meeting.contains(&BodyId::Block(**id)))
-                        .count()
-            };
-            let most = frames.iter().map(present).max()?;
-            (most > MAX_BODIES_AT_POINT).then_some((group[0].1, most))
-        })
+    together.filter(|group| group.len() > MAX_BODIES_AT_POINT).find_map(|group| {
+        let meeting: BTreeSet<BodyId> = group.iter().map(|(_, _, id)| *id).collect();
+        let ground = meeting.iter().filter(|id| matches!(id, BodyId::Ground(_)));
+        let ground = ground.count();
+        let present = |frame: &Frame| {
+            let placed = frame.placed.iter();
+            ground + placed.filter(|id| meeting.contains(&BodyId::Block(**id))).count()
+        };
+        let most = frames.iter().map(present).max()?;
+        (most > MAX_BODIES_AT_POINT).then_some((group[0].1, most))
+    })
 }

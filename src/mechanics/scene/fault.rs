@@ -24,10 +24,7 @@ pub(crate) fn isolate<R>(name: &str, work: impl FnOnce() -> R) -> Result<R, Scen
         inject_fault(name);
         work()
     };
-    catch_unwind(AssertUnwindSafe(work)).map_err(|_| SceneError {
-        text: None,
-        list: vec![internal_fault()],
-    })
+    catch_unwind(AssertUnwindSafe(work)).map_err(|_| SceneError { text: None, list: vec![internal_fault()] })
 }
 
 #[cfg(debug_assertions)]
@@ -41,10 +38,7 @@ fn inject_fault(name: &str) {
     let (part, number) = injected.rsplit_once('#').unwrap_or((&injected, "1"));
     if name.contains(part) {
         let works = WORKS.fetch_add(1, Ordering::Relaxed) + 1;
-        assert!(
-            works.to_string() != number,
-            "a fault was injected into {name}"
-        );
+        assert!(works.to_string() != number, "a fault was injected into {name}");
     }
 }
 
@@ -58,9 +52,7 @@ fn internal_fault() -> Problem {
         line: 0,
         column: 0,
         span: None,
-        message:
-            "an internal error of the program occurred on this scene; the scene itself may be correct"
-                .into(),
+        message: "an internal error of the program occurred on this scene; the scene itself may be correct".into(),
         help: "please report this error together with the scene".into(),
         place: None,
     }

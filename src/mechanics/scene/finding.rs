@@ -40,11 +40,7 @@ pub(super) struct Findings {
 impl Findings {
     /// Creates an empty list of problems. `unread` contains the parts of the file that could not be read.
     pub(super) fn with_unread(unread: UnreadParts) -> Findings {
-        Findings {
-            list: Vec::new(),
-            unread,
-            units: UnitsEntry::default(),
-        }
+        Findings { list: Vec::new(), unread, units: UnitsEntry::default() }
     }
 
     /// True if some part of the entry to which the path `at` belongs could not be read. An entry is an element of
@@ -83,11 +79,7 @@ impl Findings {
         }
         let path = at.path();
         if !self.unread.touches(&path) {
-            self.keep(Finding {
-                path,
-                mark,
-                wording,
-            });
+            self.keep(Finding { path, mark, wording });
         }
     }
 
@@ -117,10 +109,7 @@ pub(super) fn located(findings: Vec<Finding>, source: Option<&Source<'_>>) -> Sc
         })
         .collect();
     list.sort_by_key(|p| p.span.as_ref().map(|s| s.start));
-    SceneError {
-        text: source.map(|s| s.text.to_string()),
-        list,
-    }
+    SceneError { text: source.map(|s| s.text.to_string()), list }
 }
 
 /// Parts of a file that could not be read.
@@ -135,17 +124,13 @@ impl UnreadParts {
     /// `materials` and so on.
     pub(super) fn touches(&self, path: &Path) -> bool {
         let entry = &path.0[..path.0.len().min(2)];
-        self.paths
-            .iter()
-            .any(|p| p.starts_with(entry) || path.starts_with(&p.0))
+        self.paths.iter().any(|p| p.starts_with(entry) || path.starts_with(&p.0))
     }
 
     /// True if the value of the top-level key `key`, or some part of this value, could not be read.
     pub(super) fn touches_key(&self, key: &str) -> bool {
         let key = [Segment::Key(key.to_string())];
-        self.paths
-            .iter()
-            .any(|p| p.starts_with(&key) || p.0.is_empty())
+        self.paths.iter().any(|p| p.starts_with(&key) || p.0.is_empty())
     }
 
     /// Returns the index of the first entry of the list `list` that could not be read completely; 0 if the list itself
@@ -172,9 +157,7 @@ impl UnreadParts {
     pub(super) fn hides_names(&self, list: &str, known: usize) -> bool {
         self.paths.iter().any(|path| match path.0.as_slice() {
             [] => true,
-            [Segment::Key(key)] => {
-                key == list || (known == 0 && !NAMED_LISTS.contains(&key.as_str()))
-            }
+            [Segment::Key(key)] => key == list || (known == 0 && !NAMED_LISTS.contains(&key.as_str())),
             [Segment::Key(key), Segment::Index(_)] => key == list,
             [Segment::Key(key), Segment::Index(_), Segment::Key(inner)] => {
                 key == list && !ENTRY_KEYS.contains(&inner.as_str())

@@ -163,8 +163,7 @@ impl SceneFile {
     pub fn to_json(&self) -> String {
         let mut bytes = Vec::new();
         let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
-        self.serialize(&mut writer)
-            .expect("plain structures with text keys always serialise into memory");
+        self.serialize(&mut writer).expect("plain structures with text keys always serialise into memory");
         bytes.push(b'\n');
         crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
     }
@@ -320,9 +319,9 @@ pub(super) fn agrees(text: &str) -> bool {
             NodeKind::Number(x) => (*x).into(),
             NodeKind::Text(text) => text.as_ref().into(),
             NodeKind::List(list) => (tree.items(list).iter().map(|n| value(tree, n))).collect(),
-            NodeKind::Object(object) => (tree.entries(object).iter())
-                .map(|e| (e.name.clone().into_owned(), value(tree, &e.value)))
-                .collect(),
+            NodeKind::Object(object) => {
+                (tree.entries(object).iter()).map(|e| (e.name.clone().into_owned(), value(tree, &e.value))).collect()
+            }
         }
     }
     /// Converts every number to a float, because the syntax tree stores all numbers as floats.
@@ -330,9 +329,7 @@ pub(super) fn agrees(text: &str) -> bool {
         match value {
             serde_json::Value::Number(x) => x.as_f64().into(),
             serde_json::Value::Array(list) => list.into_iter().map(floats).collect(),
-            serde_json::Value::Object(map) => {
-                map.into_iter().map(|(k, v)| (k, floats(v))).collect()
-            }
+            serde_json::Value::Object(map) => map.into_iter().map(|(k, v)| (k, floats(v))).collect(),
             other => other,
         }
     }
@@ -354,16 +351,10 @@ mod tests {
     fn a_scene_file_survives_writing_and_reading() {
         let file = SceneFile {
             title: Some("two".into()),
-            grid: Some(GridEntry {
-                kind: GridKind::Square,
-                side: Some(0.25),
-            }),
+            grid: Some(GridEntry { kind: GridKind::Square, side: Some(0.25) }),
             blocks: vec![BlockEntry {
                 id: Some("a".into()),
-                cells: Some(vec![
-                    CellEntry::Square(1.0, 2.0),
-                    CellEntry::Triangle(3.0, 4.0, CellHalf::Down),
-                ]),
+                cells: Some(vec![CellEntry::Square(1.0, 2.0), CellEntry::Triangle(3.0, 4.0, CellHalf::Down)]),
                 ..BlockEntry::default()
             }],
             steps: vec![StepEntry {
@@ -378,9 +369,6 @@ mod tests {
         let text = serde_json::to_string(&file).expect("JSON text");
         let read: SceneFile = serde_json::from_str(&text).expect("a scene file");
         assert_eq!(read, file);
-        assert_eq!(
-            read.steps[0].hold.0[0].0, "z",
-            "a map keeps the file's order"
-        );
+        assert_eq!(read.steps[0].hold.0[0].0, "z", "a map keeps the file's order");
     }
 }

@@ -96,11 +96,8 @@ pub(super) struct HealingReach {
 
 impl HealingReach {
     /// The tolerance of a scene on a lattice.
-    pub(super) const EXACT: HealingReach = HealingReach {
-        source: ToleranceSource::Lattice,
-        default_gap: 0.0,
-        healing: 0.0,
-    };
+    pub(super) const EXACT: HealingReach =
+        HealingReach { source: ToleranceSource::Lattice, default_gap: 0.0, healing: 0.0 };
 
     /// Returns the largest distance between two edges that count as touching, in the unit of the corners.
     pub(super) fn gap(self) -> f64 {
@@ -132,8 +129,7 @@ impl HealingReach {
     /// Returns the largest error that is assumed for the coordinates of a body. `size` is the size of the body, and
     /// `farthest` the largest absolute value of its coordinates. All lengths are in the unit of the corners.
     fn rounding_of(self, size: f64, farthest: f64) -> f64 {
-        self.healing_of(size)
-            .max(MAX_LAST_PLACE_UNITS * f64::EPSILON * farthest)
+        self.healing_of(size).max(MAX_LAST_PLACE_UNITS * f64::EPSILON * farthest)
     }
 
     /// Returns the gap of a body: the largest distance at which it counts as touching another body. `size` is the size
@@ -187,11 +183,7 @@ struct Closed<'d> {
 ///    corners too.
 /// 4. Replace the outlines that changed by more than rounding, and count the corners that moved.
 /// 5. Set the gap and the assumed error of the coordinates of every body, and the centroid of every block.
-pub(super) fn heal(
-    ground: &mut [Option<Ground>],
-    blocks: &mut [Option<Block>],
-    reach: HealingReach,
-) -> Healed {
+pub(super) fn heal(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>], reach: HealingReach) -> Healed {
     let drawn = Drawn::new(ground, blocks);
     let closed = drawn.without_noise(drawn.within_reach(reach));
     let reach = closed.reach;
@@ -216,13 +208,8 @@ impl Drawn {
     /// part is thin.
     fn new(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>]) -> Drawn {
         let parts = ground.len();
-        let mut drawn = Drawn {
-            parts,
-            numbers: Vec::new(),
-            sizes: Vec::new(),
-            outlines: Vec::new(),
-            fixed: Vec::new(),
-        };
+        let mut drawn =
+            Drawn { parts, numbers: Vec::new(), sizes: Vec::new(), outlines: Vec::new(), fixed: Vec::new() };
         for (number, body) in bodies(ground, blocks) {
             drawn.numbers.push(number);
             drawn.sizes.push(size(&body.polygon));
@@ -254,16 +241,9 @@ impl Drawn {
 
     /// Step 2 of healing: snaps corners and edges whose distance is within the tolerance `reach`.
     fn within_reach(&self, reach: HealingReach) -> Closed<'_> {
-        let mut closed = Closed {
-            outlines: Cow::Borrowed(&self.outlines[..]),
-            kept: Vec::new(),
-            reach,
-        };
+        let mut closed = Closed { outlines: Cow::Borrowed(&self.outlines[..]), kept: Vec::new(), reach };
         if reach.healing > 0.0 {
-            let limits = Gaps {
-                of_body: &self.gaps(reach),
-                share_of_edge: reach.share_of_edge(),
-            };
+            let limits = Gaps { of_body: &self.gaps(reach), share_of_edge: reach.share_of_edge() };
             let outcome = snapped(&self.outlines, limits, &self.fixed, MAX_DEEPENING_PER_GAP);
             (closed.outlines, closed.kept) = (outcome.bodies, outcome.kept);
         }
@@ -277,29 +257,16 @@ impl Drawn {
         if default_gap <= closed.reach.healing {
             return closed;
         }
-        let reach = HealingReach {
-            source: ToleranceSource::Noise,
-            default_gap,
-            healing: default_gap,
-        };
+        let reach = HealingReach { source: ToleranceSource::Noise, default_gap, healing: default_gap };
         let gaps = self.gaps(reach);
-        let outcome = snapped(
-            &closed.outlines,
-            Gaps::new(&gaps),
-            &self.fixed,
-            MAX_DEEPENING_PER_GAP,
-        );
+        let outcome = snapped(&closed.outlines, Gaps::new(&gaps), &self.fixed, MAX_DEEPENING_PER_GAP);
         let all: usize = self.outlines.iter().flatten().map(Vec::len).sum();
         let moved: usize = outcome.moved.iter().map(|m| m.corners).sum();
         let (share, least) = MIN_NOISY_CORNERS;
         if moved < least || (moved as f64) < share * all as f64 {
             return closed;
         }
-        Closed {
-            kept: outcome.kept,
-            outlines: Cow::Owned(outcome.bodies.into_owned()),
-            reach,
-        }
+        Closed { kept: outcome.kept, outlines: Cow::Owned(outcome.bodies.into_owned()), reach }
     }
 
     /// Step 4 of healing: counts the bodies and corners that moved. Returns these counts, and a map from the number of
@@ -349,10 +316,7 @@ fn bodies<'b>(
 }
 
 fn rings(polygon: &Polygon) -> Rings {
-    let corner = |at: &Point| Corner {
-        at: *at,
-        curved: false,
-    };
+    let corner = |at: &Point| Corner { at: *at, curved: false };
     let ring = |ring: &Vec<Point>| ring.iter().map(corner).collect::<Vec<Corner>>();
     polygon.rings().iter().map(ring).collect()
 }
@@ -370,11 +334,7 @@ impl Scene {
     /// twentieth of their size.
     pub(crate) fn closed(&self, gap: f64) -> Scene {
         let mut scene = self.clone();
-        let reach = HealingReach {
-            source: ToleranceSource::Given,
-            default_gap: 0.0,
-            healing: gap,
-        };
+        let reach = HealingReach { source: ToleranceSource::Given, default_gap: 0.0, healing: gap };
         let mut ground: Vec<Option<Ground>> = scene.ground.into_iter().map(Some).collect();
         let mut blocks: Vec<Option<Block>> = scene.blocks.into_iter().map(Some).collect();
         scene.healed = heal(&mut ground, &mut blocks, reach);
@@ -396,26 +356,16 @@ impl Scene {
             ToleranceSource::Digits(n) => format!("coordinates with {n} digits"),
             ToleranceSource::Float32 => "coordinates of 32-bit floats".into(),
             ToleranceSource::Size | ToleranceSource::Noise => {
-                "many corners lie off the edges that they should touch, by up to a millionth of the scene's extent".into()
+                "many corners lie off the edges that they should touch, by up to a millionth of the scene's extent"
+                    .into()
             }
         };
-        let Healed {
-            within,
-            bodies,
-            corners,
-            distance,
-            kept,
-            first_kept,
-            ..
-        } = self.healed;
+        let Healed { within, bodies, corners, distance, kept, first_kept, .. } = self.healed;
         let unit = self.units.length();
-        let [gap, within, distance] =
-            [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
+        let [gap, within, distance] = [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
         let unit = unit.symbol();
         let mut words = if within <= 0.0 {
-            format!(
-                "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent"
-            )
+            format!("edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent")
         } else if within < gap {
             format!(
                 "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"

@@ -33,8 +33,7 @@ mod unit;
 
 pub use applied_force::{AppliedForce, ForceCause};
 pub use body::{
-    Block, BlockId, Body, BodyId, Grip, Ground, Limits, ListedContact, Load, Material, Rgb, Robot,
-    RobotId,
+    Block, BlockId, Body, BodyId, Grip, Ground, Limits, ListedContact, Load, Material, Rgb, Robot, RobotId,
 };
 pub use collision::Penetration;
 pub(crate) use fault::isolate;
@@ -278,10 +277,6 @@ impl Scene {
     /// Returns the direction of gravity as a unit vector; zero if there is no gravity.
     pub fn down(&self) -> Vector {
         let g = self.gravity.norm();
-        if g > 0.0 {
-            self.gravity / g
-        } else {
-            Vector::zeros()
-        }
+        if g > 0.0 { self.gravity / g } else { Vector::zeros() }
     }
 }

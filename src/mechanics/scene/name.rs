@@ -37,12 +37,7 @@ impl<'f> Names<'f> {
         for (i, name) in list.iter().enumerate() {
             numbers.entry(*name).or_insert(i);
         }
-        Names {
-            sort,
-            list,
-            numbers,
-            incomplete,
-        }
+        Names { sort, list, numbers, incomplete }
     }
 
     /// Returns the name with the index `number`.
@@ -57,28 +52,14 @@ impl<'f> Names<'f> {
 
     /// Returns the index of a name that is the value at the path `at`. If the name is unknown, returns `None`, and
     /// reports it unless some names could not be read.
-    pub(super) fn find(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        name: &str,
-    ) -> Option<usize> {
-        self.find_or(findings, name, |findings, wording| {
-            findings.add(at, wording)
-        })
+    pub(super) fn find(&self, findings: &mut Findings, at: &Trail<'_>, name: &str) -> Option<usize> {
+        self.find_or(findings, name, |findings, wording| findings.add(at, wording))
     }
 
     /// Returns the index of a name that is the key at the path `at`. If the name is unknown, returns `None`, and
     /// reports it unless some names could not be read.
-    pub(super) fn find_key(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        name: &str,
-    ) -> Option<usize> {
-        self.find_or(findings, name, |findings, wording| {
-            findings.add_key(at, wording)
-        })
+    pub(super) fn find_key(&self, findings: &mut Findings, at: &Trail<'_>, name: &str) -> Option<usize> {
+        self.find_or(findings, name, |findings, wording| findings.add_key(at, wording))
     }
 
     fn find_or(

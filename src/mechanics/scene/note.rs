@@ -98,19 +98,13 @@ impl Lines {
             let starts = source.starts(key);
             starts.map(|byte| source.line(byte)).collect()
         };
-        Lines {
-            ground: list("ground"),
-            blocks: list("blocks"),
-        }
+        Lines { ground: list("ground"), blocks: list("blocks") }
     }
 }
 
 /// Returns the notes on a valid scene. Notes on edges that nearly touch are added later, when contacts are found.
 pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
-    let mut notes = Notes {
-        list: Vec::new(),
-        scene,
-    };
+    let mut notes = Notes { list: Vec::new(), scene };
     notes.friction(file);
     notes.angles(file);
     notes.grips(file);
@@ -144,14 +138,7 @@ impl Notes<'_> {
         if !self.scene.silences(code) {
             let path: Path = at.path();
             let mark = Mark::Value;
-            self.list.push((
-                code,
-                Finding {
-                    path,
-                    mark,
-                    wording,
-                },
-            ));
+            self.list.push((code, Finding { path, mark, wording }));
         }
     }
 
@@ -159,11 +146,7 @@ impl Notes<'_> {
         let top = Trail::Top;
         let mut check = |at: &Trail<'_>, friction: Option<f64>| {
             if let Some(mu) = friction.filter(|mu| *mu > MAX_PLAUSIBLE_FRICTION) {
-                self.add(
-                    NoteCode::FrictionHigh,
-                    &at.key("friction"),
-                    say::friction_high(mu),
-                );
+                self.add(NoteCode::FrictionHigh, &at.key("friction"), say::friction_high(mu));
             }
         };
         check(&top, file.friction);
@@ -206,9 +189,7 @@ impl Notes<'_> {
             }
         }
         let numbers: std::collections::BTreeMap<&str, usize> =
-            (scene.blocks.iter().enumerate().rev())
-                .map(|(i, b)| (b.id.as_str(), i))
-                .collect();
+            (scene.blocks.iter().enumerate().rev()).map(|(i, b)| (b.id.as_str(), i)).collect();
         for (k, step) in file.steps.iter().enumerate() {
             for (robot, hold) in &step.hold.0 {
                 if let HoldEntry::Grip(grip) = hold
@@ -286,9 +267,7 @@ impl Notes<'_> {
     }
 
     fn weights(&mut self, file: &SceneFile) {
-        let is_limited = |limits: &super::Limits| {
-            limits.fx.is_finite() || limits.fy.is_finite() || limits.torque > 0.0
-        };
+        let is_limited = |limits: &super::Limits| limits.fx.is_finite() || limits.fy.is_finite() || limits.torque > 0.0;
         let gravity = file.gravity.unwrap_or([0.0, -9.81]);
         if file.density.is_some() || gravity == [0.0, 0.0] {
             return;
@@ -298,12 +277,9 @@ impl Notes<'_> {
             (_, robots) if robots.iter().any(|r| is_limited(&r.limits)) => Some("limits"),
             _ => None,
         };
-        let has_density =
-            |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
+        let has_density = |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
         let light: Vec<usize> = (file.blocks.iter().enumerate())
-            .filter(|(_, b)| {
-                b.weight.is_none() && b.mass.is_none() && b.density.is_none() && b.centre.is_none()
-            })
+            .filter(|(_, b)| b.weight.is_none() && b.mass.is_none() && b.density.is_none() && b.centre.is_none())
             .filter(|(_, b)| !b.material.as_deref().is_some_and(has_density))
             .map(|(i, _)| i)
             .collect();
@@ -311,11 +287,7 @@ impl Notes<'_> {
             let top = Trail::Top;
             let force = self.scene.units.force.unwrap_or_default().name();
             let wording = say::default_density(light.len(), beside, force);
-            self.add(
-                NoteCode::DefaultDensity,
-                &top.key("blocks").index(*first),
-                wording,
-            );
+            self.add(NoteCode::DefaultDensity, &top.key("blocks").index(*first), wording);
         }
     }
 }

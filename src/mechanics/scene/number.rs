@@ -24,10 +24,7 @@ pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) 
             return false;
         }
         if x.abs() > MAX_MAGNITUDE {
-            findings.add(
-                at,
-                problem::number::absurd(*x, MAX_MAGNITUDE, findings.units),
-            );
+            findings.add(at, problem::number::absurd(*x, MAX_MAGNITUDE, findings.units));
             return false;
         }
     }
@@ -42,10 +39,7 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     }
     let largest = numbers.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
     if largest > 0.0 && largest < MIN_MAGNITUDE {
-        findings.add(
-            at,
-            problem::number::tiny(largest, MIN_MAGNITUDE, findings.units),
-        );
+        findings.add(at, problem::number::tiny(largest, MIN_MAGNITUDE, findings.units));
         return false;
     }
     true
@@ -53,12 +47,7 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
 
 /// Returns `number`, the value of the key `key`, if it is present and valid: either 0, or from 10⁻³⁰ to 10¹². Reports
 /// an invalid number and returns `None`. `entry` is the path of the object that contains the key.
-pub(super) fn at_least_zero(
-    findings: &mut Findings,
-    entry: &Trail<'_>,
-    key: &str,
-    number: Option<f64>,
-) -> Option<f64> {
+pub(super) fn at_least_zero(findings: &mut Findings, entry: &Trail<'_>, key: &str, number: Option<f64>) -> Option<f64> {
     let x = number?;
     let at = entry.key(key);
     if !is_amount(findings, &at, &[x]) {

@@ -5,9 +5,7 @@ use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
 use super::path::Trail;
 use super::problem;
-use crate::geometry::{
-    Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector,
-};
+use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
 
 /// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
 /// coordinates are exact.
@@ -43,20 +41,13 @@ pub(super) fn polygon(
     if !sound {
         return None;
     }
-    let points = |ring: &[Pair]| {
-        ring.iter()
-            .map(|c| Point::new(c[0], c[1]))
-            .collect::<Vec<_>>()
-    };
+    let points = |ring: &[Pair]| ring.iter().map(|c| Point::new(c[0], c[1])).collect::<Vec<_>>();
     let flaws = match Polygon::new(points(corners), holes.iter().map(|h| points(h)).collect()) {
         Ok(polygon) => {
             let extent = polygon.bounds().diagonal();
             if extent < SMALLEST_EXTENT {
                 let units = findings.units;
-                findings.add(
-                    &outer,
-                    problem::number::tiny_extent(extent, SMALLEST_EXTENT, units),
-                );
+                findings.add(&outer, problem::number::tiny_extent(extent, SMALLEST_EXTENT, units));
                 return None;
             }
             let centroid = polygon.centroid();
@@ -96,22 +87,12 @@ fn note(
         &hole
     };
     match flaw {
-        PolygonError::TooFewCorners { corners, .. } => {
-            findings.add(at, problem::outline::too_few_corners(corners))
-        }
+        PolygonError::TooFewCorners { corners, .. } => findings.add(at, problem::outline::too_few_corners(corners)),
         PolygonError::ZeroArea { .. } => findings.add(at, problem::outline::zero_area()),
         PolygonError::HoleOutside { .. } => findings.add(at, problem::outline::hole_outside()),
-        PolygonError::Crossing {
-            rings,
-            corners: first,
-            at: point,
-        } => {
+        PolygonError::Crossing { rings, corners: first, at: point } => {
             let count = |ring: usize| {
-                if ring == 0 {
-                    corners.len()
-                } else {
-                    holes.get(ring - 1).map_or(0, Vec::len)
-                }
+                if ring == 0 { corners.len() } else { holes.get(ring - 1).map_or(0, Vec::len) }
             };
             let side = |k: usize| problem::outline::Side {
                 hole: rings[k].checked_sub(1),
@@ -119,8 +100,7 @@ fn note(
             };
             findings.add(
                 &at.index(first[0]),
-                problem::outline::crossing(&side(0), &side(1), point)
-                    .at(problem::Place::Own(point)),
+                problem::outline::crossing(&side(0), &side(1), point).at(problem::Place::Own(point)),
             );
         }
     }
@@ -148,12 +128,8 @@ pub(super) fn cells(
     for (i, entry) in entries.iter().enumerate() {
         let at = at.index(i);
         let (x, y, half) = match (*entry, lattice.kind) {
-            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => {
-                (x, y, CellShape::Up)
-            }
-            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => {
-                (x, y, CellShape::Down)
-            }
+            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => (x, y, CellShape::Up),
+            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => (x, y, CellShape::Down),
             (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, CellShape::Square),
             (CellEntry::Square(..), LatticeKind::Triangular) => {
                 findings.add(&at, problem::outline::square_cell());
@@ -198,10 +174,7 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
         return None;
     }
     if pair.iter().any(|x| x.abs() > MAX_LATTICE_COORDINATE) {
-        findings.add(
-            at,
-            problem::outline::beyond_lattice(pair, MAX_LATTICE_COORDINATE),
-        );
+        findings.add(at, problem::outline::beyond_lattice(pair, MAX_LATTICE_COORDINATE));
         return None;
     }
     Some((pair[0] as i64, pair[1] as i64))
@@ -224,24 +197,14 @@ pub(super) fn placed(
     match (outline, lattice) {
         (Outline::Cells(cells), Some(lattice)) => {
             let by = node(findings, &trail.key("at"), at);
-            let turn = if lattice.kind == LatticeKind::Triangular {
-                60.0
-            } else {
-                90.0
-            };
+            let turn = if lattice.kind == LatticeKind::Triangular { 60.0 } else { 90.0 };
             let steps = angle.rem_euclid(360.0) / turn;
             if steps.fract() != 0.0 {
-                findings.add(
-                    &trail.key("angle"),
-                    problem::outline::angle_off_lattice(angle, turn),
-                );
+                findings.add(&trail.key("angle"), problem::outline::angle_off_lattice(angle, turn));
                 return None;
             }
             let by = by?;
-            let cells: Vec<Cell> = cells
-                .into_iter()
-                .map(|c| c.turned(steps as i64).moved(by))
-                .collect();
+            let cells: Vec<Cell> = cells.into_iter().map(|c| c.turned(steps as i64).moved(by)).collect();
             let polygon = lattice.polygon(&cells)?;
             Some((polygon, Some(cells)))
         }

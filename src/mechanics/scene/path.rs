@@ -89,10 +89,7 @@ impl fmt::Display for Path {
 
 /// True if a path can contain the key after a dot without ambiguity. Other keys are written as `["key"]`.
 fn is_plain(key: &str) -> bool {
-    !key.is_empty()
-        && key
-            .chars()
-            .all(|c| c.is_alphanumeric() || matches!(c, '_' | '$' | '-'))
+    !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '$' | '-'))
 }
 
 #[cfg(test)]
@@ -106,10 +103,7 @@ mod tests {
         let c = a.index(3);
         let d = c.key("polygon");
         assert_eq!(d.index(1).path().to_string(), "blocks[3].polygon[1]");
-        assert_eq!(
-            b.key("red oak").path().to_string(),
-            "materials[\"red oak\"]"
-        );
+        assert_eq!(b.key("red oak").path().to_string(), "materials[\"red oak\"]");
         assert_eq!(Trail::Top.path().to_string(), "");
     }
 }

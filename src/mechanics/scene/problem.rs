@@ -70,10 +70,7 @@ impl SceneError {
     /// which the problem lies.
     pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
         let problem = Problem::new(String::new(), Some(span), Some(source), wording);
-        SceneError {
-            text: Some(source.text.to_string()),
-            list: vec![problem],
-        }
+        SceneError { text: Some(source.text.to_string()), list: vec![problem] }
     }
 }
 
@@ -147,10 +144,7 @@ pub(super) struct Wording {
 impl Wording {
     /// Adds the point of the structure at which the problem lies, in the units of the file.
     pub(super) fn at(self, place: Place) -> Wording {
-        Wording {
-            place: Some(place),
-            ..self
-        }
+        Wording { place: Some(place), ..self }
     }
 
     /// Returns the message and the remedy.
@@ -162,12 +156,7 @@ impl Wording {
 fn new_wording(code: Code, message: impl Into<String>, help: impl Into<String>) -> Wording {
     // Messages quote names and other text from the file. A line break in such text must not start a new line in the
     // output.
-    Wording {
-        code,
-        message: crate::text::line(&message.into()),
-        help: crate::text::line(&help.into()),
-        place: None,
-    }
+    Wording { code, message: crate::text::line(&message.into()), help: crate::text::line(&help.into()), place: None }
 }
 
 /// Formats a number for messages with at most six significant digits, but with all digits before the point. If its
@@ -185,11 +174,7 @@ fn digits(x: f64) -> String {
     }
     let decimals = (5.0 - magnitude).max(0.0) as usize;
     let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_string()
-    } else {
-        text
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
 fn pair(p: [f64; 2]) -> String {
@@ -202,11 +187,7 @@ fn point(p: Point) -> String {
 
 /// If a text has more than 40 characters, returns its first 37 characters and "…"; otherwise the whole text.
 pub(super) fn shortened(text: &str) -> String {
-    if text.chars().count() <= 40 {
-        text.to_string()
-    } else {
-        text.chars().take(37).chain("…".chars()).collect()
-    }
+    if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(37).chain("…".chars()).collect() }
 }
 
 /// Joins the items into a text such as "a, b or c"; "nothing" if there are no items.
@@ -242,10 +223,7 @@ mod tests {
 
     #[test]
     fn choices_are_joined_with_commas_and_or() {
-        assert_eq!(
-            choice(["a".to_string(), "b".to_string(), "c".to_string()]),
-            "a, b or c"
-        );
+        assert_eq!(choice(["a".to_string(), "b".to_string(), "c".to_string()]), "a, b or c");
         assert_eq!(choice(["a".to_string()]), "a");
     }
 }

@@ -128,8 +128,7 @@ impl Scene {
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, SceneError> {
-        let mut scene = resolve(&file, UnreadParts::default())
-            .map_err(|findings| finding::located(findings, None))?;
+        let mut scene = resolve(&file, UnreadParts::default()).map_err(|findings| finding::located(findings, None))?;
         scene.notes = note::of(&file, &scene, None);
         Ok(scene)
     }
@@ -182,10 +181,8 @@ mod tests {
         let file = by_tree(EVERYTHING).expect("a scene file");
         assert_eq!(Some(&file), by_types(EVERYTHING).as_ref());
         assert_eq!(by_tree(&file.to_json()), Some(file));
-        for text in [
-            include_str!("../../../assets/starter.json"),
-            include_str!("../../../assets/thesis/figure-4.json"),
-        ] {
+        for text in [include_str!("../../../assets/starter.json"), include_str!("../../../assets/thesis/figure-4.json")]
+        {
             assert_eq!(by_tree(text), by_types(text));
         }
     }
@@ -200,24 +197,10 @@ mod tests {
         assert!(places.len() > 100);
         let mut refused = 0;
         for range in places {
-            for other in [
-                "null",
-                "true",
-                "-1",
-                "0.5",
-                "\"x\"",
-                "[]",
-                "{}",
-                "[1, 2]",
-                "\"up\"",
-                "[1, 2, \"up\"]",
-                "1e999",
-            ] {
-                let text = format!(
-                    "{}{other}{}",
-                    &EVERYTHING[..range.start],
-                    &EVERYTHING[range.end..]
-                );
+            for other in
+                ["null", "true", "-1", "0.5", "\"x\"", "[]", "{}", "[1, 2]", "\"up\"", "[1, 2, \"up\"]", "1e999"]
+            {
+                let text = format!("{}{other}{}", &EVERYTHING[..range.start], &EVERYTHING[range.end..]);
                 // serde also accepts a list of an object's values instead of the object. The format does not.
                 let is_list = other.starts_with('[') && by_tree(&text).is_none();
                 assert!(is_list || by_tree(&text) == by_types(&text), "{text}");
@@ -230,9 +213,7 @@ mod tests {
     fn places_of(tree: &Tree<'_>, node: &Node<'_>, places: &mut Vec<std::ops::Range<usize>>) {
         places.push(node.range.clone());
         match &node.kind {
-            NodeKind::List(list) => {
-                (tree.items(list).iter()).for_each(|n| places_of(tree, n, places))
-            }
+            NodeKind::List(list) => (tree.items(list).iter()).for_each(|n| places_of(tree, n, places)),
             NodeKind::Object(object) => {
                 for entry in tree.entries(object) {
                     places.push(entry.name_range.clone());

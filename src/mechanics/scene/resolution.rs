@@ -87,20 +87,16 @@ impl<'f> Resolution<'f> {
         name::once(findings, &top.key("materials"), &file.materials);
         name::once(findings, &top.key("shapes"), &file.shapes);
         let lattice = lattice(findings, file.grid.as_ref());
-        let grid_known =
-            !findings.unread.touches_key("grid") && lattice.is_some() == file.grid.is_some();
+        let grid_known = !findings.unread.touches_key("grid") && lattice.is_some() == file.grid.is_some();
         let (materials, shapes) = list_names(findings, file);
         let mut resolution = Resolution {
             file,
             units: file.units.unwrap_or_default(),
             gravity,
             kernel,
-            friction: at_least_zero(findings, &top, "friction", file.friction)
-                .unwrap_or(DEFAULT_FRICTION),
-            density: at_least_zero(findings, &top, "density", file.density)
-                .unwrap_or(DEFAULT_DENSITY),
-            thickness: at_least_zero(findings, &top, "thickness", file.thickness)
-                .unwrap_or(DEFAULT_THICKNESS),
+            friction: at_least_zero(findings, &top, "friction", file.friction).unwrap_or(DEFAULT_FRICTION),
+            density: at_least_zero(findings, &top, "density", file.density).unwrap_or(DEFAULT_DENSITY),
+            thickness: at_least_zero(findings, &top, "thickness", file.thickness).unwrap_or(DEFAULT_THICKNESS),
             lattice,
             grid_known,
             materials,
@@ -131,9 +127,8 @@ impl<'f> Resolution<'f> {
         let closeness = self.heal(findings, &mut ground, &mut blocks);
         self.check_ids(findings);
         let friction_pairs = self.friction_pairs(findings);
-        let centroids: Vec<Point> = (blocks.iter())
-            .map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid))
-            .collect();
+        let centroids: Vec<Point> =
+            (blocks.iter()).map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid)).collect();
         let robots = self.robots(findings, &names.blocks, &centroids);
         let loads = self.loads(findings, &names.blocks, &centroids);
         let mut frames = self.frames(findings, &names, &robots, &centroids);
@@ -177,11 +172,7 @@ impl<'f> Resolution<'f> {
     fn body_names(&self, findings: &Findings) -> BodyNames<'_> {
         let hidden = |list: &str, ids: &[String]| findings.unread.hides_names(list, ids.len());
         BodyNames {
-            blocks: Names::new(
-                "block",
-                self.ids.iter().map(String::as_str).collect(),
-                hidden("blocks", &self.ids),
-            ),
+            blocks: Names::new("block", self.ids.iter().map(String::as_str).collect(), hidden("blocks", &self.ids)),
             robots: Names::new(
                 "robot",
                 self.robot_ids.iter().map(String::as_str).collect(),
@@ -199,31 +190,17 @@ impl<'f> Resolution<'f> {
         robots: &[Robot],
         centroids: &[Point],
     ) -> Vec<Frame> {
-        let grips: Vec<Option<(BlockId, Point)>> = robots
-            .iter()
-            .map(|r| r.holds.map(|g| (g.block, g.at)))
-            .collect();
+        let grips: Vec<Option<(BlockId, Point)>> = robots.iter().map(|r| r.holds.map(|g| (g.block, g.at))).collect();
         if self.file.steps.is_empty() {
             let holds = |(i, grip): (usize, &Option<(BlockId, Point)>)| {
-                grip.map(|(block, at)| Hold {
-                    robot: RobotId(i),
-                    block,
-                    at,
-                })
+                grip.map(|(block, at)| Hold { robot: RobotId(i), block, at })
             };
             let holds = grips.iter().enumerate().filter_map(holds).collect();
             return vec![steps::frame_without_steps(centroids.len(), holds)];
         }
         // If a step could not be read, the frames from this step on are unknown. Execute only the steps before it.
-        let known = (findings.unread.first_entry("steps"))
-            .unwrap_or(usize::MAX)
-            .min(self.file.steps.len());
-        let context = StepContext {
-            blocks: &names.blocks,
-            robots: &names.robots,
-            centroids,
-            grips: &grips,
-        };
+        let known = (findings.unread.first_entry("steps")).unwrap_or(usize::MAX).min(self.file.steps.len());
+        let context = StepContext { blocks: &names.blocks, robots: &names.robots, centroids, grips: &grips };
         steps::frames(findings, &self.file.steps[..known], &context)
     }
 
@@ -243,10 +220,9 @@ impl<'f> Resolution<'f> {
         if findings.unread.touches_key("steps") && self.file.steps.is_empty() {
             return Vec::new();
         }
-        let grounds = (ground.iter().enumerate())
-            .filter_map(|(i, g)| g.as_ref().map(|g| (BodyId::Ground(i), &g.body)));
-        let blocks = (blocks.iter().enumerate())
-            .filter_map(|(i, b)| b.as_ref().map(|b| (BodyId::Block(BlockId(i)), &b.body)));
+        let grounds = (ground.iter().enumerate()).filter_map(|(i, g)| g.as_ref().map(|g| (BodyId::Ground(i), &g.body)));
+        let blocks =
+            (blocks.iter().enumerate()).filter_map(|(i, b)| b.as_ref().map(|b| (BodyId::Block(BlockId(i)), &b.body)));
         if self.has_schematic_bodies() {
             return Vec::new();
         }
@@ -276,10 +252,7 @@ struct BodyNames<'s> {
 fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     let top = Trail::Top;
     if file.drystone.0 != 1 {
-        findings.add(
-            &top.key("drystone"),
-            problem::number::version(file.drystone.0),
-        );
+        findings.add(&top.key("drystone"), problem::number::version(file.drystone.0));
     }
     let gravity = file.gravity.unwrap_or(DEFAULT_GRAVITY);
     is_amount(findings, &top.key("gravity"), &gravity);

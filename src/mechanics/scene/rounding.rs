@@ -59,8 +59,7 @@ pub(super) fn estimate_rounding(file: &SceneFile) -> Option<Rounding> {
     let mut found = digits.rounding()?;
     // Angles with three decimals or more were probably rounded. Add the error that this causes at the farthest
     // coordinate. Angles with fewer decimals count as exact, such as whole degrees.
-    if let Some(k) = (turns.decimals.last_digit(MIN_ROUNDED_SHARE, turns.count)).filter(|k| *k >= 3)
-    {
+    if let Some(k) = (turns.decimals.last_digit(MIN_ROUNDED_SHARE, turns.count)).filter(|k| *k >= 3) {
         found.error += (0.5 * power(k)).to_radians() * reach;
     }
     Some(found)
@@ -157,8 +156,7 @@ impl Digits {
             let exponent: i64 = exponent.parse().unwrap_or(0);
             (digits, digits as i64 - 1 - exponent)
         });
-        self.decimals
-            .add(usize::try_from(behind.max(0)).unwrap_or(DIGIT_TABLE_SIZE));
+        self.decimals.add(usize::try_from(behind.max(0)).unwrap_or(DIGIT_TABLE_SIZE));
         self.significant.add(digits);
         let narrow = x as f32;
         // Every number with at most six digits is the shortest notation of some 32-bit float, so only longer numbers
@@ -173,10 +171,7 @@ impl Digits {
     }
 
     fn rounding(&self) -> Option<Rounding> {
-        let decimals = |k: usize| Rounding {
-            source: ToleranceSource::Decimals(k),
-            error: 0.5 * power(k),
-        };
+        let decimals = |k: usize| Rounding { source: ToleranceSource::Decimals(k), error: 0.5 * power(k) };
         let float = 0.5 * f64::from(f32::EPSILON) * self.largest;
         if let Some(k) = self.decimals.last_digit(MIN_DECIMAL_SHARE, self.count) {
             let mut found = decimals(k);
@@ -202,10 +197,7 @@ impl Digits {
         let text = format!("{:e}", self.largest);
         let exponent: i32 = text.split_once('e')?.1.parse().ok()?;
         let unit = libm::pow(10.0, f64::from(exponent + 1) - n as f64);
-        Some(Rounding {
-            source: ToleranceSource::Digits(n),
-            error: 0.5 * unit,
-        })
+        Some(Rounding { source: ToleranceSource::Digits(n), error: 0.5 * unit })
     }
 }
 
@@ -231,19 +223,8 @@ mod tests {
 
     #[test]
     fn the_digits_of_the_shortest_notation_are_counted() {
-        let by_hand = [
-            0.5,
-            1200.0,
-            -3.0,
-            0.001,
-            1e-9,
-            0.1 + 0.2,
-            1e15,
-            12345678.9,
-            5e-324,
-        ];
-        let decimals =
-            (0..=12).flat_map(|k| numbers().map(move |x| (x / power(k)).round() * power(k)));
+        let by_hand = [0.5, 1200.0, -3.0, 0.001, 1e-9, 0.1 + 0.2, 1e15, 12345678.9, 5e-324];
+        let decimals = (0..=12).flat_map(|k| numbers().map(move |x| (x / power(k)).round() * power(k)));
         let all = by_hand.into_iter().chain(decimals).chain(numbers());
         let mut few = 0;
         for x in all.filter(|x| *x != 0.0) {
@@ -287,8 +268,7 @@ mod tests {
 
     #[test]
     fn significant_digits_are_counted_where_decimals_differ() {
-        let spread =
-            (0..240).map(|i| libm::pow(10.0, f64::from(i % 6) - 2.0) * (1.0 + f64::from(i) / 77.0));
+        let spread = (0..240).map(|i| libm::pow(10.0, f64::from(i % 6) - 2.0) * (1.0 + f64::from(i) / 77.0));
         let text = spread.map(|x| format!("{x:.5e}").parse().unwrap_or(f64::NAN));
         let found = rounding(text).expect("rounded numbers");
         assert_eq!(found.source, ToleranceSource::Digits(6));

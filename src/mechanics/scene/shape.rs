@@ -34,46 +34,13 @@ pub fn cells(name: &str) -> Option<Vec<Cell>> {
     let cells: &[(i64, i64, CellShape)] = match name {
         "up" => &[(0, 0, UP)],
         "down" => &[(0, 0, DOWN)],
-        "hexagon" => &[
-            (0, 0, UP),
-            (-1, 1, DOWN),
-            (-1, 0, UP),
-            (-1, 0, DOWN),
-            (0, -1, UP),
-            (0, 0, DOWN),
-        ],
-        "linkh" => &[
-            (-1, 1, DOWN),
-            (0, 0, UP),
-            (0, 1, DOWN),
-            (0, -1, UP),
-            (0, 0, DOWN),
-            (1, -1, UP),
-        ],
-        "linkr" => &[
-            (-1, 0, UP),
-            (-1, 1, DOWN),
-            (-1, 1, UP),
-            (0, 0, DOWN),
-            (0, 0, UP),
-            (0, 1, DOWN),
-        ],
-        "linkl" => &[
-            (0, 0, UP),
-            (-1, 1, DOWN),
-            (-1, 1, UP),
-            (-1, 0, DOWN),
-            (-1, 0, UP),
-            (-2, 1, DOWN),
-        ],
+        "hexagon" => &[(0, 0, UP), (-1, 1, DOWN), (-1, 0, UP), (-1, 0, DOWN), (0, -1, UP), (0, 0, DOWN)],
+        "linkh" => &[(-1, 1, DOWN), (0, 0, UP), (0, 1, DOWN), (0, -1, UP), (0, 0, DOWN), (1, -1, UP)],
+        "linkr" => &[(-1, 0, UP), (-1, 1, DOWN), (-1, 1, UP), (0, 0, DOWN), (0, 0, UP), (0, 1, DOWN)],
+        "linkl" => &[(0, 0, UP), (-1, 1, DOWN), (-1, 1, UP), (-1, 0, DOWN), (-1, 0, UP), (-2, 1, DOWN)],
         _ => return None,
     };
-    Some(
-        cells
-            .iter()
-            .map(|&(x, y, half)| Cell { x, y, shape: half })
-            .collect(),
-    )
+    Some(cells.iter().map(|&(x, y, half)| Cell { x, y, shape: half }).collect())
 }
 
 #[cfg(test)]
@@ -84,27 +51,13 @@ mod tests {
     const TRIANGLE_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
     fn check(name: &str, origin: (f64, f64), outline: &[(f64, f64)]) {
-        let lattice = Lattice {
-            kind: LatticeKind::Triangular,
-            side: 1.0,
-        };
-        let polygon = lattice
-            .polygon(&cells(name).expect("a built-in shape"))
-            .expect("connected cells");
+        let lattice = Lattice { kind: LatticeKind::Triangular, side: 1.0 };
+        let polygon = lattice.polygon(&cells(name).expect("a built-in shape")).expect("connected cells");
         let centroid = polygon.centroid();
-        assert!(
-            (centroid + Vector::new(origin.0, origin.1) - Point::origin().coords)
-                .coords
-                .norm()
-                < 1e-12,
-            "{name}"
-        );
+        assert!((centroid + Vector::new(origin.0, origin.1) - Point::origin().coords).coords.norm() < 1e-12, "{name}");
         assert_eq!(polygon.outline().len(), outline.len(), "{name}");
         for (x, y) in outline {
-            let near = polygon
-                .outline()
-                .iter()
-                .any(|p| ((p - centroid) - Vector::new(*x, *y)).norm() < 1e-12);
+            let near = polygon.outline().iter().any(|p| ((p - centroid) - Vector::new(*x, *y)).norm() < 1e-12);
             assert!(near, "{name} lacks the corner ({x}, {y})");
         }
     }
@@ -144,28 +97,16 @@ mod tests {
             (-0.25, 1.5 * TRIANGLE_HEIGHT),
         ];
         check("linkr", (-0.25, -TRIANGLE_HEIGHT / 2.0), &linkr);
-        check(
-            "linkl",
-            (0.25, -TRIANGLE_HEIGHT / 2.0),
-            &linkr.map(|(x, y)| (-x, y)),
-        );
+        check("linkl", (0.25, -TRIANGLE_HEIGHT / 2.0), &linkr.map(|(x, y)| (-x, y)));
         check(
             "up",
             (-0.5, -TRIANGLE_HEIGHT / 3.0),
-            &[
-                (-0.5, -TRIANGLE_HEIGHT / 3.0),
-                (0.5, -TRIANGLE_HEIGHT / 3.0),
-                (0.0, 2.0 * TRIANGLE_HEIGHT / 3.0),
-            ],
+            &[(-0.5, -TRIANGLE_HEIGHT / 3.0), (0.5, -TRIANGLE_HEIGHT / 3.0), (0.0, 2.0 * TRIANGLE_HEIGHT / 3.0)],
         );
         check(
             "down",
             (-0.5, TRIANGLE_HEIGHT / 3.0),
-            &[
-                (-0.5, TRIANGLE_HEIGHT / 3.0),
-                (0.5, TRIANGLE_HEIGHT / 3.0),
-                (0.0, -2.0 * TRIANGLE_HEIGHT / 3.0),
-            ],
+            &[(-0.5, TRIANGLE_HEIGHT / 3.0), (0.5, TRIANGLE_HEIGHT / 3.0), (0.0, -2.0 * TRIANGLE_HEIGHT / 3.0)],
         );
     }
 }

@@ -70,9 +70,8 @@ impl Sketch {
             (sketch.bodies, sketch.scene) = resolution::sketch(&file, unread);
             sketch.title = file.title.unwrap_or_default();
         }
-        sketch.places = (sketch.problems.list.iter())
-            .map(|problem| sketch.spot(&problem.path, problem.place.as_ref()))
-            .collect();
+        sketch.places =
+            (sketch.problems.list.iter()).map(|problem| sketch.spot(&problem.path, problem.place.as_ref())).collect();
         sketch
     }
 
@@ -96,10 +95,7 @@ impl Sketch {
             Some(Place::Between(_, other)) => Some(*other),
             _ => None,
         };
-        Some(Spot {
-            at,
-            bodies: std::iter::once(id).chain(other).collect(),
-        })
+        Some(Spot { at, bodies: std::iter::once(id).chain(other).collect() })
     }
 }
 
@@ -134,8 +130,7 @@ mod tests {
 
     #[test]
     fn unreadable_parts_do_not_prevent_a_drawing_of_the_rest() {
-        let text =
-            br#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]], "wieght": 3 },
+        let text = br#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]], "wieght": 3 },
             { "id": "b", "polygon": "none" }, { "id": "c", "polygon": [[5, 5], [6, 5]] }] }"#;
         let sketch = Sketch::from_bytes(text, None);
         let names: Vec<&str> = sketch.bodies.iter().map(|b| b.name.as_str()).collect();

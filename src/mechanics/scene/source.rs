@@ -29,21 +29,14 @@ impl<'t> Source<'t> {
     /// Parses a JSON text. The error contains the index of the byte at which the text stops being valid JSON.
     pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
         let tree = Some(parse(text)?);
-        Ok(Source {
-            tree,
-            ..Source::plain(text)
-        })
+        Ok(Source { tree, ..Source::plain(text) })
     }
 
     /// Stores a text without parsing it, for messages about text that is not JSON.
     pub(super) fn plain(text: &'t str) -> Source<'t> {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1)).collect();
-        Source {
-            text,
-            tree: None,
-            lines,
-        }
+        Source { text, tree: None, lines }
     }
 
     /// Returns the line and the column in which the byte with this index lies. Both are counted from 1, the column in
@@ -89,11 +82,7 @@ impl<'t> Source<'t> {
                     // If the key itself is to be marked and it occurs more than once, mark its last occurrence.
                     let wanted = |e: &&Entry<'_>| e.name == *key;
                     let last = mark == Mark::Key && i + 1 == path.0.len();
-                    let entry = if last {
-                        entries.iter().rev().find(wanted)
-                    } else {
-                        entries.iter().find(wanted)
-                    };
+                    let entry = if last { entries.iter().rev().find(wanted) } else { entries.iter().find(wanted) };
                     match entry {
                         Some(entry) if last => return Some(entry.name_range.clone()),
                         other => other.map(|e| &e.value),
@@ -130,18 +119,12 @@ mod tests {
         let top = Trail::Top;
         let e = top.key("é");
         let one = e.index(1);
-        let range = source
-            .find(&one.key("b").path(), Mark::Value)
-            .expect("a range of bytes");
+        let range = source.find(&one.key("b").path(), Mark::Value).expect("a range of bytes");
         assert_eq!(&text[range.clone()], "22");
         assert_eq!(source.place(range.start), (2, 18));
-        let twice = source
-            .find(&top.key("a").path(), Mark::Key)
-            .expect("a range of bytes");
+        let twice = source.find(&top.key("a").path(), Mark::Key).expect("a range of bytes");
         assert_eq!(source.place(twice.start), (3, 11));
-        let missing = source
-            .find(&one.key("c").path(), Mark::Value)
-            .expect("a range of bytes");
+        let missing = source.find(&one.key("c").path(), Mark::Value).expect("a range of bytes");
         assert_eq!(&text[missing], "{\"b\": 22}");
         assert_eq!(source.find(&top.path(), Mark::Value), Some(0..1));
     }

@@ -46,22 +46,12 @@ impl StepContext<'_> {
 /// Returns the only frame of a scene without steps. `blocks` is the number of blocks, which are all placed. The robots
 /// hold the blocks given by `holds`.
 pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
-    Frame {
-        title: String::new(),
-        placed: (0..blocks).map(BlockId).collect(),
-        holds,
-        plans: Vec::new(),
-        expected: None,
-    }
+    Frame { title: String::new(), placed: (0..blocks).map(BlockId).collect(), holds, plans: Vec::new(), expected: None }
 }
 
 /// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Reports an error and
 /// stops if the frames contain more than [`MAX_PLACED_BLOCKS`] blocks in total.
-pub(super) fn frames(
-    findings: &mut Findings,
-    steps: &[StepEntry],
-    context: &StepContext<'_>,
-) -> Vec<Frame> {
+pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &StepContext<'_>) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
     let mut state = StepState {
@@ -77,10 +67,7 @@ pub(super) fn frames(
         placed_total += frame.placed.len();
         frames.push(frame);
         if placed_total > MAX_PLACED_BLOCKS {
-            findings.add(
-                &list.index(k),
-                problem::step::too_many(steps.len(), MAX_PLACED_BLOCKS),
-            );
+            findings.add(&list.index(k), problem::step::too_many(steps.len(), MAX_PLACED_BLOCKS));
             break;
         }
     }
@@ -125,10 +112,7 @@ impl StepState {
             let at = list.index(i);
             if let Some(block) = context.blocks.find(findings, &at, name).map(BlockId) {
                 if let Some((placed_in_step, _)) = self.placed_in_step.get(&block) {
-                    findings.add(
-                        &at,
-                        problem::step::placed_twice(name, *placed_in_step, number),
-                    );
+                    findings.add(&at, problem::step::placed_twice(name, *placed_in_step, number));
                     continue;
                 }
                 self.placed_in_step.insert(block, (number, self.next));
@@ -148,11 +132,7 @@ impl StepState {
             holds: self
                 .holds
                 .iter()
-                .map(|(robot, (block, at))| Hold {
-                    robot: *robot,
-                    block: *block,
-                    at: *at,
-                })
+                .map(|(robot, (block, at))| Hold { robot: *robot, block: *block, at: *at })
                 .collect(),
             plans,
             expected: step.expect,
@@ -172,17 +152,9 @@ impl StepState {
             return;
         };
         self.by_placing_order.remove(&place);
-        let holders: Vec<RobotId> = self
-            .holds
-            .iter()
-            .filter(|(_, held)| held.0 == block)
-            .map(|(r, _)| *r)
-            .collect();
+        let holders: Vec<RobotId> = self.holds.iter().filter(|(_, held)| held.0 == block).map(|(r, _)| *r).collect();
         if let Some(robot) = holders.first() {
-            findings.add(
-                at,
-                problem::step::removed_held(name, context.robots.name(robot.0)),
-            );
+            findings.add(at, problem::step::removed_held(name, context.robots.name(robot.0)));
         }
         for robot in holders {
             self.holds.remove(&robot);
@@ -202,10 +174,7 @@ impl StepState {
             HoldEntry::Block(name) => (name, None, at),
             HoldEntry::Grip(grip) => (&grip.block, grip.at, &inner),
         };
-        let robot = context
-            .robots
-            .find_key(findings, at, robot_name)
-            .map(RobotId);
+        let robot = context.robots.find_key(findings, at, robot_name).map(RobotId);
         let block = context.blocks.find(findings, name_at, name).map(BlockId);
         let sound = point.is_none_or(|p| is_sane(findings, &at.key("at"), &p));
         let Some(block) = block else { return };
@@ -217,32 +186,19 @@ impl StepState {
         if let Some((other, _)) = self.holds.get(&robot)
             && *other != block
         {
-            findings.add(
-                at,
-                problem::step::holds_two(robot_name, context.blocks.name(other.0), name),
-            );
+            findings.add(at, problem::step::holds_two(robot_name, context.blocks.name(other.0), name));
         }
         if sound {
-            self.holds
-                .insert(robot, (block, context.grip(robot, block, point)));
+            self.holds.insert(robot, (block, context.grip(robot, block, point)));
         }
     }
 
-    fn plans(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        step: &StepEntry,
-        context: &StepContext<'_>,
-    ) -> Vec<Plan> {
+    fn plans(&self, findings: &mut Findings, at: &Trail<'_>, step: &StepEntry, context: &StepContext<'_>) -> Vec<Plan> {
         let mut plans = Vec::new();
         name::once(findings, at, &step.plan);
         for (robot_name, name) in &step.plan.0 {
             let at = at.key(robot_name);
-            let robot = context
-                .robots
-                .find_key(findings, &at, robot_name)
-                .map(RobotId);
+            let robot = context.robots.find_key(findings, &at, robot_name).map(RobotId);
             let block = context.blocks.find(findings, &at, name).map(BlockId);
             let Some(block) = block else { continue };
             if self.placed_in_step.contains_key(&block) {

@@ -21,11 +21,7 @@ pub(super) fn not_utf8(bytes: &[u8], valid: usize) -> SceneError {
     let byte = bytes.get(valid).copied().unwrap_or(0);
     // The text contains a replacement character in place of the invalid byte. Before this character, the text and the
     // bytes are equal.
-    SceneError::of_text(
-        &source,
-        one(&text, valid),
-        problem::text::not_utf8(byte, utf16),
-    )
+    SceneError::of_text(&source, one(&text, valid), problem::text::not_utf8(byte, utf16))
 }
 
 /// Returns the range of bytes of the character that begins at the byte with the index `byte`.
@@ -63,9 +59,7 @@ fn explain(source: &Source<'_>, fault: SyntaxError) -> (Range<usize>, Wording) {
         Why::Escape => (here, problem::text::escape()),
         Why::Surrogate => (here, problem::text::surrogate()),
         Why::TrailingComma(comma) => (comma..comma + 1, problem::text::trailing_comma()),
-        Why::Value | Why::Key | Why::Colon | Why::Comma(_) | Why::Behind => {
-            unexpected(text, fault, here)
-        }
+        Why::Value | Why::Key | Why::Colon | Why::Comma(_) | Why::Behind => unexpected(text, fault, here),
     }
 }
 
@@ -102,23 +96,14 @@ fn conflict(text: &str) -> Option<Range<usize>> {
 /// If the first line of a text looks like YAML, TOML or XML, returns its range of bytes and the name of the format.
 /// Blank lines and lines that begin with `#` are skipped.
 fn other_format(text: &str) -> Option<(Range<usize>, &'static str)> {
-    let line = text
-        .split('\n')
-        .map(str::trim)
-        .find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let line = text.split('\n').map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
     let start = line.as_ptr() as usize - text.as_ptr() as usize;
     let found = Some(start..start + line.len());
     let is_name = |name: &str| {
         let name = name.trim();
-        !name.is_empty()
-            && name
-                .chars()
-                .all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '$'))
+        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '$'))
     };
-    let table = line
-        .strip_prefix('[')
-        .and_then(|l| l.split_once(']'))
-        .map(|l| l.0.trim_start_matches('['));
+    let table = line.strip_prefix('[').and_then(|l| l.split_once(']')).map(|l| l.0.trim_start_matches('['));
     let format = if line.starts_with('<') {
         "XML"
     } else if line.starts_with("---") || line.starts_with("- ") || line.starts_with("%YAML") {

@@ -143,11 +143,7 @@ pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     let root = reader.value()?;
     reader.blanks();
     match reader.peek() {
-        None => Ok(Tree {
-            root,
-            items: reader.items,
-            entries: reader.entries,
-        }),
+        None => Ok(Tree { root, items: reader.items, entries: reader.entries }),
         Some(_) => Err(reader.fault(Why::Behind)),
     }
 }
@@ -199,18 +195,11 @@ impl<'t> Parser<'t> {
             Some(b'-' | b'0'..=b'9') => NodeKind::Number(self.number()?),
             _ => self.word()?,
         };
-        Ok(Node {
-            range: start..self.at,
-            kind,
-        })
+        Ok(Node { range: start..self.at, kind })
     }
 
     fn word(&mut self) -> Result<NodeKind<'t>, SyntaxError> {
-        let words = [
-            ("null", NodeKind::Null),
-            ("true", NodeKind::Flag(true)),
-            ("false", NodeKind::Flag(false)),
-        ];
+        let words = [("null", NodeKind::Null), ("true", NodeKind::Flag(true)), ("false", NodeKind::Flag(false))];
         for (word, kind) in words {
             if self.text[self.at..].starts_with(word) {
                 self.at += word.len();
@@ -222,10 +211,7 @@ impl<'t> Parser<'t> {
 
     fn number(&mut self) -> Result<f64, SyntaxError> {
         let start = self.at;
-        let broken = SyntaxError {
-            at: start,
-            why: Why::Value,
-        };
+        let broken = SyntaxError { at: start, why: Why::Value };
         self.at += usize::from(self.peek() == Some(b'-'));
         let whole = self.digits();
         let leading_zero = whole > 1 && self.bytes[self.at - whole] == b'0';
@@ -321,11 +307,7 @@ impl<'t> Parser<'t> {
             self.at += 1;
             self.blanks();
             let value = self.value()?;
-            self.loose_entries.push(Entry {
-                name,
-                name_range,
-                value,
-            });
+            self.loose_entries.push(Entry { name, name_range, value });
             more = self.another('}')?;
         }
         self.leave();
@@ -356,27 +338,13 @@ mod tests {
             for (at, _) in text.char_indices() {
                 assert!(agrees(&text[..at]), "{}", &text[..at]);
                 let end = at + text[at..].chars().next().map_or(0, char::len_utf8);
-                for other in [
-                    "", "\"", "[", "}", ",", ":", "0", "-", ".", "e", "\\", "u", "\n", " ",
-                    "\u{1}", "t",
-                ] {
+                for other in ["", "\"", "[", "}", ",", ":", "0", "-", ".", "e", "\\", "u", "\n", " ", "\u{1}", "t"] {
                     let changed = format!("{}{other}{}", &text[..at], &text[end..]);
                     assert!(agrees(&changed), "{changed}");
                 }
             }
         }
-        for wrong in [
-            "",
-            " ",
-            "nulll",
-            "1 2",
-            "[1,]",
-            "{\"a\":1,}",
-            "01",
-            "1.",
-            "+1",
-            "\u{a0}1",
-        ] {
+        for wrong in ["", " ", "nulll", "1 2", "[1,]", "{\"a\":1,}", "01", "1.", "+1", "\u{a0}1"] {
             assert!(parse(wrong).is_err() && agrees(wrong), "{wrong}");
         }
     }

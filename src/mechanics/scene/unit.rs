@@ -35,11 +35,7 @@ impl Unit {
 /// An SI unit, such as `"N"`.
 impl From<&'static str> for Unit {
     fn from(symbol: &'static str) -> Unit {
-        Unit {
-            symbol: [symbol, "", ""],
-            size: 1.0,
-            is_chosen: false,
-        }
+        Unit { symbol: [symbol, "", ""], size: 1.0, is_chosen: false }
     }
 }
 
@@ -72,11 +68,7 @@ impl UnitsEntry {
     /// Returns the unit of lengths in the scene file. The default is metres.
     pub fn length(&self) -> Unit {
         let (symbol, _, size) = self.length.unwrap_or_default().parts();
-        Unit {
-            symbol: [symbol, "", ""],
-            size,
-            is_chosen: self.length.is_some(),
-        }
+        Unit { symbol: [symbol, "", ""], size, is_chosen: self.length.is_some() }
     }
 
     /// Writes a small length with its unit in scientific notation, such as `6.71e-3 mm`. `digits` is the number of
@@ -95,11 +87,7 @@ impl UnitsEntry {
     /// Returns the unit of forces and weights; newtons if the file gives none.
     pub fn force(&self) -> Unit {
         let (symbol, size) = self.force.unwrap_or_default().parts();
-        Unit {
-            symbol: [symbol, "", ""],
-            size,
-            is_chosen: self.force.is_some(),
-        }
+        Unit { symbol: [symbol, "", ""], size, is_chosen: self.force.is_some() }
     }
 
     /// Returns the unit of torques: the unit of forces times the unit of lengths.
@@ -126,11 +114,7 @@ impl UnitsEntry {
 
 /// Converts a scene from the units of its file to metres and newtons. The weights are in newtons already.
 pub(super) fn to_si(scene: &mut Scene) {
-    let [length, force, torque] = [
-        scene.units.length().size,
-        scene.units.force().size,
-        scene.units.torque().size,
-    ];
+    let [length, force, torque] = [scene.units.length().size, scene.units.force().size, scene.units.torque().size];
     if length == 1.0 && force == 1.0 {
         return;
     }
@@ -184,11 +168,7 @@ pub(super) fn to_si(scene: &mut Scene) {
 }
 
 fn convert(body: &mut Body, length: f64) {
-    let ring = |ring: &Vec<Point>| {
-        ring.iter()
-            .map(|p| Point::from(p.coords * length))
-            .collect()
-    };
+    let ring = |ring: &Vec<Point>| ring.iter().map(|p| Point::from(p.coords * length)).collect();
     body.polygon = Polygon::from_valid_rings(body.polygon.rings().iter().map(ring).collect());
     body.gap *= length;
     body.rounding *= length;
@@ -200,18 +180,9 @@ mod tests {
 
     #[test]
     fn torques_and_stresses_combine_both_units() {
-        let units = UnitsEntry {
-            length: Some(LengthUnit::Millimetre),
-            force: Some(ForceUnit::Kilonewton),
-        };
-        assert_eq!(
-            (units.torque().symbol(), units.torque().size),
-            ("kN·mm".into(), 1.0)
-        );
-        assert_eq!(
-            (units.stress().symbol(), units.stress().size),
-            ("kN/mm²".into(), 1e9)
-        );
+        let units = UnitsEntry { length: Some(LengthUnit::Millimetre), force: Some(ForceUnit::Kilonewton) };
+        assert_eq!((units.torque().symbol(), units.torque().size), ("kN·mm".into(), 1.0));
+        assert_eq!((units.stress().symbol(), units.stress().size), ("kN/mm²".into(), 1e9));
         let si = UnitsEntry::default();
         assert_eq!(si.torque().symbol(), "N·m");
         assert!(!si.stress().is_chosen);

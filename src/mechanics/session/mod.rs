@@ -16,8 +16,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub use error::SessionError;
 
 use crate::analysis::{
-    Analysis, CapacityError, CapacityRequest, LoadCapacity, MarginKinds, Margins, Options, Source,
-    Verdict, WarmStart, capacity_of, hinges_on_gaps,
+    Analysis, CapacityError, CapacityRequest, LoadCapacity, MarginKinds, Margins, Options, Source, Verdict, WarmStart,
+    capacity_of, hinges_on_gaps,
 };
 use crate::geometry::{Cell, Point};
 use crate::interface::{Interfaces, LatticeEdges};
@@ -154,11 +154,7 @@ impl Session {
     /// scene without the block is not valid.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
         let number = self.block(block)?;
-        if let Some(hold) = self.scene.frames[0]
-            .holds
-            .iter()
-            .find(|h| h.block == number)
-        {
+        if let Some(hold) = self.scene.frames[0].holds.iter().find(|h| h.block == number) {
             let robot = self.scene.robots[hold.robot.0].id.clone();
             return Err(SessionError::Held(block.into(), robot));
         }
@@ -195,12 +191,7 @@ impl Session {
     /// # Errors
     /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds
     /// another block.
-    pub fn hold(
-        &mut self,
-        robot: &str,
-        block: &str,
-        at: Option<Point>,
-    ) -> Result<Verdict, SessionError> {
+    pub fn hold(&mut self, robot: &str, block: &str, at: Option<Point>) -> Result<Verdict, SessionError> {
         let (robot_id, number) = (self.robot(robot)?, self.block(block)?);
         let point = at.unwrap_or(self.scene.blocks[number.0].centroid);
         if !(point.x.abs() <= 1e12 && point.y.abs() <= 1e12) {
@@ -214,11 +205,7 @@ impl Session {
             }
             holds.retain(|hold| hold.robot != robot_id);
         }
-        holds.push(Hold {
-            robot: robot_id,
-            block: number,
-            at: point,
-        });
+        holds.push(Hold { robot: robot_id, block: number, at: point });
         holds.sort_by_key(|hold| hold.robot);
         self.grips.insert(robot_id, (block.into(), at));
         Ok(self.update_verdict())
@@ -306,8 +293,7 @@ impl Session {
                 true => self.found.all.iter().collect(),
                 false => self.found.in_frame(&self.scene, frame),
             };
-            self.guess
-                .verdict(&self.scene, frame, &interfaces, &self.options)
+            self.guess.verdict(&self.scene, frame, &interfaces, &self.options)
         };
         self.verdict
     }
@@ -322,10 +308,7 @@ impl Session {
     /// nothing, if the block has no cells or overlaps another body. The caller then reads the whole scene again,
     /// which adds the block or returns an error. Returns an error if the block alone is not valid.
     fn add_cells(&mut self, block: &BlockEntry) -> Result<bool, SceneError> {
-        let alone = Scene::new(SceneFile {
-            blocks: vec![block.clone()],
-            ..self.bare.clone()
-        })?;
+        let alone = Scene::new(SceneFile { blocks: vec![block.clone()], ..self.bare.clone() })?;
         let new = alone.blocks.into_iter().next();
         let cells = new.as_ref().and_then(|new| new.body.cells.clone());
         let (Some(new), Some(cells), Some(lattice)) = (new, cells, self.scene.lattice) else {
@@ -350,10 +333,8 @@ impl Session {
     fn read_again(&mut self) -> Result<(), SceneError> {
         let mut file = self.file.clone();
         // Leave out listed contacts of blocks that were removed.
-        let names: BTreeSet<&str> = (self.file.blocks.iter())
-            .filter_map(|b| b.id.as_deref())
-            .chain(["ground"])
-            .collect();
+        let names: BTreeSet<&str> =
+            (self.file.blocks.iter()).filter_map(|b| b.id.as_deref()).chain(["ground"]).collect();
         let exists = |name: &String| names.contains(name.as_str());
         file.contacts.retain(|c| c.bodies.iter().all(exists));
         let mut scene = Scene::new(file)?;
@@ -361,11 +342,7 @@ impl Session {
         let grips = self.grips.iter();
         let holds = grips.filter_map(|(robot, (block, at))| {
             let block = *self.lookup.numbers.get(block)?;
-            Some(Hold {
-                robot: *robot,
-                block,
-                at: at.unwrap_or(scene.blocks[block.0].centroid),
-            })
+            Some(Hold { robot: *robot, block, at: at.unwrap_or(scene.blocks[block.0].centroid) })
         });
         scene.frames[0].holds = holds.collect();
         self.found = Interfaces::new(&scene);
@@ -380,9 +357,7 @@ impl Session {
 
     fn robot(&self, name: &str) -> Result<RobotId, SessionError> {
         let number = self.scene.robots.iter().position(|r| r.id == name);
-        number
-            .map(RobotId)
-            .ok_or_else(|| SessionError::NoRobot(name.into()))
+        number.map(RobotId).ok_or_else(|| SessionError::NoRobot(name.into()))
     }
 
     fn free_number(&self) -> String {

@@ -30,13 +30,7 @@ impl Amounts {
     /// Returns the sum of the absolute values of all forces, Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L): the objective
     /// of Vallat (2023). L is the unit of length of the program.
     pub fn total(&self) -> f64 {
-        let contacts: f64 = self
-            .normal
-            .iter()
-            .flatten()
-            .chain(&self.friction)
-            .map(|v| v.abs())
-            .sum();
+        let contacts: f64 = self.normal.iter().flatten().chain(&self.friction).map(|v| v.abs()).sum();
         contacts + self.grip.iter().flatten().map(|v| v.abs()).sum::<f64>()
     }
 
@@ -79,27 +73,13 @@ impl Amounts {
     /// Adds `amount` times the unit force `force` to the forces of its contact or grip.
     pub fn add(&mut self, force: Force, amount: f64) {
         match force {
-            Force::Ray {
-                contact,
-                point,
-                normal,
-                friction,
-            } => {
+            Force::Ray { contact, point, normal, friction } => {
                 self.normal[contact][point] += normal * amount;
                 self.friction[contact] += friction * amount;
             }
             Force::AdhesionNormal { contact, point } => self.normal[contact][point] += amount,
             Force::AdhesionFriction { contact, sign } => self.friction[contact] += sign * amount,
-            Force::Grip {
-                grip,
-                component,
-                sign,
-            }
-            | Force::AdhesionGrip {
-                grip,
-                component,
-                sign,
-            } => {
+            Force::Grip { grip, component, sign } | Force::AdhesionGrip { grip, component, sign } => {
                 self.grip[grip][component] += sign * amount;
             }
         }
@@ -118,9 +98,6 @@ pub struct Effort {
 impl Effort {
     /// Returns the sum of two efforts: the numbers of iterations and of programs are each added.
     pub fn plus(self, other: Effort) -> Effort {
-        Effort {
-            iterations: self.iterations + other.iterations,
-            programs: self.programs + other.programs,
-        }
+        Effort { iterations: self.iterations + other.iterations, programs: self.programs + other.programs }
     }
 }

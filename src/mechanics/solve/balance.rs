@@ -11,9 +11,9 @@
 
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
-    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status,
-    balance_by_least_change, from_kinematic_answer, largest, least_squares_amounts, refine_balance,
-    remainder, solve_once_within, solve_with_retry,
+    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, balance_by_least_change,
+    from_kinematic_answer, largest, least_squares_amounts, refine_balance, remainder, solve_once_within,
+    solve_with_retry,
 };
 use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
 
@@ -123,14 +123,8 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     let mut effort = Effort::default();
     // Step 1: solve the kinematic dual.
     let whole = Face::whole(&program.loads, columns(program));
-    let (solved, face_settings) =
-        solve_dual(program, &whole, settings, max_iterations, &mut effort);
-    let mut found = Balance {
-        forces: None,
-        motion: None,
-        witness: None,
-        effort,
-    };
+    let (solved, face_settings) = solve_dual(program, &whole, settings, max_iterations, &mut effort);
+    let mut found = Balance { forces: None, motion: None, witness: None, effort };
     let motion = || Some(solved.y.iter().map(|v| -v).collect());
     match solved.status {
         Status::Solved => {
@@ -145,13 +139,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
             let effort = &mut found.effort;
             let best = match settings.choice {
                 Choice::Any => None,
-                Choice::Unique => least_squares_balance(
-                    program,
-                    &whole,
-                    &solved,
-                    [settings, face_settings],
-                    effort,
-                ),
+                Choice::Unique => least_squares_balance(program, &whole, &solved, [settings, face_settings], effort),
             };
             let mut face = match (best, settings.choice) {
                 (Some(best), _) => best,
@@ -160,8 +148,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
                 // block.
                 (None, Choice::Any) => {
                     let (loads, amounts) = (&whole.loads, solved.amounts);
-                    let amounts =
-                        balance_by_least_change(loads, &whole.columns, amounts, settings, effort);
+                    let amounts = balance_by_least_change(loads, &whole.columns, amounts, settings, effort);
                     whole.with_amounts(amounts)
                 }
             };
@@ -219,9 +206,8 @@ fn solve_dual(
     effort: &mut Effort,
 ) -> (Dual, SolverSettings) {
     let (dual, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
-    let read = |dual: &QuadraticProgram, answer| {
-        from_kinematic_answer(&whole.loads, &whole.columns, dual, &row_of, answer)
-    };
+    let read =
+        |dual: &QuadraticProgram, answer| from_kinematic_answer(&whole.loads, &whole.columns, dual, &row_of, answer);
     let has_many_blocks = program.blocks >= MANY_BLOCKS;
     let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
         solve_once_within(&dual, settings, max_iterations, effort)
@@ -230,20 +216,11 @@ fn solve_dual(
     };
     // If many columns are doubtful (see `doubtful_share`), solve again to a finer tolerance.
     let solved = read(&dual, &answer);
-    if has_many_blocks
-        && settings.choice == Choice::Unique
-        && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE
-    {
-        let fine = SolverSettings {
-            tolerance: FINE_TOLERANCE_FACTOR * settings.tolerance,
-            ..settings
-        };
+    if has_many_blocks && settings.choice == Choice::Unique && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE {
+        let fine = SolverSettings { tolerance: FINE_TOLERANCE_FACTOR * settings.tolerance, ..settings };
         let answer = solve_once_within(&dual, fine, MAX_ITERATIONS_MANY, effort);
         if answer.status == Status::Solved {
-            let full = SolverSettings {
-                conditioning: Conditioning::Full,
-                ..settings
-            };
+            let full = SolverSettings { conditioning: Conditioning::Full, ..settings };
             return (read(&dual, &answer), full);
         }
     }
@@ -276,27 +253,18 @@ fn least_squares_balance(
         }
         tried.push(counts);
         // Step 3: solve the least-squares problem on the face.
-        let Some(mut amounts) =
-            least_squares_amounts(&face.loads, &face.columns, face_settings, effort)
-        else {
+        let Some(mut amounts) = least_squares_amounts(&face.loads, &face.columns, face_settings, effort) else {
             continue;
         };
         // Step 4: check the cost and the residual.
         let cost = face.cost(&amounts);
         let difference = (cost - solved.objective).abs() / solved.objective.abs();
-        let is_balanced = |amounts: &[f64]| {
-            largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size
-        };
+        let is_balanced =
+            |amounts: &[f64]| largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size;
         if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
             // The face is correct, but in long arches the rounding errors add up to more than a proof allows. Remove
             // the residual.
-            amounts = balance_by_least_change(
-                &face.loads,
-                &face.columns,
-                amounts,
-                repair_settings,
-                effort,
-            );
+            amounts = balance_by_least_change(&face.loads, &face.columns, amounts, repair_settings, effort);
         }
         if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
             continue;

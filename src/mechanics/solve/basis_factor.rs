@@ -54,11 +54,7 @@ impl BasisFactor {
     /// Chooses one of `columns`, or else a unit column, for each of the `positions` positions, and factors the matrix
     /// of the chosen columns. `rank` returns the rank of the column with a given index; columns with a smaller rank are
     /// preferred.
-    pub fn new(
-        mut columns: Vec<SparseColumn>,
-        positions: usize,
-        rank: impl Fn(usize) -> usize,
-    ) -> BasisFactor {
+    pub fn new(mut columns: Vec<SparseColumn>, positions: usize, rank: impl Fn(usize) -> usize) -> BasisFactor {
         let mut beginning_at: Vec<Vec<usize>> = vec![Vec::new(); positions];
         for (k, column) in columns.iter().enumerate() {
             if let Some((first, _)) = column.first() {
@@ -99,9 +95,7 @@ impl BasisFactor {
             factor.upper.push(pivot_column);
         }
         // Keep only the subtractions that changed a chosen column.
-        let chosen = steps
-            .into_iter()
-            .map(|(k, by, multiple)| (position_of[k], by, multiple));
+        let chosen = steps.into_iter().map(|(k, by, multiple)| (position_of[k], by, multiple));
         factor.steps = chosen.filter(|step| step.0 != usize::MAX).collect();
         factor
     }
@@ -156,11 +150,7 @@ impl BasisFactor {
 
 /// Chooses the pivot among columns whose first entries are at the same position; `None` if there are no such columns,
 /// or if all these entries are so small that they count as rounding errors.
-fn choose(
-    candidates: &[usize],
-    columns: &[SparseColumn],
-    rank: &impl Fn(usize) -> usize,
-) -> Option<usize> {
+fn choose(candidates: &[usize], columns: &[SparseColumn], rank: &impl Fn(usize) -> usize) -> Option<usize> {
     let size = |k: usize| columns[k][0].1.abs();
     let largest = candidates.iter().map(|k| size(*k)).fold(0.0, f64::max);
     let least = (PIVOT_RATIO * largest).max(PIVOT_TOL);
@@ -169,12 +159,7 @@ fn choose(
 }
 
 /// Writes column − multiple·pivot to `difference`, without the first entries, which cancel.
-fn subtract(
-    column: &SparseColumn,
-    pivot: &SparseColumn,
-    multiple: f64,
-    difference: &mut SparseColumn,
-) {
+fn subtract(column: &SparseColumn, pivot: &SparseColumn, multiple: f64, difference: &mut SparseColumn) {
     difference.clear();
     let (mut own, mut its) = (column[1..].iter().peekable(), pivot[1..].iter().peekable());
     loop {
@@ -255,8 +240,7 @@ mod tests {
         factor.solve(&mut x);
         factor.solve_transposed(&mut y);
         let both = x.iter().chain(&y).zip(wanted.iter().chain(&wanted));
-        both.map(|(found, wanted)| (found - wanted).abs())
-            .fold(0.0, f64::max)
+        both.map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max)
     }
 
     #[test]

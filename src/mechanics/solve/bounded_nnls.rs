@@ -71,9 +71,7 @@ pub struct BoundedNnls {
 /// normal force is redundant: it is a sum of the two rays of the friction cone.
 pub fn generators(program: &Program) -> Vec<Column> {
     let is_redundant = |column: &Column| match column.force {
-        Force::Ray {
-            contact, friction, ..
-        } => friction == 0.0 && program.contacts[contact].friction > 0.0,
+        Force::Ray { contact, friction, .. } => friction == 0.0 && program.contacts[contact].friction > 0.0,
         _ => false,
     };
     let mut list = columns(program);
@@ -291,16 +289,9 @@ impl BoundedNnls {
     fn append(&mut self, columns: &[Column], k: usize, amount: f64) -> bool {
         // Append the column's row to the Cholesky factor of the Gram matrix.
         let new = &columns[k];
-        let products = self
-            .passive
-            .iter()
-            .map(|u| columns[*u].dot_column(new))
-            .collect();
+        let products = self.passive.iter().map(|u| columns[*u].dot_column(new)).collect();
         let square = new.dot_column(new);
-        if !self
-            .factor
-            .append(products, square, DEPENDENCE_TOL * square)
-        {
+        if !self.factor.append(products, square, DEPENDENCE_TOL * square) {
             return false;
         }
         self.passive.push(k);

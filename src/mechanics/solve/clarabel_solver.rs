@@ -20,11 +20,7 @@ use crate::clock::Instant;
 use crate::program::QuadraticProgram;
 
 /// Solves a quadratic program of any size with clarabel. All numbers of the program must be finite.
-pub fn by_clarabel(
-    problem: &QuadraticProgram,
-    settings: SolverSettings,
-    iterations: usize,
-) -> Answer {
+pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings, iterations: usize) -> Answer {
     let rows = problem.bound.len();
     let quadratic = compressed_columns(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed_columns(rows, problem.unknowns, &problem.matrix);
@@ -41,14 +37,7 @@ pub fn by_clarabel(
         return Answer::without_status(problem);
     }
     let settings = clarabel_settings(settings, iterations, time_left);
-    let solver = DefaultSolver::new(
-        &quadratic,
-        &problem.linear,
-        &matrix,
-        &problem.bound,
-        &cones,
-        settings,
-    );
+    let solver = DefaultSolver::new(&quadratic, &problem.linear, &matrix, &problem.bound, &cones, settings);
     let Ok(mut solver) = solver else {
         return Answer::without_status(problem);
     };
@@ -61,27 +50,14 @@ pub fn by_clarabel(
         SolverStatus::DualInfeasible => Status::Unbounded,
         _ => Status::Unsolved,
     };
-    let answer = Answer {
-        status,
-        x: solution.x,
-        z: solution.z,
-        s: solution.s,
-        iterations: solution.iterations as usize,
-    };
+    let answer =
+        Answer { status, x: solution.x, z: solution.z, s: solution.s, iterations: solution.iterations as usize };
     answer.if_finite()
 }
 
 /// Returns the settings of clarabel. `time_left` is the time until the deadline, if there is one.
-fn clarabel_settings(
-    settings: SolverSettings,
-    iterations: usize,
-    time_left: Option<Duration>,
-) -> DefaultSettings<f64> {
-    let SolverSettings {
-        tolerance,
-        conditioning,
-        ..
-    } = settings;
+fn clarabel_settings(settings: SolverSettings, iterations: usize, time_left: Option<Duration>) -> DefaultSettings<f64> {
+    let SolverSettings { tolerance, conditioning, .. } = settings;
     let is_full = conditioning == Conditioning::Full;
     DefaultSettings {
         verbose: false,
@@ -100,11 +76,7 @@ fn clarabel_settings(
 
 /// Builds a compressed sparse column matrix from (row, column, value) entries. Entries with the same row and column are
 /// added up.
-fn compressed_columns(
-    rows: usize,
-    columns: usize,
-    entries: &[(usize, usize, f64)],
-) -> CscMatrix<f64> {
+fn compressed_columns(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> CscMatrix<f64> {
     // Counting sort by column: count the entries of each column, then place them.
     let mut starts = vec![0; columns + 1];
     for (_, column, _) in entries {
@@ -120,11 +92,7 @@ fn compressed_columns(
         next[*column] += 1;
     }
     // Sort each column by row, and add up entries of the same row.
-    let (mut colptr, mut rowval, mut nzval) = (
-        vec![0],
-        Vec::with_capacity(list.len()),
-        Vec::with_capacity(list.len()),
-    );
+    let (mut colptr, mut rowval, mut nzval) = (vec![0], Vec::with_capacity(list.len()), Vec::with_capacity(list.len()));
     for k in 0..columns {
         let column = &mut list[starts[k]..starts[k + 1]];
         column.sort_by_key(|e| e.0);

@@ -22,9 +22,7 @@ impl DeadlineGuard {
     /// Sets the deadline of this thread; `None` means no deadline. When the guard is dropped, the previous deadline
     /// applies again.
     pub(crate) fn new(deadline: Option<Instant>) -> DeadlineGuard {
-        DeadlineGuard {
-            former: DEADLINE.replace(deadline),
-        }
+        DeadlineGuard { former: DEADLINE.replace(deadline) }
     }
 }
 

@@ -49,11 +49,7 @@ impl Dual {
     /// Returns, for each column, whether it is basic and thus belongs to the face of optima. A column is basic if its
     /// slack is below `margin` times its amount.
     pub fn active(&self, margin: f64) -> Vec<bool> {
-        self.amounts
-            .iter()
-            .zip(&self.slack)
-            .map(|(amount, slack)| margin * amount > *slack)
-            .collect()
+        self.amounts.iter().zip(&self.slack).map(|(amount, slack)| margin * amount > *slack).collect()
     }
 }
 
@@ -108,12 +104,7 @@ pub(super) fn from_kinematic_answer(
         solved.multipliers[k] = multiplier.max(0.0);
     }
     // The solver minimises the negative of the dual's objective.
-    solved.objective = -conic
-        .linear
-        .iter()
-        .zip(&answer.x)
-        .map(|(q, x)| q * x)
-        .sum::<f64>();
+    solved.objective = -conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x).sum::<f64>();
     solved
 }
 
@@ -185,21 +176,14 @@ pub(super) fn solve_with_retry(
     let settings = settings.into();
     let answer = solve_once(conic, settings, effort);
     if answer.status == Status::Unsolved && settings.conditioning == Conditioning::Plain {
-        let full = SolverSettings {
-            conditioning: Conditioning::Full,
-            ..settings
-        };
+        let full = SolverSettings { conditioning: Conditioning::Full, ..settings };
         return solve_once(conic, full, effort);
     }
     answer
 }
 
 /// Solves a program once, without a retry, and adds the work to `effort`.
-pub(super) fn solve_once(
-    conic: &QuadraticProgram,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> Answer {
+pub(super) fn solve_once(conic: &QuadraticProgram, settings: SolverSettings, effort: &mut Effort) -> Answer {
     solve_once_within(conic, settings, MAX_ITERATIONS, effort)
 }
 
@@ -211,9 +195,6 @@ pub(super) fn solve_once_within(
     effort: &mut Effort,
 ) -> Answer {
     let answer = solve_within(conic, settings, iterations);
-    *effort = effort.plus(Effort {
-        iterations: answer.iterations,
-        programs: 1,
-    });
+    *effort = effort.plus(Effort { iterations: answer.iterations, programs: 1 });
     answer
 }

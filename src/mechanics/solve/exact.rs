@@ -59,10 +59,7 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
     }
     let tolerance = ROUNDING_TOL * largest(loads);
     let is_balanced = (n..rows).all(|row| table[row * width + n].abs() <= tolerance);
-    let is_admissible = amounts
-        .iter()
-        .zip(columns)
-        .all(|(a, c)| *a >= -tolerance && *a <= c.limit + tolerance);
+    let is_admissible = amounts.iter().zip(columns).all(|(a, c)| *a >= -tolerance && *a <= c.limit + tolerance);
     (is_balanced && is_admissible).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
 }
 
@@ -109,10 +106,7 @@ pub(super) fn least_squares_balance(loads: &[f64], columns: &[Column]) -> Option
     if rows > MAX_ROWS || columns.windows(2).any(mix) {
         return None;
     }
-    let squares: Vec<f64> = columns
-        .iter()
-        .filter_map(|c| product(&c.force, &c.force))
-        .collect();
+    let squares: Vec<f64> = columns.iter().filter_map(|c| product(&c.force, &c.force)).collect();
     let scale = largest(loads);
     let mut in_use = vec![true; columns.len()];
     for _ in 0..MAX_ROUNDS {
@@ -149,17 +143,10 @@ fn gram(rows: usize, columns: &[Column], squares: &[f64], in_use: &[bool]) -> Ve
 
 /// Returns the amounts of all columns, with 0 for the columns that are not in use. `None` if these amounts do not meet
 /// the conditions of an optimum.
-fn proved_optimum(
-    loads: &[f64],
-    columns: &[Column],
-    amounts: &[f64],
-    in_use: &[bool],
-) -> Option<Vec<f64>> {
+fn proved_optimum(loads: &[f64], columns: &[Column], amounts: &[f64], in_use: &[bool]) -> Option<Vec<f64>> {
     let scale = largest(loads);
     let both = || amounts.iter().zip(in_use);
-    let kept: Vec<f64> = both()
-        .map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 })
-        .collect();
+    let kept: Vec<f64> = both().map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 }).collect();
     // Dropped columns must have gᵀy ≤ 0. The amounts of the other columns must be within their limits and balance the
     // loads.
     let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);

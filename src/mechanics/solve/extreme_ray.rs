@@ -45,11 +45,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         // Step 1: choose the direction of steepest descent of Σ openings. If no direction changes this sum, choose any
         // direction.
         let shrinking = negated(&null_space.project(&openings));
-        let along = if norm(&shrinking) > DEPENDENCE_TOL {
-            unit(&shrinking)
-        } else {
-            unit(first)
-        };
+        let along = if norm(&shrinking) > DEPENDENCE_TOL { unit(&shrinking) } else { unit(first) };
         // Step 2: find the step forwards to the next tight row, or backwards if no row becomes tight forwards.
         let back = negated(&along);
         let (step, direction) = match (max_step(&open, &y, &along), max_step(&open, &y, &back)) {
@@ -68,8 +64,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
         }
         // Step 3: restrict the null space to directions that keep the rows that became tight.
         let limit = TIGHT_TOL * norm(&y).max(1.0);
-        let (tight, still_open): (Vec<&Row>, Vec<&Row>) =
-            open.into_iter().partition(|row| dot(row, &y) <= limit);
+        let (tight, still_open): (Vec<&Row>, Vec<&Row>) = open.into_iter().partition(|row| dot(row, &y) <= limit);
         for row in tight {
             null_space.remove(row);
         }
@@ -84,11 +79,7 @@ pub(crate) fn extreme_ray(rows: &[Row], power: &[(usize, f64)], start: &[f64]) -
 
 /// Returns the null space of the vector `power` and of all rows that are tight at `y`, and a list of the rows that are
 /// open (not tight).
-fn tight_rows_removed<'r>(
-    rows: &'r [Row],
-    power: &[(usize, f64)],
-    y: &[f64],
-) -> (NullSpace, Vec<&'r Row>) {
+fn tight_rows_removed<'r>(rows: &'r [Row], power: &[(usize, f64)], y: &[f64]) -> (NullSpace, Vec<&'r Row>) {
     let mut null_space = NullSpace::whole(y.len());
     null_space.remove(power);
     let mut open: Vec<&Row> = Vec::new();
@@ -143,9 +134,7 @@ impl NullSpace {
             axis[k] = 1.0;
             axis
         };
-        NullSpace {
-            basis: (0..count).map(axis).collect(),
-        }
+        NullSpace { basis: (0..count).map(axis).collect() }
     }
 
     /// Restricts the space to the vectors orthogonal to a row.
@@ -246,12 +235,8 @@ mod tests {
 
     #[test]
     fn without_rows_the_extreme_ray_is_along_the_load() {
-        let y =
-            extreme_ray(&[], &dense(&[0.0, -2.0, 0.0]), &[0.3, -1.0, 0.2]).expect("it has power");
-        assert!(
-            y[0].abs() < 1e-9 && y[2].abs() < 1e-9 && y[1] < 0.0,
-            "{y:?}"
-        );
+        let y = extreme_ray(&[], &dense(&[0.0, -2.0, 0.0]), &[0.3, -1.0, 0.2]).expect("it has power");
+        assert!(y[0].abs() < 1e-9 && y[2].abs() < 1e-9 && y[1] < 0.0, "{y:?}");
     }
 
     #[test]

@@ -31,12 +31,7 @@ impl Face {
     /// amounts are set to 0; they do not balance the loads yet.
     pub fn whole(loads: &[f64], columns: Vec<Column>) -> Face {
         let amounts = vec![0.0; columns.len()];
-        Face {
-            loads: loads.to_vec(),
-            columns,
-            amounts,
-            at_limit: Vec::new(),
-        }
+        Face { loads: loads.to_vec(), columns, amounts, at_limit: Vec::new() }
     }
 
     /// Returns the same face with other amounts.
@@ -50,11 +45,7 @@ impl Face {
     /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance of its amount
     /// from the limit. Such columns are fixed; otherwise not every balance on the face would be an optimum.
     pub fn optimal_face(&self, solved: &Dual, margin: f64) -> Face {
-        let mut face = Face {
-            columns: Vec::new(),
-            amounts: Vec::new(),
-            ..self.clone()
-        };
+        let mut face = Face { columns: Vec::new(), amounts: Vec::new(), ..self.clone() };
         let active = solved.active(margin);
         for (k, column) in self.columns.iter().enumerate() {
             let amount = solved.amounts[k];
@@ -71,11 +62,7 @@ impl Face {
 
     /// Returns the face restricted to the columns for which `keep(column, amount)` is true.
     pub fn restrict(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
-        let mut face = Face {
-            columns: Vec::new(),
-            amounts: Vec::new(),
-            ..self.clone()
-        };
+        let mut face = Face { columns: Vec::new(), amounts: Vec::new(), ..self.clone() };
         for (column, amount) in self.columns.iter().zip(&self.amounts) {
             if keep(column, *amount) {
                 face.columns.push(*column);
@@ -87,12 +74,7 @@ impl Face {
 
     /// Returns the total cost of the given amounts and of the columns at their limits.
     pub fn cost(&self, amounts: &[f64]) -> f64 {
-        let chosen: f64 = self
-            .columns
-            .iter()
-            .zip(amounts)
-            .map(|(c, a)| c.cost * a)
-            .sum();
+        let chosen: f64 = self.columns.iter().zip(amounts).map(|(c, a)| c.cost * a).sum();
         chosen + self.at_limit.iter().map(|c| c.cost * c.limit).sum::<f64>()
     }
 
@@ -115,11 +97,7 @@ impl Face {
         let chosen = self.columns.iter().zip(self.amounts.iter().copied());
         let at_limit = self.at_limit.iter().map(|c| (c, c.limit));
         for (column, amount) in chosen.chain(at_limit) {
-            let to = if column.force.is_adhesion() {
-                &mut adhesion
-            } else {
-                &mut admissible
-            };
+            let to = if column.force.is_adhesion() { &mut adhesion } else { &mut admissible };
             to.add(column.force, amount);
         }
         (admissible, adhesion)
@@ -139,8 +117,8 @@ pub(super) fn least_squares_amounts(
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    if let Some(amounts) = exact::unique_balance(loads, columns)
-        .or_else(|| exact::least_squares_balance(loads, columns))
+    if let Some(amounts) =
+        exact::unique_balance(loads, columns).or_else(|| exact::least_squares_balance(loads, columns))
     {
         return Some(amounts);
     }

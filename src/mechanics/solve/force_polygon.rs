@@ -96,19 +96,13 @@ pub fn force_polygon(program: &Program, grip: usize) -> Option<ForcePolygon> {
     let mut other_way = walk.clone();
     let (after, far) = walk.around(Turn::Anticlockwise)?;
     let Some(last_far) = far else {
-        return Some(ForcePolygon {
-            corners: after,
-            far: None,
-        });
+        return Some(ForcePolygon { corners: after, far: None });
     };
     // The polygon is unbounded. Also walk clockwise from the first corner, to the other unbounded edge.
     let (mut corners, first_far) = other_way.around(Turn::Clockwise)?;
     corners.reverse();
     corners.extend(after);
-    Some(ForcePolygon {
-        corners,
-        far: Some([first_far?, last_far]),
-    })
+    Some(ForcePolygon { corners, far: Some([first_far?, last_far]) })
 }
 
 /// Finds a farthest force by an interior-point method, and a basis with as many columns of this optimum as possible.
@@ -236,16 +230,11 @@ impl Walk<'_> {
     fn reach_vertex(&mut self) -> Option<()> {
         for k in 0..self.forces.len() {
             let variable = &self.simplex.variables[k];
-            let is_at_bound =
-                variable.amount == variable.lower || variable.amount == variable.upper;
+            let is_at_bound = variable.amount == variable.lower || variable.amount == variable.upper;
             if !self.simplex.is_basic(k) && !is_at_bound {
                 let force = Vector::zeros();
                 let (variable, sign) = (k, -1.0);
-                self.move_to_end(&Change {
-                    variable,
-                    sign,
-                    force,
-                })?;
+                self.move_to_end(&Change { variable, sign, force })?;
             }
         }
         Some(())
@@ -316,9 +305,7 @@ impl Walk<'_> {
         let turns: Vec<(f64, Change)> = turns.collect();
         let least = turns.iter().map(|(turn, _)| *turn).reduce(f64::min)?;
         // Of the columns for the same edge, take the one with the largest change of the force.
-        let first = turns
-            .into_iter()
-            .filter(|(turn, _)| *turn <= least + SAME_ANGLE);
+        let first = turns.into_iter().filter(|(turn, _)| *turn <= least + SAME_ANGLE);
         let next = first.max_by(|(_, a), (_, b)| a.force.norm().total_cmp(&b.force.norm()));
         next.filter(|(turn, _)| *turn < PI + SAME_ANGLE)
     }
@@ -331,20 +318,12 @@ impl Walk<'_> {
             if self.simplex.is_basic(k) || variable.lower == variable.upper {
                 return None;
             }
-            let sign = if variable.amount < variable.upper {
-                1.0
-            } else {
-                -1.0
-            };
+            let sign = if variable.amount < variable.upper { 1.0 } else { -1.0 };
             let mut force = Vector::zeros();
             for (row, value) in &variable.column {
                 force -= Vector::new(x[*row], y[*row]) * (sign * value);
             }
-            (force.norm() > MIN_CHANGE).then_some(Change {
-                variable: k,
-                sign,
-                force,
-            })
+            (force.norm() > MIN_CHANGE).then_some(Change { variable: k, sign, force })
         };
         (0..self.forces.len()).filter_map(change).collect()
     }
@@ -380,8 +359,7 @@ impl Walk<'_> {
     /// Returns the present corner, with the edge whose normal is the present direction.
     fn corner(&self) -> PolygonCorner {
         let [x, y] = self.own.map(|own| self.simplex.multipliers(own));
-        let velocity =
-            |position: &usize| x[*position] * self.normal.x + y[*position] * self.normal.y;
+        let velocity = |position: &usize| x[*position] * self.normal.x + y[*position] * self.normal.y;
         PolygonCorner {
             forces: self.amounts(),
             normal: self.normal,

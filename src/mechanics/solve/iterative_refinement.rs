@@ -58,23 +58,12 @@ pub(super) fn refine_balance(
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
         // Solve for a correction that removes the residual. The residual is scaled to size 1.
-        let correction = Correction {
-            amounts: &amounts,
-            size,
-        };
-        let answer = solve_with_retry(
-            &least_squares(&scaled, columns, Some(correction)),
-            Conditioning::Full,
-            effort,
-        );
+        let correction = Correction { amounts: &amounts, size };
+        let answer = solve_with_retry(&least_squares(&scaled, columns, Some(correction)), Conditioning::Full, effort);
         if answer.status != Status::Solved {
             break;
         }
-        let better: Vec<f64> = amounts
-            .iter()
-            .zip(&answer.x)
-            .map(|(a, d)| (a + d * size).max(0.0))
-            .collect();
+        let better: Vec<f64> = amounts.iter().zip(&answer.x).map(|(a, d)| (a + d * size).max(0.0)).collect();
         // Keep a correction only if it reduces the residual.
         if largest(&remainder(loads, columns, &better)) >= size {
             break;

@@ -16,9 +16,9 @@
 use super::limit::columns_in;
 use super::reduced_columns::ReducedColumns;
 use super::{
-    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings,
-    Status, TOLERANCE, determinate, dual, from_kinematic_answer, largest, least_adhesion_levels,
-    least_squares_amounts, refine_balance, solve_once, solve_static_form,
+    Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings, Status, TOLERANCE,
+    determinate, dual, from_kinematic_answer, largest, least_adhesion_levels, least_squares_amounts, refine_balance,
+    solve_once, solve_static_form,
 };
 use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
 
@@ -82,11 +82,8 @@ const MAX_BASIC_SLACK: f64 = 0.5;
 /// The stopping rule of stage 1 for many blocks: a finer tolerance, with which basic columns are clearly distinct.
 ///
 /// Without this rule, the face of optima of a wall of 2 000 bricks, rotated by 40°, contained no balance in stage 2.
-const CROSSOVER: CrossoverTolerance = CrossoverTolerance {
-    tolerance_factor: 1e-2,
-    max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY,
-    early_factor: 3.0,
-};
+const CROSSOVER: CrossoverTolerance =
+    CrossoverTolerance { tolerance_factor: 1e-2, max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY, early_factor: 3.0 };
 
 /// A block whose load is below this fraction of the largest is light.
 const LIGHT_LOAD: f64 = 1e-3;
@@ -144,13 +141,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     let mut face = match &precise {
         Some((first, force_size)) => {
             motion = Some(first.y.iter().map(|v| -v).collect());
-            least_adhesion_levels::least_force_optimum(
-                &whole,
-                first,
-                *force_size,
-                settings,
-                &mut effort,
-            )
+            least_adhesion_levels::least_force_optimum(&whole, first, *force_size, settings, &mut effort)
         }
         None => later_stages(&whole, &first, size, settings, &mut effort),
     };
@@ -161,14 +152,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     let (mut forces, mut adhesion) = face.to_forces(program);
     forces.multiply(load);
     adhesion.multiply(load);
-    LeastAdhesion {
-        balanced: Some(true),
-        forces,
-        adhesion,
-        motion,
-        priced,
-        effort,
-    }
+    LeastAdhesion { balanced: Some(true), forces, adhesion, motion, priced, effort }
 }
 
 /// Returns the result if stage 1 found no balance. The result contains a motion if the dual of stage 1 is unbounded.
@@ -187,21 +171,13 @@ fn without_balance(program: &Program, first: Dual, priced: bool, effort: Effort)
 
 /// Stage 1: computes the least Σ adhesion. Returns the solution of the last linear program, and true if admissible
 /// forces had a small cost in this program.
-fn first_stage(
-    whole: &Face,
-    size: Size,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> (Dual, bool) {
-    let priced = |price: f64, effort: &mut Effort| {
-        dual(&whole.loads, &whole.columns, settings, effort, |c| {
-            if c.force.is_adhesion() {
-                1.0
-            } else {
-                price * c.cost
-            }
-        })
-    };
+fn first_stage(whole: &Face, size: Size, settings: SolverSettings, effort: &mut Effort) -> (Dual, bool) {
+    let priced =
+        |price: f64, effort: &mut Effort| {
+            dual(&whole.loads, &whole.columns, settings, effort, |c| {
+                if c.force.is_adhesion() { 1.0 } else { price * c.cost }
+            })
+        };
     let mut last = match size {
         Size::Many => first_stage_of_many(whole, settings, effort),
         Size::Few => priced(0.0, effort),
@@ -220,18 +196,10 @@ fn first_stage(
 /// Returns the stopping rule of stage 1 for many blocks. If a block is far lighter than the largest load, stage 1 does
 /// not stop early, because the adhesion of light blocks converges last.
 fn crossover(loads: &[f64]) -> CrossoverTolerance {
-    let bodies = loads
-        .chunks_exact(3)
-        .map(|load| libm::hypot(load[0], load[1]));
-    let lightest = bodies
-        .filter(|load| *load > 0.0)
-        .fold(f64::INFINITY, f64::min);
+    let bodies = loads.chunks_exact(3).map(|load| libm::hypot(load[0], load[1]));
+    let lightest = bodies.filter(|load| *load > 0.0).fold(f64::INFINITY, f64::min);
     CrossoverTolerance {
-        early_factor: if lightest < LIGHT_LOAD * largest(loads) {
-            0.0
-        } else {
-            CROSSOVER.early_factor
-        },
+        early_factor: if lightest < LIGHT_LOAD * largest(loads) { 0.0 } else { CROSSOVER.early_factor },
         ..CROSSOVER
     }
 }
@@ -243,26 +211,11 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
     let reduced_columns = ReducedColumns::new(&whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     let (conic, row_of) = kinematic_dual(&whole.loads, &reduced_columns.columns, cost);
-    let finer = SolverSettings {
-        crossover: Some(crossover(&whole.loads)),
-        ..settings
-    };
+    let finer = SolverSettings { crossover: Some(crossover(&whole.loads)), ..settings };
     let answer = solve_once(&conic, finer, effort);
-    let mut solved = from_kinematic_answer(
-        &whole.loads,
-        &reduced_columns.columns,
-        &conic,
-        &row_of,
-        &answer,
-    );
+    let mut solved = from_kinematic_answer(&whole.loads, &reduced_columns.columns, &conic, &row_of, &answer);
     if solved.status == Status::Unsolved {
-        solved = solve_static_form(
-            &whole.loads,
-            &reduced_columns.columns,
-            settings,
-            effort,
-            cost,
-        );
+        solved = solve_static_form(&whole.loads, &reduced_columns.columns, settings, effort, cost);
     }
     reduced_columns.expand_optimum(&whole.columns, solved)
 }
@@ -272,13 +225,7 @@ fn first_stage_of_many(whole: &Face, settings: SolverSettings, effort: &mut Effo
 /// For many blocks near the limit of stability, basic columns cannot be distinguished from the others: the least force
 /// may decrease by a tenth if the adhesion increases by only a millionth. In this case, the balance of stage 1 is
 /// returned. It has the least adhesion, but not the least force.
-fn later_stages(
-    whole: &Face,
-    first: &Dual,
-    size: Size,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> Face {
+fn later_stages(whole: &Face, first: &Dual, size: Size, settings: SolverSettings, effort: &mut Effort) -> Face {
     let least = whole.adhesion_sum(&first.amounts);
     let (same, margins) = match size {
         Size::Many => (SUM_TOL_MANY, &ACTIVE_MARGINS[..1]),
@@ -286,16 +233,11 @@ fn later_stages(
     };
     // Sums that differ by less than the solver's tolerance count as equal.
     let slight = TOLERANCE * largest(&whole.loads);
-    let unchanged = |face: &Face, amounts: &[f64]| {
-        (face.adhesion_sum(amounts) - least).abs() <= same * least + slight
-    };
+    let unchanged = |face: &Face, amounts: &[f64]| (face.adhesion_sum(amounts) - least).abs() <= same * least + slight;
     let from_first_stage = || whole.clone().with_amounts(first.amounts.clone());
     // The sum of the slacks of the basic columns measures how well stage 1 separates them from the others.
     let in_use = first.slack.iter().zip(first.active(1.0));
-    let slack: f64 = in_use
-        .filter(|(_, active)| *active)
-        .map(|(slack, _)| slack)
-        .sum();
+    let slack: f64 = in_use.filter(|(_, active)| *active).map(|(slack, _)| slack).sum();
     if size == Size::Many && slack > MAX_BASIC_SLACK * (same * least + slight) {
         return from_first_stage();
     }
@@ -307,10 +249,7 @@ fn later_stages(
     // Stages 3 and 4. With many blocks, the face has hardly more columns than a unique balance would have. The
     // least-squares problem then needs full conditioning: with plain conditioning it ends without a result.
     let squares = match size {
-        Size::Many => SolverSettings {
-            conditioning: Conditioning::Full,
-            ..settings
-        },
+        Size::Many => SolverSettings { conditioning: Conditioning::Full, ..settings },
         Size::Few => settings,
     };
     let drop_tolerances = match size {
@@ -318,8 +257,7 @@ fn later_stages(
         Size::Many => DROP_TOL_MANY,
     };
     for drop_tolerance in drop_tolerances {
-        let Some(few) = concentrate(&face, drop_tolerance, &unchanged, size, settings, effort)
-        else {
+        let Some(few) = concentrate(&face, drop_tolerance, &unchanged, size, settings, effort) else {
             continue;
         };
         let amounts = least_squares_amounts(&few.loads, &few.columns, squares, effort);
@@ -350,11 +288,7 @@ fn least_force_face(
             return None;
         }
         let narrower = narrow.optimal_face(&second, 1.0);
-        Some(if unchanged(&narrower, &narrower.amounts) {
-            narrower
-        } else {
-            narrow.with_amounts(second.amounts)
-        })
+        Some(if unchanged(&narrower, &narrower.amounts) { narrower } else { narrow.with_amounts(second.amounts) })
     })
 }
 
@@ -396,13 +330,7 @@ fn concentrate(
         Size::Many => MAX_ROUNDS_MANY,
     };
     for _ in 0..rounds {
-        if face
-            .columns
-            .iter()
-            .filter(|c| c.force.is_adhesion())
-            .count()
-            < 2
-        {
+        if face.columns.iter().filter(|c| c.force.is_adhesion()).count() < 2 {
             break;
         }
         // Reweighting: the cost of a column is nearly proportional to 1/amount. It is at most about a thousand times
@@ -413,9 +341,7 @@ fn concentrate(
                 column.cost = 1e-2 * most / (amount + 1e-3 * most);
             }
         }
-        let solved = solve_stage(&face, size, settings, effort, |c| {
-            if c.force.is_adhesion() { c.cost } else { 0.0 }
-        });
+        let solved = solve_stage(&face, size, settings, effort, |c| if c.force.is_adhesion() { c.cost } else { 0.0 });
         // If the dual is unbounded, these columns cannot balance the loads. The least-squares problem of stage 4 would
         // take ten times as long to show this.
         if size == Size::Many && solved.status == Status::Unbounded {

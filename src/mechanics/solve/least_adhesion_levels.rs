@@ -37,17 +37,9 @@ const MAX_ROUNDS: usize = 4;
 fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool) -> Option<f64> {
     let largest_load = largest(loads);
     let light = lightest(loads);
-    let zero_tol = if has_many_blocks {
-        ZERO_ADHESION_MANY
-    } else {
-        ZERO_ADHESION
-    };
+    let zero_tol = if has_many_blocks { ZERO_ADHESION_MANY } else { ZERO_ADHESION };
     let is_small = zero_tol * largest_load < least_sum && least_sum < SMALL_ADHESION * largest_load;
-    let force_size = if is_small {
-        light.min(least_sum)
-    } else {
-        light
-    };
+    let force_size = if is_small { light.min(least_sum) } else { light };
     (force_size < WIDE_LOAD_RATIO * largest_load && force_size > 0.0).then_some(force_size)
 }
 
@@ -123,19 +115,12 @@ fn optimum(
 ///
 /// In each round, the cost of an adhesion column increases if its amount is small. The amount is measured relative to
 /// the smaller load of the two bodies on which the column acts.
-fn concentrate(
-    mut face: Face,
-    force_size: f64,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> Face {
+fn concentrate(mut face: Face, force_size: f64, settings: SolverSettings, effort: &mut Effort) -> Face {
     // The smallest nonzero load of the blocks on which a column acts; 1 if there is none.
     let block_loads = block_loads(&face.loads);
     let lighter_load = |column: &Column| {
         let loads = column.entries().map(|(row, _)| block_loads[row / 3]);
-        let light = loads
-            .filter(|load| *load > 0.0)
-            .fold(f64::INFINITY, f64::min);
+        let light = loads.filter(|load| *load > 0.0).fold(f64::INFINITY, f64::min);
         if light.is_finite() { light } else { 1.0 }
     };
     for _ in 0..MAX_ROUNDS {

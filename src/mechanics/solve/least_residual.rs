@@ -16,8 +16,8 @@ use super::dual::amounts_of_rows;
 use super::limit::columns_in;
 use super::reduced_columns::ReducedColumns;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder,
-    solve_static_form, solve_with_retry,
+    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder, solve_static_form,
+    solve_with_retry,
 };
 use crate::program::{Column, Program, least_residual_dual};
 
@@ -76,9 +76,7 @@ impl ScaledProgram<'_> {
     fn forces(&self, amounts: &[f64]) -> Amounts {
         let mut face = Face::whole(&self.program.loads, self.columns.clone());
         face.amounts = self.reduced_columns.expand_amounts(&self.columns, amounts);
-        face.amounts
-            .iter_mut()
-            .for_each(|amount| *amount *= self.load);
+        face.amounts.iter_mut().for_each(|amount| *amount *= self.load);
         face.to_forces(self.program).0
     }
 }
@@ -91,22 +89,12 @@ pub fn any_balance(program: &Program) -> Residual {
     let mut effort = Effort::default();
     // Solve the static form without a cost: every admissible balance is an optimum.
     let balance = solve_static_form(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
-    let mut found = Residual {
-        forces: Amounts::zero(program),
-        motion: vec![0.0; loads.len()],
-        is_reliable: false,
-        effort,
-    };
+    let mut found =
+        Residual { forces: Amounts::zero(program), motion: vec![0.0; loads.len()], is_reliable: false, effort };
     match balance.status {
         Status::Solved => {
             let settings = Conditioning::Plain.into();
-            let amounts = balance_by_least_change(
-                loads,
-                columns,
-                balance.amounts,
-                settings,
-                &mut found.effort,
-            );
+            let amounts = balance_by_least_change(loads, columns, balance.amounts, settings, &mut found.effort);
             found.is_reliable = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
             found.forces = scaled.forces(&amounts);
         }

@@ -17,8 +17,8 @@
 //! adds about six correct digits.
 
 use super::{
-    Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts,
-    refine_balance, solve_with_retry,
+    Conditioning, Dual, Effort, Face, SolverSettings, Status, largest, least_squares_amounts, refine_balance,
+    solve_with_retry,
 };
 use crate::geometry::CompensatedSum;
 use crate::program::{Column, QuadraticProgram};
@@ -62,9 +62,7 @@ const NARROW_LIMIT: f64 = 1e-9;
 /// Returns the size of each body's load: the larger of its force and its moment/L.
 pub(super) fn block_loads(loads: &[f64]) -> Vec<f64> {
     let bodies = loads.chunks_exact(3);
-    bodies
-        .map(|load| libm::hypot(load[0], load[1]).max(load[2].abs()))
-        .collect()
+    bodies.map(|load| libm::hypot(load[0], load[1]).max(load[2].abs())).collect()
 }
 
 /// Returns the smallest nonzero load among all bodies, or infinity if no body has a load. The size of a load is defined
@@ -76,12 +74,7 @@ pub(super) fn lightest(loads: &[f64]) -> f64 {
 
 /// True if the residual of every body is negligible compared with the body's load and with `force_size`, or is only
 /// rounding. `force_size` is the size of the smallest forces that must be accurate.
-fn balances_every_body(
-    loads: &[f64],
-    columns: &[Column],
-    amounts: &[f64],
-    force_size: f64,
-) -> bool {
+fn balances_every_body(loads: &[f64], columns: &[Column], amounts: &[f64], force_size: f64) -> bool {
     let remaining = residual(loads, columns, amounts);
     // Compute Σ |force| on each body, to which the rounding error of its residual is proportional.
     let mut acting = block_loads(loads);
@@ -140,12 +133,7 @@ pub(super) fn refined_optimum(
 
 /// Returns the face with the amounts of least Σ force² on it. If no amounts are found, or if they do not balance every
 /// body, the face is returned unchanged.
-pub(super) fn with_least_squares(
-    face: Face,
-    force_size: f64,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> Face {
+pub(super) fn with_least_squares(face: Face, force_size: f64, settings: SolverSettings, effort: &mut Effort) -> Face {
     let (loads, columns) = (&face.loads, &face.columns);
     let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts, force_size);
     let found = least_squares_amounts(loads, columns, settings, effort);
@@ -198,8 +186,7 @@ impl Level {
                 (ColumnStatus::Lower, 0.0)
             }
         };
-        let (mut statuses, initial): (Vec<ColumnStatus>, Vec<f64>) =
-            (0..columns.len()).map(classify).unzip();
+        let (mut statuses, initial): (Vec<ColumnStatus>, Vec<f64>) = (0..columns.len()).map(classify).unzip();
         // The loads of this level are the part of the loads that these initial amounts do not balance.
         let remaining = residual(loads, columns, &initial);
         let scale = largest(&remaining);
@@ -211,11 +198,7 @@ impl Level {
                 *status = ColumnStatus::Fixed;
             }
         }
-        Some(Level {
-            statuses,
-            loads: remaining.iter().map(|v| v / scale).collect(),
-            scale,
-        })
+        Some(Level { statuses, loads: remaining.iter().map(|v| v / scale).collect(), scale })
     }
 
     /// Builds the linear program of step 3: min Σ reduced cost·change s.t. the changes balance the loads of the level.
@@ -230,11 +213,7 @@ impl Level {
             equalities: self.loads.len(),
         };
         for (k, (column, status)) in columns.iter().zip(&self.statuses).enumerate() {
-            let sign = if *status == ColumnStatus::Upper {
-                -1.0
-            } else {
-                1.0
-            };
+            let sign = if *status == ColumnStatus::Upper { -1.0 } else { 1.0 };
             let reduced = costs[k] - column.dot(y);
             if *status != ColumnStatus::Fixed {
                 let entries = column.entries().map(|(row, v)| (row, k, sign * v));
@@ -261,13 +240,7 @@ impl Level {
 
     /// Steps 3 and 4: solves the program of changes, and returns the corrected optimum. `None` if the solver finds no
     /// optimum.
-    fn corrected_optimum(
-        &self,
-        columns: &[Column],
-        costs: &[f64],
-        mut at: Dual,
-        effort: &mut Effort,
-    ) -> Option<Dual> {
+    fn corrected_optimum(&self, columns: &[Column], costs: &[f64], mut at: Dual, effort: &mut Effort) -> Option<Dual> {
         let program = self.program_of_changes(columns, costs, &at.y);
         let answer = solve_with_retry(&program, Conditioning::Full, effort);
         if answer.status != Status::Solved {

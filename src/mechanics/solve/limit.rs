@@ -10,8 +10,7 @@
 use super::dual::amounts_of_rows;
 use super::reduced_columns::ReducedColumns;
 use super::{
-    Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual,
-    largest, solve,
+    Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest, solve,
 };
 use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
@@ -43,11 +42,7 @@ pub struct ExtremeValue {
 
 impl From<Limit> for ExtremeValue {
     fn from(limit: Limit) -> ExtremeValue {
-        ExtremeValue {
-            limit,
-            forces: None,
-            motion: None,
-        }
+        ExtremeValue { limit, forces: None, motion: None }
     }
 }
 
@@ -139,10 +134,7 @@ fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> Ext
             // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do positive work for
             // each of these λ.
             (Status::Unbounded, _) => {
-                return ExtremeValue {
-                    motion: Some(scaled.motion(&answer)),
-                    ..Limit::Infeasible.into()
-                };
+                return ExtremeValue { motion: Some(scaled.motion(&answer)), ..Limit::Infeasible.into() };
             }
             _ => {}
         }
@@ -199,17 +191,9 @@ impl ScaledLoads {
 
     /// Returns the amount of each column under the scaled loads `total`, in program units. The solver's residual is
     /// removed first.
-    pub(super) fn amounts(
-        &self,
-        total: &[f64],
-        columns: &[Column],
-        answer: &Answer,
-        row_of: &[usize],
-    ) -> Vec<f64> {
+    pub(super) fn amounts(&self, total: &[f64], columns: &[Column], answer: &Answer, row_of: &[usize]) -> Vec<f64> {
         let mut amounts = rebalanced(total, columns, amounts_of_rows(answer, row_of));
-        amounts
-            .iter_mut()
-            .for_each(|amount| *amount *= self.load_size);
+        amounts.iter_mut().for_each(|amount| *amount *= self.load_size);
         amounts
     }
 
@@ -226,9 +210,7 @@ pub(super) fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditio
     let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
     let finest = usize::from(has_many_blocks);
     let full = TOLERANCES.into_iter().skip(finest);
-    plain
-        .into_iter()
-        .chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
+    plain.into_iter().chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
 }
 
 /// Returns the amounts after the least change that removes the solver's residual.
@@ -253,15 +235,12 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
     // this component.
     let mut free = program.clone();
     free.grips[grip].limits[component] = f64::INFINITY;
-    let is_own = |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
+    let is_own =
+        |force: &Force| matches!(force, Force::Grip { grip: g, component: c, .. } if *g == grip && *c == component);
     let columns = columns(&free);
-    let solved = dual(
-        &free.loads,
-        &columns,
-        Conditioning::Full,
-        &mut Effort::default(),
-        |c| f64::from(u8::from(is_own(&c.force))),
-    );
+    let solved = dual(&free.loads, &columns, Conditioning::Full, &mut Effort::default(), |c| {
+        f64::from(u8::from(is_own(&c.force)))
+    });
     match solved.status {
         // The least limit is the amount of this component, added up over its positive and its negative direction.
         Status::Solved => {

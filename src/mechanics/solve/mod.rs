@@ -68,17 +68,13 @@ pub use limit::{ExtremeValue, Limit, largest_factor, least_grip_limit, nearest_f
 pub use limit_state::{LimitState, limit_state};
 pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;
-pub use settings::{
-    Choice, Conditioning, CrossoverTolerance, MAX_ITERATIONS, SolverSettings, TOLERANCE,
-};
+pub use settings::{Choice, Conditioning, CrossoverTolerance, MAX_ITERATIONS, SolverSettings, TOLERANCE};
 pub use solver::{solve, solve_within};
 pub use support::{Support, support};
 pub use tangent::Tangent;
 pub use wedge::{RuledOut, SelfStress, SelfStressCheck, Slide, check_self_stress};
 
-use dual::{
-    from_kinematic_answer, solve_once, solve_once_within, solve_static_form, solve_with_retry,
-};
+use dual::{from_kinematic_answer, solve_once, solve_once_within, solve_static_form, solve_with_retry};
 use face::{Face, least_squares_amounts};
 use iterative_refinement::{balance_by_least_change, refine_balance};
 use residual_norm::{largest, remainder};

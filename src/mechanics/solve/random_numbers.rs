@@ -7,10 +7,7 @@ pub(super) struct RandomNumbers(pub u64);
 impl RandomNumbers {
     /// Returns the next pseudo-random number: at least −1 and below 1.
     pub fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 

@@ -16,9 +16,7 @@
 use super::solver::all_finite;
 use super::{Amounts, Conditioning, Effort, Status, solve_with_retry};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
-use crate::program::{
-    Column, Correction, Force, Program, QuadraticProgram, columns, least_squares,
-};
+use crate::program::{Column, Correction, Force, Program, QuadraticProgram, columns, least_squares};
 
 /// The largest number of rounds. Each round adds about as many correct digits as the solver reaches.
 const MAX_ROUNDS: usize = 4;
@@ -50,11 +48,7 @@ fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>)
     for (sum, load) in sums.iter_mut().zip(&program.loads) {
         sum.add(*load);
     }
-    let mut total: Vec<f64> = program
-        .loads
-        .chunks_exact(3)
-        .map(|load| libm::hypot(load[0], load[1]))
-        .collect();
+    let mut total: Vec<f64> = program.loads.chunks_exact(3).map(|load| libm::hypot(load[0], load[1])).collect();
     let mut act = |block: usize, arm: Vector, direction: Vector, amount: f64| {
         let row = 3 * block;
         sums[row].add_product(-amount, direction.x);
@@ -65,10 +59,7 @@ fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>)
     };
     for (k, contact) in program.contacts.iter().enumerate() {
         let (normal, tangent) = (contact.normal, quarter_turn(contact.normal));
-        let sides = [
-            Some((contact.on, 1.0)),
-            contact.from.map(|from| (from, -1.0)),
-        ];
+        let sides = [Some((contact.on, 1.0)), contact.from.map(|from| (from, -1.0))];
         for ((block, arms), sign) in sides.into_iter().flatten() {
             act(block, arms[0], normal * sign, amounts.normal[k][0]);
             act(block, arms[1], normal * sign, amounts.normal[k][1]);
@@ -93,12 +84,7 @@ fn block_residuals(program: &Program, amounts: &Amounts) -> (Vec<f64>, Vec<f64>)
 /// (1 − s)/2 along the normal, (1 + 3s)/4 along the ray on the side of T, and (1 − s)/4 along the other ray.
 fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64> {
     let amount = |column: &Column| match column.force {
-        Force::Ray {
-            contact,
-            point,
-            normal,
-            friction,
-        } => {
+        Force::Ray { contact, point, normal, friction } => {
             // `friction_use` is s with the sign of T: the fraction of the friction limit that is used.
             let pressed = amounts.normal[contact][point];
             let mu = program.contacts[contact].friction;
@@ -119,11 +105,7 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
             };
             share * pressed / normal
         }
-        Force::Grip {
-            grip,
-            component,
-            sign,
-        } => (sign * amounts.grip[grip][component]).max(0.0),
+        Force::Grip { grip, component, sign } => (sign * amounts.grip[grip][component]).max(0.0),
         _ => 0.0,
     };
     list.iter().map(amount).collect()
@@ -147,8 +129,7 @@ fn apply(amounts: &Amounts, list: &[Column], changes: &[f64]) -> Amounts {
 fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     // Find the longest arm of each block.
     let mut longest_arm = vec![0.0; program.blocks];
-    let mut extend_arm =
-        |block: usize, arm: Vector| longest_arm[block] = f64::max(longest_arm[block], arm.norm());
+    let mut extend_arm = |block: usize, arm: Vector| longest_arm[block] = f64::max(longest_arm[block], arm.norm());
     for contact in &program.contacts {
         let sides = [Some(contact.on), contact.from];
         for (block, arms) in sides.into_iter().flatten() {
@@ -161,11 +142,7 @@ fn row_scales(program: &Program, total: &[f64]) -> Vec<f64> {
     let reciprocal = |v: f64| if v > 0.0 { 1.0 / v } else { 1.0 };
     let rows = total.iter().zip(&longest_arm);
     rows.flat_map(|(total, longest_arm)| {
-        [
-            reciprocal(*total),
-            reciprocal(*total),
-            reciprocal(*total) * reciprocal(*longest_arm),
-        ]
+        [reciprocal(*total), reciprocal(*total), reciprocal(*total) * reciprocal(*longest_arm)]
     })
     .collect()
 }
@@ -182,11 +159,7 @@ fn largest_scaled(residual: &[f64], scales: &[f64]) -> f64 {
 /// Let r be the residual and ε the relative changes of the amounts. Let W be the diagonal matrix of the amounts of the
 /// rays, and D the diagonal matrix of the scales of the rows. Each round solves the program min ½ |ε|² + ½ weight |v|²
 /// s.t.  D A W ε + v = D r. A block that no forces can balance keeps its residual v.
-pub fn rebalance_relative(
-    program: &Program,
-    amounts: &Amounts,
-    effort: &mut Effort,
-) -> Option<Amounts> {
+pub fn rebalance_relative(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
     let list = columns(program);
     let (mut best, mut is_improved) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
@@ -276,16 +249,12 @@ fn balanced_digits(residual: &[f64], scales: &[f64]) -> f64 {
 
 /// Changes given forces by as little as possible, in up to four rounds, until they balance every block up to rounding.
 /// `None` if no change improves the balance.
-pub fn rebalance_absolute(
-    program: &Program,
-    amounts: &Amounts,
-    effort: &mut Effort,
-) -> Option<Amounts> {
+pub fn rebalance_absolute(program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Amounts> {
     let list = columns(program);
     let (mut best, mut is_improved) = (amounts.clone(), false);
     for _ in 0..MAX_ROUNDS {
-        let Some(next) = (UNBOUNDED_RATIOS.into_iter())
-            .find_map(|ratio| correct_once(program, &list, &best, ratio, effort))
+        let Some(next) =
+            (UNBOUNDED_RATIOS.into_iter()).find_map(|ratio| correct_once(program, &list, &best, ratio, effort))
         else {
             break;
         };
@@ -316,10 +285,7 @@ fn correct_once(
     }
     let scaled: Vec<f64> = residual.iter().map(|v| v / size).collect();
     let bounded: Vec<f64> = weights.iter().map(|w| w.min(ratio * size)).collect();
-    let correction = Correction {
-        amounts: &bounded,
-        size,
-    };
+    let correction = Correction { amounts: &bounded, size };
     let conic = least_squares(&scaled, list, Some(correction));
     if !all_finite(&conic) {
         return None;
@@ -332,10 +298,7 @@ fn correct_once(
     // Accept the change only if it halves the residual.
     let changed = apply(best, list, &changes);
     let (residual, _) = block_residuals(program, &changed);
-    residual
-        .iter()
-        .all(|v| v.abs() <= 0.5 * size)
-        .then_some(changed)
+    residual.iter().all(|v| v.abs() <= 0.5 * size).then_some(changed)
 }
 
 #[cfg(test)]

@@ -19,12 +19,8 @@ pub(super) struct ReducedColumns {
 impl ReducedColumns {
     /// Selects all columns except the pure normal forces that are followed by the two rays of their friction cone.
     pub fn new(all: &[Column]) -> ReducedColumns {
-        let original_indices: Vec<usize> =
-            (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
-        ReducedColumns {
-            columns: original_indices.iter().map(|k| all[*k]).collect(),
-            original_indices,
-        }
+        let original_indices: Vec<usize> = (0..all.len()).filter(|k| !is_redundant(all, *k)).collect();
+        ReducedColumns { columns: original_indices.iter().map(|k| all[*k]).collect(), original_indices }
     }
 
     /// Returns a list with one number for each column of `all`: the given amount for a remaining column, 0 for an
@@ -63,9 +59,8 @@ impl ReducedColumns {
 
 /// True if a column is a pure normal force that is followed by the two rays of its friction cone.
 fn is_redundant(all: &[Column], k: usize) -> bool {
-    let with_friction = |c: Option<&Column>| {
-        c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0))
-    };
+    let with_friction =
+        |c: Option<&Column>| c.is_some_and(|c| matches!(c.force, Force::Ray { friction, .. } if friction != 0.0));
     matches!(all[k].force, Force::Ray { friction: 0.0, .. })
         && with_friction(all.get(k + 1))
         && with_friction(all.get(k + 2))

@@ -59,9 +59,7 @@ pub fn repair_motion(program: &Program, motion: &[f64], effort: &mut Effort) -> 
             _ => contacts.push(column),
         }
     }
-    [EXTRA_OPENING, 0.0]
-        .into_iter()
-        .find_map(|extra| open_contacts(motion, &held, &contacts, extra, effort))
+    [EXTRA_OPENING, 0.0].into_iter().find_map(|extra| open_contacts(motion, &held, &contacts, extra, effort))
 }
 
 /// Changes a motion until every contact opens at a speed of about `extra` or more (at least half of it), and the grip
@@ -74,11 +72,7 @@ fn open_contacts(
     effort: &mut Effort,
 ) -> Option<Vec<f64>> {
     let mut motion = motion.to_vec();
-    let tolerance = if extra == 0.0 {
-        ROUNDING_TOL
-    } else {
-        0.5 * extra
-    };
+    let tolerance = if extra == 0.0 { ROUNDING_TOL } else { 0.5 * extra };
     for round in 0..=MAX_ROUNDS {
         // Convergence test: stop if the worst violation is small.
         let torn = held.iter().map(|c| c.dot(&motion).abs());
@@ -96,8 +90,7 @@ fn open_contacts(
             0.0 => MAX_REMAINING_SHARE.max(ROUNDING_TOL / worst),
             _ => 0.0,
         };
-        let mut rows: Vec<(&Column, f64)> =
-            held.iter().map(|c| (c, -c.dot(&motion) / worst)).collect();
+        let mut rows: Vec<(&Column, f64)> = held.iter().map(|c| (c, -c.dot(&motion) / worst)).collect();
         for column in contacts {
             // Only contacts that are nearly closed are constrained.
             let wanted = (extra - column.dot(&motion)) / worst - left;

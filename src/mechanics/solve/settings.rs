@@ -66,12 +66,7 @@ pub enum Choice {
 impl From<Conditioning> for SolverSettings {
     /// Returns settings with this conditioning, the default tolerance, no crossover and [`Choice::Unique`].
     fn from(conditioning: Conditioning) -> SolverSettings {
-        SolverSettings {
-            tolerance: TOLERANCE,
-            crossover: None,
-            conditioning,
-            choice: Choice::Unique,
-        }
+        SolverSettings { tolerance: TOLERANCE, crossover: None, conditioning, choice: Choice::Unique }
     }
 }
 

@@ -64,11 +64,7 @@ pub(super) struct Simplex {
 impl Simplex {
     /// Chooses a basis among the given columns; columns with a smaller `rank` are preferred. Unit columns complete the
     /// basis if necessary. All columns outside the basis keep their amounts.
-    pub fn new(
-        mut variables: Vec<Variable>,
-        loads: Vec<f64>,
-        rank: impl Fn(usize) -> usize,
-    ) -> Simplex {
+    pub fn new(mut variables: Vec<Variable>, loads: Vec<f64>, rank: impl Fn(usize) -> usize) -> Simplex {
         let (given, rows) = (variables.len(), loads.len());
         let columns = variables.iter().map(|v| v.column.clone()).collect();
         let factor = BasisFactor::new(columns, rows, rank);
@@ -164,15 +160,9 @@ impl Simplex {
                 true => basic.amount - basic.lower,
                 false => basic.upper - basic.amount,
             };
-            (rate.abs() > MIN_PIVOT && distance < f64::INFINITY).then_some((
-                distance.max(0.0),
-                rate.abs(),
-                position,
-            ))
+            (rate.abs() > MIN_PIVOT && distance < f64::INFINITY).then_some((distance.max(0.0), rate.abs(), position))
         });
-        let steps = approaching
-            .clone()
-            .map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);
+        let steps = approaching.clone().map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);
         let longest = steps.reduce(f64::min)?;
         let first = approaching.filter(|(distance, rate, _)| *distance <= longest * rate);
         let (distance, rate, position) = first.max_by(|a, b| a.1.total_cmp(&b.1))?;

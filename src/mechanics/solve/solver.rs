@@ -20,10 +20,7 @@ use crate::program::QuadraticProgram;
 /// Panics if the data contain a number that is not finite. Scenes are checked when they are read, so this would be a
 /// bug.
 pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Conditioning) -> Answer {
-    let settings = SolverSettings {
-        tolerance,
-        ..conditioning.into()
-    };
+    let settings = SolverSettings { tolerance, ..conditioning.into() };
     solve_within(problem, settings, MAX_ITERATIONS)
 }
 
@@ -32,11 +29,7 @@ pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Condition
 ///
 /// # Panics
 /// Panics in the same case as [`solve`].
-pub fn solve_within(
-    problem: &QuadraticProgram,
-    settings: SolverSettings,
-    iterations: usize,
-) -> Answer {
+pub fn solve_within(problem: &QuadraticProgram, settings: SolverSettings, iterations: usize) -> Answer {
     // Do not start after the deadline: before its first iteration, a large program needs an ordering and a
     // factorisation, which take as long as many iterations.
     if is_late() {
@@ -60,7 +53,5 @@ pub fn solve_within(
 /// True if every number of a program is finite.
 pub(super) fn all_finite(problem: &QuadraticProgram) -> bool {
     let mut entries = problem.matrix.iter().chain(&problem.quadratic);
-    is_finite(&problem.linear)
-        && is_finite(&problem.bound)
-        && entries.all(|entry| entry.2.is_finite())
+    is_finite(&problem.linear) && is_finite(&problem.bound) && entries.all(|entry| entry.2.is_finite())
 }

@@ -77,11 +77,9 @@ pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool
 /// columns it is 0.
 pub(super) fn farthest_cost(grip: usize, direction: Vector) -> impl Fn(&Column) -> f64 {
     move |column| match column.force {
-        Force::Grip {
-            grip: column_grip,
-            component,
-            sign,
-        } if column_grip == grip && component < 2 => -sign * direction[component],
+        Force::Grip { grip: column_grip, component, sign } if column_grip == grip && component < 2 => {
+            -sign * direction[component]
+        }
         _ => 0.0,
     }
 }

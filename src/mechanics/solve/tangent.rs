@@ -85,13 +85,7 @@ impl Tangent {
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
         for (column, amount) in self.columns.iter().zip(&self.amounts) {
-            let Force::Ray {
-                contact,
-                point,
-                normal,
-                friction,
-            } = column.force
-            else {
+            let Force::Ray { contact, point, normal, friction } = column.force else {
                 continue;
             };
             let contact = &program.contacts[contact];

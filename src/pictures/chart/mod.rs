@@ -244,9 +244,7 @@ pub fn course(chart: &Course) -> Result<String, ChartError> {
 /// must be positive.
 pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .find(|s| s * power >= value * (1.0 - 1e-9));
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * power >= value * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power
 }
 
@@ -262,10 +260,7 @@ mod tests {
         assert_eq!(bars.counts.iter().sum::<usize>(), 137);
         assert_eq!(bars.edges.last(), Some(&45.0));
         assert_eq!(Bars::counted(&[0.0], None).counts, Vec::<usize>::new());
-        assert_eq!(
-            Bars::counted(&[1.0, 0.05], Some(1.0)).counts,
-            [1, 0, 0, 0, 0, 0, 0, 0, 0, 1]
-        );
+        assert_eq!(Bars::counted(&[1.0, 0.05], Some(1.0)).counts, [1, 0, 0, 0, 0, 0, 0, 0, 0, 1]);
         assert!(super::bars(&Bars::counted(&[], None)).is_err());
     }
 
@@ -274,22 +269,14 @@ mod tests {
         let mut chart = Bars::counted(&[1.0, 2.0, 2.5], None);
         (chart.title, chart.x, chart.y) = ("t<".into(), "force, N".into(), "count".into());
         let svg = super::bars(&chart).expect("drawn");
-        assert!(
-            svg.contains("force, N") && svg.contains("t&lt;") && svg.len() < 9000,
-            "{}",
-            svg.len()
-        );
+        assert!(svg.contains("force, N") && svg.contains("t&lt;") && svg.len() < 9000, "{}", svg.len());
         let course = super::course(&Course {
             title: "over the steps".into(),
             y: "N".into(),
             steps: vec!["a".into(), "b".into(), "c".into()],
             lines: vec![
                 ("sum".into(), [0, 0, 200], vec![Some(3.0), None, Some(5.0)]),
-                (
-                    "missing".into(),
-                    [200, 0, 0],
-                    vec![None, Some(1.0), Some(2.0)],
-                ),
+                ("missing".into(), [200, 0, 0], vec![None, Some(1.0), Some(2.0)]),
             ],
         });
         assert!(course.is_ok_and(|svg| svg.contains("sum") && svg.contains("missing")));

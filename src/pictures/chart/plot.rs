@@ -44,9 +44,7 @@ pub(super) fn document(
     let (w, h) = (width * UNITS_PER_PIXEL, height * UNITS_PER_PIXEL);
     let head = format!("width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\"");
     if !svg.contains(&head) {
-        return Err(ChartError::new(
-            "the SVG of plotters does not begin with the expected attributes",
-        ));
+        return Err(ChartError::new("the SVG of plotters does not begin with the expected attributes"));
     }
     let page = format!(
         "width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" role=\"img\" aria-label=\"{}\"",
@@ -83,9 +81,7 @@ type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64
 
 /// Returns the style of chart text with a font size of `size` pixels.
 fn font<'a>(size: i32) -> TextStyle<'a> {
-    (FONT_FAMILY, size * UNITS_PER_PIXEL)
-        .into_font()
-        .color(&INK)
+    (FONT_FAMILY, size * UNITS_PER_PIXEL).into_font().color(&INK)
 }
 
 /// Returns `style`, changed so that text begins at the point where it is drawn and is vertically centred on this point.
@@ -95,19 +91,13 @@ fn words_from<'a>(style: TextStyle<'a>) -> TextStyle<'a> {
 
 /// Creates an empty page of the size [`LARGE_SIZE`]. What is drawn on the page is written to `svg`.
 fn large(svg: &mut String) -> Page<'_> {
-    let size = (
-        (LARGE_SIZE.0 * UNITS_PER_PIXEL) as u32,
-        (LARGE_SIZE.1 * UNITS_PER_PIXEL) as u32,
-    );
+    let size = ((LARGE_SIZE.0 * UNITS_PER_PIXEL) as u32, (LARGE_SIZE.1 * UNITS_PER_PIXEL) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
 /// Creates an empty page of the size [`SMALL_SIZE`]. What is drawn on the page is written to `svg`.
 fn small(svg: &mut String) -> Page<'_> {
-    let size = (
-        (SMALL_SIZE.0 * UNITS_PER_PIXEL) as u32,
-        (SMALL_SIZE.1 * UNITS_PER_PIXEL) as u32,
-    );
+    let size = ((SMALL_SIZE.0 * UNITS_PER_PIXEL) as u32, (SMALL_SIZE.1 * UNITS_PER_PIXEL) as u32);
     SVGBackend::with_string(svg, size).into_drawing_area()
 }
 
@@ -155,10 +145,7 @@ pub(super) fn bars(chart: &Bars, svg: &mut String) -> DrawingResult {
     let gap = 0.06 * (chart.edges[1] - chart.edges[0]);
     let filled = chart.counts.iter().enumerate().filter(|c| *c.1 > 0);
     axes.draw_series(filled.map(|(i, count)| {
-        let corners = [
-            (chart.edges[i] + gap, 0.0),
-            (chart.edges[i + 1] - gap, *count as f64),
-        ];
+        let corners = [(chart.edges[i] + gap, 0.0), (chart.edges[i + 1] - gap, *count as f64)];
         Rectangle::new(corners, RGBColor(r, g, b).filled())
     }))?;
     area.present()?;

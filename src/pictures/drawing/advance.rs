@@ -48,14 +48,8 @@ impl Table {
             (high << 16 | low, short(bytes))
         });
         let heads: Vec<(u32, u16)> = heads.collect();
-        let run = |(first, length)| Run {
-            first,
-            widths: (0..length).map(|_| short(bytes)).collect(),
-        };
-        Table {
-            units_per_em,
-            runs: heads.into_iter().map(run).collect(),
-        }
+        let run = |(first, length)| Run { first, widths: (0..length).map(|_| short(bytes)).collect() };
+        Table { units_per_em, runs: heads.into_iter().map(run).collect() }
     }
 
     fn advance(&self, character: char) -> Option<f64> {
@@ -77,9 +71,8 @@ impl Table {
 
 /// Removes the first two bytes of `bytes`, and returns them as a little-endian number.
 fn short(bytes: &mut &[u8]) -> u16 {
-    let (number, rest) = bytes
-        .split_first_chunk::<2>()
-        .expect("the table is complete; a test compares it with the fonts");
+    let (number, rest) =
+        bytes.split_first_chunk::<2>().expect("the table is complete; a test compares it with the fonts");
     *bytes = rest;
     u16::from_le_bytes(*number)
 }

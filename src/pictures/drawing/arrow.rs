@@ -30,8 +30,7 @@ pub fn straight(from: PagePoint, along: (f64, f64), width: f64) -> Outline {
         return Outline::default();
     }
     let (ux, uy) = (along.0 / length, along.1 / length);
-    let at =
-        |forward: f64, aside: f64| from.moved(ux * forward - uy * aside, uy * forward + ux * aside);
+    let at = |forward: f64, aside: f64| from.moved(ux * forward - uy * aside, uy * forward + ux * aside);
     let (long, wide) = head_size(length, width);
     let (neck, head) = (length - long, wide / 2.0);
     let half = (width / 2.0).min(head / HEAD_WIDTH);
@@ -69,25 +68,17 @@ pub fn turning(centre: PagePoint, radius: f64, start: f64, sweep: f64, width: f6
     let half = (width / 2.0).min(head / HEAD_WIDTH);
     let shaft = sweep - sweep.signum() * long / radius;
     let (neck, end) = (start + shaft, start + sweep);
-    let mut outline = Outline {
-        segments: vec![Segment::Move(at(start, radius + half))],
-    };
+    let mut outline = Outline { segments: vec![Segment::Move(at(start, radius + half))] };
     if shaft != 0.0 {
         arc(&mut outline, centre, radius + half, start, shaft);
     }
-    outline
-        .segments
-        .push(Segment::Line(at(neck, radius + head)));
+    outline.segments.push(Segment::Line(at(neck, radius + head)));
     // The tip lies slightly outside the circle. With its tip on the circle, the head would look bent inwards. With its
     // tip on the tangent, the head would look bent outwards.
     let tip = at(end, radius + 0.12 * long);
     outline.segments.push(Segment::Line(tip));
-    outline
-        .segments
-        .push(Segment::Line(at(neck, radius - head)));
-    outline
-        .segments
-        .push(Segment::Line(at(neck, radius - half)));
+    outline.segments.push(Segment::Line(at(neck, radius - head)));
+    outline.segments.push(Segment::Line(at(neck, radius - half)));
     if shaft != 0.0 {
         arc(&mut outline, centre, radius - half, neck, -shaft);
     }
@@ -107,15 +98,8 @@ fn arc(outline: &mut Outline, centre: PagePoint, radius: f64, start: f64, sweep:
         centre.moved(radius * cos - along * sin, -radius * sin - along * cos)
     };
     for part in 0..parts as usize {
-        let (from, to) = (
-            start + step * part as f64,
-            start + step * (part as f64 + 1.0),
-        );
-        outline.segments.push(Segment::Curve(
-            at(from, handle),
-            at(to, -handle),
-            at(to, 0.0),
-        ));
+        let (from, to) = (start + step * part as f64, start + step * (part as f64 + 1.0));
+        outline.segments.push(Segment::Curve(at(from, handle), at(to, -handle), at(to, 0.0)));
     }
 }
 
@@ -135,15 +119,9 @@ mod tests {
     fn an_arrow_has_the_requested_length_from_tail_to_tip() {
         for length in [0.01, 0.5, 3.0, 8.9, 9.0, 9.1, 40.0, 1e4] {
             assert!((tip_distance((0.0, -length), 2.0) - length).abs() < 1e-9 * length);
-            assert!(
-                (tip_distance((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length
-            );
+            assert!((tip_distance((0.6 * length, 0.8 * length), 2.0) - length).abs() < 1e-9 * length);
         }
-        assert!(
-            straight(PagePoint::new(1.0, 2.0), (0.0, 0.0), 2.0)
-                .segments
-                .is_empty()
-        );
+        assert!(straight(PagePoint::new(1.0, 2.0), (0.0, 0.0), 2.0).segments.is_empty());
     }
 
     #[test]
@@ -162,9 +140,7 @@ mod tests {
         let centre = PagePoint::new(0.0, 0.0);
         let outline = turning(centre, 10.0, 0.0, PI / 2.0, 1.0);
         // A quarter turn from the right ends above the centre.
-        let tip = outline
-            .points()
-            .fold(centre, |t, p| if p.y < t.y { p } else { t });
+        let tip = outline.points().fold(centre, |t, p| if p.y < t.y { p } else { t });
         assert!(tip.x.abs() < 1.0 && tip.y < -9.0, "{tip:?}");
         let back = turning(centre, 10.0, 0.0, -PI / 2.0, 1.0);
         assert!(back.points().all(|p| p.y > -2.0) && back.points().any(|p| p.y > 9.0));

@@ -23,19 +23,12 @@ impl Camera {
     /// assert_eq!(camera.place(Point::new(3.0, 6.0)), PagePoint::new(18.0, 28.0));
     /// ```
     pub fn new(view: Bounds, at: PagePoint, scale: f64) -> Camera {
-        Camera {
-            corner: Point::new(view.min.x, view.max.y),
-            at,
-            scale,
-        }
+        Camera { corner: Point::new(view.min.x, view.max.y), at, scale }
     }
 
     /// Returns a camera that shows the same picture moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> Camera {
-        Camera {
-            at: self.at.moved(x, y),
-            ..self
-        }
+        Camera { at: self.at.moved(x, y), ..self }
     }
 
     /// Converts a point of the scene to its position on the page.

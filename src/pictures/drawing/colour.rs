@@ -53,8 +53,7 @@ impl Colour {
 
     /// Returns a mixture of this colour and `other`; `share` (0 to 1) is the fraction of `other`.
     pub fn mixed(self, other: Colour, share: f64) -> Colour {
-        let mix =
-            |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
+        let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
         let (a, b) = (self.0, other.0);
         Colour([mix(a[0], b[0]), mix(a[1], b[1]), mix(a[2], b[2])])
     }

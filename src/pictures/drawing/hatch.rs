@@ -57,26 +57,16 @@ mod tests {
     #[test]
     fn lines_lie_inside_the_outline_and_outside_holes() {
         let square = |from: f64, to: f64| {
-            vec![
-                PagePoint::new(from, from),
-                PagePoint::new(to, from),
-                PagePoint::new(to, to),
-                PagePoint::new(from, to),
-            ]
+            vec![PagePoint::new(from, from), PagePoint::new(to, from), PagePoint::new(to, to), PagePoint::new(from, to)]
         };
-        let page = PageRect {
-            at: PagePoint::new(0.0, 0.0),
-            width: 80.0,
-            height: 200.0,
-        };
+        let page = PageRect { at: PagePoint::new(0.0, 0.0), width: 80.0, height: 200.0 };
         let rings = [square(10.0, 100.0), square(40.0, 60.0)];
         let drawn = hatch(&rings, page, 5.0);
         assert!(drawn.len() > 20);
         for [a, b] in drawn {
             assert!((b.y - a.y - (b.x - a.x)).abs() < 1e-9);
             let middle = PagePoint::new((a.x + b.x) / 2.0, (a.y + b.y) / 2.0);
-            let inside =
-                |p: PagePoint, from: f64, to: f64| p.x > from && p.x < to && p.y > from && p.y < to;
+            let inside = |p: PagePoint, from: f64, to: f64| p.x > from && p.x < to && p.y > from && p.y < to;
             assert!(inside(middle, 10.0, 100.0) && !inside(middle, 40.0, 60.0));
             assert!(a.x >= 9.99 && b.x <= 80.01 && b.y <= 100.01);
         }

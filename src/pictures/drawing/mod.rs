@@ -41,10 +41,7 @@ impl PagePoint {
 
     /// Returns the point moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> PagePoint {
-        PagePoint {
-            x: self.x + x,
-            y: self.y + y,
-        }
+        PagePoint { x: self.x + x, y: self.y + y }
     }
 }
 
@@ -64,10 +61,9 @@ impl PageRect {
     pub(crate) fn part_of(self, [from, to]: [PagePoint; 2]) -> Option<[PagePoint; 2]> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let along = (to.x - from.x, to.y - from.y);
-        for (start, step, low, size) in [
-            (from.x, along.0, self.at.x, self.width),
-            (from.y, along.1, self.at.y, self.height),
-        ] {
+        for (start, step, low, size) in
+            [(from.x, along.0, self.at.x, self.width), (from.y, along.1, self.at.y, self.height)]
+        {
             if step == 0.0 {
                 if start < low || start > low + size {
                     return None;
@@ -129,43 +125,24 @@ pub struct Path {
 impl Path {
     /// Creates a filled shape without a line along its outline.
     pub fn filled(outline: Outline, fill: Colour) -> Path {
-        Path {
-            outline,
-            fill: Some(fill),
-            stroke: None,
-            fill_last: false,
-            opacity: 1.0,
-        }
+        Path { outline, fill: Some(fill), stroke: None, fill_last: false, opacity: 1.0 }
     }
 
     /// Creates a line along the outline, without a fill.
     pub fn stroked(outline: Outline, stroke: Stroke) -> Path {
-        Path {
-            outline,
-            fill: None,
-            stroke: Some(stroke),
-            fill_last: false,
-            opacity: 1.0,
-        }
+        Path { outline, fill: None, stroke: Some(stroke), fill_last: false, opacity: 1.0 }
     }
 
     /// Returns the same path with a line along its outline. The line is drawn over the fill, unless
     /// [`Path::fill_last`] is true.
     pub fn with_stroke(self, stroke: Stroke) -> Path {
-        Path {
-            stroke: Some(stroke),
-            ..self
-        }
+        Path { stroke: Some(stroke), ..self }
     }
 
     /// Returns the same shape with a border of this colour. `width` is the visible width of the border outside the
     /// shape, in pixels.
     pub fn cased(self, colour: Colour, width: f64) -> Path {
-        Path {
-            stroke: Some(Stroke::new(colour, 2.0 * width)),
-            fill_last: true,
-            ..self
-        }
+        Path { stroke: Some(Stroke::new(colour, 2.0 * width)), fill_last: true, ..self }
     }
 
     /// Returns the same shape with an opacity from 0 to 1.
@@ -190,28 +167,17 @@ pub struct Stroke {
 impl Stroke {
     /// Creates the stroke of a continuous line with round corners and ends; `width` is in pixels.
     pub fn new(colour: Colour, width: f64) -> Stroke {
-        Stroke {
-            colour,
-            width,
-            dash: Vec::new(),
-            join: Join::Round,
-        }
+        Stroke { colour, width, dash: Vec::new(), join: Join::Round }
     }
 
     /// Returns the same stroke with dashes. `dash` contains the lengths of dashes and gaps in turn, in pixels.
     pub fn dashed(self, dash: impl Into<Vec<f64>>) -> Stroke {
-        Stroke {
-            dash: dash.into(),
-            ..self
-        }
+        Stroke { dash: dash.into(), ..self }
     }
 
     /// Returns the same stroke with sharp corners and flat ends instead of round ones.
     pub fn mitred(self) -> Stroke {
-        Stroke {
-            join: Join::Miter,
-            ..self
-        }
+        Stroke { join: Join::Miter, ..self }
     }
 }
 
@@ -248,18 +214,12 @@ pub struct Group {
 impl Group {
     /// Creates an empty group without a title. `class` is its class for style sheets and scripts.
     pub fn with_class(class: &str) -> Group {
-        Group {
-            class: class.to_owned(),
-            ..Group::default()
-        }
+        Group { class: class.to_owned(), ..Group::default() }
     }
 
     /// Returns the same group with a title, which is shown on mouse hover.
     pub fn titled(self, title: impl Into<String>) -> Group {
-        Group {
-            title: title.into(),
-            ..self
-        }
+        Group { title: title.into(), ..self }
     }
 
     /// Returns the same group with one more item, drawn on top of the others.

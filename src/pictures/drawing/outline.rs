@@ -34,16 +34,9 @@ impl Outline {
 
     /// Creates an open line through these points.
     pub fn line(points: impl IntoIterator<Item = PagePoint>) -> Outline {
-        let segments = points.into_iter().enumerate().map(|(i, p)| {
-            if i == 0 {
-                Segment::Move(p)
-            } else {
-                Segment::Line(p)
-            }
-        });
-        Outline {
-            segments: segments.collect(),
-        }
+        let segments =
+            points.into_iter().enumerate().map(|(i, p)| if i == 0 { Segment::Move(p) } else { Segment::Line(p) });
+        Outline { segments: segments.collect() }
     }
 
     /// Creates the outline of a rectangle with rounded corners. `radius` is the radius of the corners in pixels. It is
@@ -53,12 +46,7 @@ impl Outline {
         let corner = |x: f64, y: f64| rect.at.moved(x, y);
         let (w, h) = (rect.width, rect.height);
         if r <= 0.0 {
-            return Outline::ring([
-                corner(0.0, 0.0),
-                corner(w, 0.0),
-                corner(w, h),
-                corner(0.0, h),
-            ]);
+            return Outline::ring([corner(0.0, 0.0), corner(w, 0.0), corner(w, h), corner(0.0, h)]);
         }
         // The distance of the control points from the corner. With this distance, the cubic curve meets the quarter
         // circle at both ends and in the middle.
@@ -82,14 +70,7 @@ impl Outline {
     /// Creates a circle; `radius` is in pixels.
     pub fn circle(centre: PagePoint, radius: f64) -> Outline {
         let at = PagePoint::new(centre.x - radius, centre.y - radius);
-        let mut circle = Outline::rounded(
-            PageRect {
-                at,
-                width: 2.0 * radius,
-                height: 2.0 * radius,
-            },
-            radius,
-        );
+        let mut circle = Outline::rounded(PageRect { at, width: 2.0 * radius, height: 2.0 * radius }, radius);
         // The circle is a square with the largest possible corner radius. Remove its straight sides of length 0.
         circle.segments.retain(|s| !matches!(s, Segment::Line(_)));
         circle

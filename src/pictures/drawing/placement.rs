@@ -83,11 +83,7 @@ pub struct Placed {
 impl Placed {
     /// Places a label in `rect`, with a leader line from the label to `anchor`.
     fn with_leader(rect: PageRect, anchor: PagePoint) -> Placed {
-        Placed {
-            avoided: false,
-            rect,
-            leader: Some([nearest(rect, anchor), anchor]),
-        }
+        Placed { avoided: false, rect, leader: Some([nearest(rect, anchor), anchor]) }
     }
 }
 
@@ -133,13 +129,7 @@ pub fn place_avoiding(
 
 /// Returns the rectangle of a label with this centre. Returns `None` if the rectangle, enlarged by the clearance
 /// (pixels), does not lie inside the page or overlaps ink.
-fn fitting(
-    ink: &Ink,
-    page: PageRect,
-    request: &LabelRequest,
-    centre: PagePoint,
-    clearance: f64,
-) -> Option<PageRect> {
+fn fitting(ink: &Ink, page: PageRect, request: &LabelRequest, centre: PagePoint, clearance: f64) -> Option<PageRect> {
     let (width, height) = request.size;
     let kept = centred(centre, (width + 2.0 * clearance, height + 2.0 * clearance));
     (within(page, kept) && ink.clear(kept)).then(|| centred(centre, request.size))
@@ -151,13 +141,8 @@ fn preferred_position(ink: &Ink, page: PageRect, request: &LabelRequest) -> Opti
     let clearances = [request.padding, 0.4 * request.padding, 0.0];
     clearances.into_iter().find_map(|padding| {
         let mut centres = request.preferred.iter();
-        let rect =
-            centres.find_map(|at| fitting(ink, page, request, *at, LABEL_CLEARANCE + padding))?;
-        Some(Placed {
-            avoided: false,
-            rect,
-            leader: None,
-        })
+        let rect = centres.find_map(|at| fitting(ink, page, request, *at, LABEL_CLEARANCE + padding))?;
+        Some(Placed { avoided: false, rect, leader: None })
     })
 }
 
@@ -194,10 +179,7 @@ fn ring_position(
             let (cos, sin) = (libm::cos(angle), libm::sin(angle));
             // The nearest side of the label lies about on the ring, so wide labels are as near to the anchor as narrow
             // labels.
-            let (x, y) = (
-                cos * radius + cos * width / 2.0,
-                sin * radius + sin * height / 2.0,
-            );
+            let (x, y) = (cos * radius + cos * width / 2.0, sin * radius + sin * height / 2.0);
             let centre = request.anchor.moved(x, y);
             let Some(rect) = fitting(ink, page, request, centre, LABEL_CLEARANCE) else {
                 continue;
@@ -234,11 +216,7 @@ fn candidate(ink: &Ink, request: &LabelRequest, rect: PageRect, avoided: bool) -
 
 /// Returns the rectangle with this centre, width and height.
 fn centred(centre: PagePoint, (width, height): (f64, f64)) -> PageRect {
-    PageRect {
-        at: centre.moved(-width / 2.0, -height / 2.0),
-        width,
-        height,
-    }
+    PageRect { at: centre.moved(-width / 2.0, -height / 2.0), width, height }
 }
 
 fn within(page: PageRect, rect: PageRect) -> bool {
@@ -250,31 +228,19 @@ fn within(page: PageRect, rect: PageRect) -> bool {
 
 /// Returns the point of a rectangle that is nearest to `p`.
 pub(crate) fn nearest(rect: PageRect, p: PagePoint) -> PagePoint {
-    PagePoint::new(
-        p.x.clamp(rect.at.x, rect.at.x + rect.width),
-        p.y.clamp(rect.at.y, rect.at.y + rect.height),
-    )
+    PagePoint::new(p.x.clamp(rect.at.x, rect.at.x + rect.width), p.y.clamp(rect.at.y, rect.at.y + rect.height))
 }
 
 /// Returns the corners of a rectangle, clockwise on the page from the upper left.
 fn corners(rect: PageRect) -> [PagePoint; 4] {
-    [
-        rect.at,
-        rect.at.moved(rect.width, 0.0),
-        rect.at.moved(rect.width, rect.height),
-        rect.at.moved(0.0, rect.height),
-    ]
+    [rect.at, rect.at.moved(rect.width, 0.0), rect.at.moved(rect.width, rect.height), rect.at.moved(0.0, rect.height)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const PAGE: PageRect = PageRect {
-        at: PagePoint { x: 0.0, y: 0.0 },
-        width: 200.0,
-        height: 100.0,
-    };
+    const PAGE: PageRect = PageRect { at: PagePoint { x: 0.0, y: 0.0 }, width: 200.0, height: 100.0 };
 
     fn request(x: f64, y: f64) -> LabelRequest {
         LabelRequest {
@@ -345,11 +311,7 @@ mod tests {
         let mut ink = Ink::default();
         ink.rect(PAGE);
         assert_eq!(place(&mut ink, PAGE, &[request(50.0, 50.0)]), [None]);
-        let fixed = LabelRequest {
-            max_distance: None,
-            preferred: Vec::new(),
-            ..request(50.0, 50.0)
-        };
+        let fixed = LabelRequest { max_distance: None, preferred: Vec::new(), ..request(50.0, 50.0) };
         assert_eq!(place(&mut Ink::default(), PAGE, &[fixed]), [None]);
     }
 }

@@ -58,14 +58,8 @@ mod tests {
         assert_eq!(named("jet"), None);
         // The first and the last colour as printed by matplotlib.
         let ends = |name| named(name).map(|r| (r[0], r[255]));
-        assert_eq!(
-            ends("viridis"),
-            Some((Colour::hex(0x440154), Colour::hex(0xfde725)))
-        );
-        assert_eq!(
-            ends("cividis"),
-            Some((Colour::hex(0x00224e), Colour::hex(0xfee838)))
-        );
+        assert_eq!(ends("viridis"), Some((Colour::hex(0x440154), Colour::hex(0xfde725))));
+        assert_eq!(ends("cividis"), Some((Colour::hex(0x00224e), Colour::hex(0xfee838))));
     }
 
     #[test]
@@ -77,9 +71,6 @@ mod tests {
         assert_eq!(between(&[Colour::BLACK]), vec![Colour::BLACK; LENGTH]);
         assert_eq!(between(&[]), Vec::new());
         let three = between(&[Colour::WHITE, Colour::hex(0xff0000), Colour::BLACK]);
-        assert_eq!(
-            (three[0], three[51].0[0], three[255]),
-            (Colour::WHITE, 255, Colour::BLACK)
-        );
+        assert_eq!((three[0], three[51].0[0], three[255]), (Colour::WHITE, 255, Colour::BLACK));
     }
 }

@@ -119,37 +119,18 @@ pub struct Sizes {
 
 impl Widths {
     /// The widths of the thesis [Vallat23](crate::doc::references).
-    pub const DEFAULT: Widths = Widths {
-        force: 0.05,
-        robot: 0.07,
-        failure: 0.10,
-        disc: 0.3,
-        outline: 1.5,
-        casing: 0.9,
-    };
+    pub const DEFAULT: Widths =
+        Widths { force: 0.05, robot: 0.07, failure: 0.10, disc: 0.3, outline: 1.5, casing: 0.9 };
 }
 
 impl Sizes {
     /// Sizes for a figure that is as wide as a printed page.
-    pub const DEFAULT: Sizes = Sizes {
-        title: 22.0,
-        caption: 17.0,
-        verdict: 13.5,
-        reason: 12.5,
-        key: 12.5,
-        name: 14.0,
-        amount: 11.5,
-    };
+    pub const DEFAULT: Sizes =
+        Sizes { title: 22.0, caption: 17.0, verdict: 13.5, reason: 12.5, key: 12.5, name: 14.0, amount: 11.5 };
 
     /// Sizes for a narrow figure whose texts would otherwise need more space than its picture.
-    const COMPACT: Sizes = Sizes {
-        title: 18.0,
-        caption: 14.0,
-        verdict: 12.0,
-        reason: 10.5,
-        key: 10.5,
-        ..Sizes::DEFAULT
-    };
+    const COMPACT: Sizes =
+        Sizes { title: 18.0, caption: 14.0, verdict: 12.0, reason: 10.5, key: 10.5, ..Sizes::DEFAULT };
 
     /// Returns the sizes for a narrow figure whose texts would otherwise need more space than its picture. Titles,
     /// captions, verdicts, reasons and legends become smaller if they have their default size. A size that a style file
@@ -203,35 +184,24 @@ impl Theme {
     /// the arrow is not much darker, the border is a dark shade of the arrow's colour. Otherwise its colour is
     /// [`Theme::casing`].
     pub fn casing_on(&self, block: Colour, arrow: Colour) -> Colour {
-        let lost = block.brightness() > MIN_BRIGHT_FILL
-            && lightness(block) - lightness(arrow) < MIN_LIGHTNESS_DIFFERENCE;
-        if lost {
-            arrow.mixed(self.darker(), 0.8)
-        } else {
-            self.casing
-        }
+        let lost =
+            block.brightness() > MIN_BRIGHT_FILL && lightness(block) - lightness(arrow) < MIN_LIGHTNESS_DIFFERENCE;
+        if lost { arrow.mixed(self.darker(), 0.8) } else { self.casing }
     }
 
     /// Returns the colour of the lines between the cells of a block. The colour of a dark block is mixed with the
     /// lighter of the page and ink colours, and the colour of a bright block with the darker. `share` (0 to 1) is the
     /// fraction of the page or ink colour in the mixture.
     pub fn seam_on(&self, block: Colour, share: f64) -> Colour {
-        let towards = if block.brightness() < 0.5 {
-            self.lighter()
-        } else {
-            self.darker()
-        };
+        let towards = if block.brightness() < 0.5 { self.lighter() } else { self.darker() };
         block.mixed(towards, share)
     }
 
     /// Returns the colour of text on the background `below`. It is a shade of the colour `of`, or of `below` if `of` is
     /// `None`. The [contrast] between text and background is at least 4.5.
     pub fn letters_on(&self, below: Colour, of: Option<Colour>) -> Colour {
-        let ink = if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) {
-            Colour::WHITE
-        } else {
-            Colour::BLACK
-        };
+        let ink =
+            if contrast(Colour::WHITE, below) > contrast(Colour::BLACK, below) { Colour::WHITE } else { Colour::BLACK };
         let (from, least) = match of {
             Some(colour) => (colour, 11),
             None => (below, 15),
@@ -245,29 +215,18 @@ impl Theme {
 
     /// Returns the brighter of the page colour and the ink colour.
     fn lighter(&self) -> Colour {
-        if self.page.brightness() < self.ink.brightness() {
-            self.ink
-        } else {
-            self.page
-        }
+        if self.page.brightness() < self.ink.brightness() { self.ink } else { self.page }
     }
 
     /// Returns the darker of the page colour and the ink colour.
     fn darker(&self) -> Colour {
-        if self.page.brightness() < self.ink.brightness() {
-            self.page
-        } else {
-            self.ink
-        }
+        if self.page.brightness() < self.ink.brightness() { self.page } else { self.ink }
     }
 }
 
 /// Returns the entry with the index `number` mod n of a list of n colours, or `None` for an empty list.
 fn entry(list: &[Colour], number: usize) -> Option<Colour> {
-    number
-        .checked_rem(list.len())
-        .and_then(|i| list.get(i))
-        .copied()
+    number.checked_rem(list.len()).and_then(|i| list.get(i)).copied()
 }
 
 impl Default for Theme {

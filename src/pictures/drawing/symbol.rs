@@ -49,15 +49,8 @@ pub struct Symbol {
 impl Symbol {
     /// Creates a symbol that consists of one letter with the subscript `below`. Letter and subscript may be empty.
     pub fn new(letter: &str, accent: Accent, below: &str) -> Symbol {
-        let letter = Letter {
-            letter: letter.to_owned(),
-            accent,
-            below: below.to_owned(),
-            above: String::new(),
-        };
-        Symbol {
-            letters: vec![letter],
-        }
+        let letter = Letter { letter: letter.to_owned(), accent, below: below.to_owned(), above: String::new() };
+        Symbol { letters: vec![letter] }
     }
 
     /// Returns this symbol with `above` as the superscript of its last letter.
@@ -97,21 +90,12 @@ impl Symbol {
         let mut group = Group::with_class("symbol");
         let mut at = rect.at.moved(0.0, ASCENT_AND_DESCENT.0 * size);
         for letter in &self.letters {
-            group = group.with(Text::new(
-                at,
-                letter.letter.as_str(),
-                Face::SerifItalic,
-                size,
-                ink,
-            ));
-            group
-                .items
-                .extend(accent(letter, at, size, ink).map(Into::into));
+            group = group.with(Text::new(at, letter.letter.as_str(), Face::SerifItalic, size, ink));
+            group.items.extend(accent(letter, at, size, ink).map(Into::into));
             let beside = at.moved(text::width(&letter.letter, Face::SerifItalic, size), 0.0);
-            for (words, lean, down) in [
-                (&letter.below, 0.04, SUBSCRIPT_DROP),
-                (&letter.above, SUPERSCRIPT_GAP, -SUPERSCRIPT_RISE),
-            ] {
+            for (words, lean, down) in
+                [(&letter.below, 0.04, SUBSCRIPT_DROP), (&letter.above, SUPERSCRIPT_GAP, -SUPERSCRIPT_RISE)]
+            {
                 let mut at = beside.moved(lean * size, down * size);
                 for (run, face) in runs(words) {
                     group = group.with(Text::new(at, run.as_str(), face, SCRIPT_SCALE * size, ink));
@@ -144,11 +128,7 @@ fn wide(letter: &Letter, size: f64) -> f64 {
 fn runs(words: &str) -> Vec<(String, Face)> {
     let mut runs: Vec<(String, Face)> = Vec::new();
     for c in words.chars() {
-        let face = if c.is_alphabetic() {
-            Face::SerifItalic
-        } else {
-            Face::Serif
-        };
+        let face = if c.is_alphabetic() { Face::SerifItalic } else { Face::Serif };
         match runs.last_mut() {
             Some((run, last)) if *last == face => run.push(c),
             _ => runs.push((c.to_string(), face)),
@@ -160,10 +140,7 @@ fn runs(words: &str) -> Vec<(String, Face)> {
 /// Returns the arrow or hat above a letter, or `None` if the letter has no accent. The left end of the letter's
 /// baseline lies at `at`. `size` is the font size in pixels.
 fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path> {
-    let tall = letter
-        .letter
-        .chars()
-        .any(|c| c.is_uppercase() || "bdfhklt".contains(c));
+    let tall = letter.letter.chars().any(|c| c.is_uppercase() || "bdfhklt".contains(c));
     let high = if tall { 0.76 } else { 0.58 } * size;
     let wide = text::width(&letter.letter, Face::SerifItalic, size);
     let stroke = Stroke::new(ink, 0.045 * size);
@@ -175,20 +152,12 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
             let half = (0.5 * wide).clamp(0.2 * size, 0.3 * size);
             let (tip, head) = (middle.moved(half, 0.0), 0.028 * HEAD_WIDTH * size);
             let mut outline = Outline::line([middle.moved(-half, 0.0), tip]);
-            outline.extend(Outline::line([
-                tip.moved(-head, -head),
-                tip,
-                tip.moved(-head, head),
-            ]));
+            outline.extend(Outline::line([tip.moved(-head, -head), tip, tip.moved(-head, head)]));
             Some(Path::stroked(outline, stroke))
         }
         Accent::Hat => {
             let (half, high) = (0.15 * size, 0.12 * size);
-            let hat = [
-                middle.moved(-half, 0.0),
-                middle.moved(0.0, -high),
-                middle.moved(half, 0.0),
-            ];
+            let hat = [middle.moved(-half, 0.0), middle.moved(0.0, -high), middle.moved(half, 0.0)];
             Some(Path::stroked(Outline::line(hat), stroke))
         }
     }
@@ -216,11 +185,7 @@ mod tests {
     fn all_ink_lies_in_the_rectangle() {
         let symbol = Symbol::new("F", Accent::Arrow, "fl1").raised("(2)");
         let (width, height) = symbol.size(20.0);
-        let rect = PageRect {
-            at: PagePoint::new(3.0, 7.0),
-            width,
-            height,
-        };
+        let rect = PageRect { at: PagePoint::new(3.0, 7.0), width, height };
         for item in symbol.draw(rect, 20.0, Colour::BLACK).items {
             match item {
                 Item::Text(text) => {

@@ -29,13 +29,7 @@ pub enum Face {
 
 impl Face {
     /// All faces.
-    pub const ALL: [Face; 5] = [
-        Face::Serif,
-        Face::SerifItalic,
-        Face::SerifBold,
-        Face::Sans,
-        Face::SansBold,
-    ];
+    pub const ALL: [Face; 5] = [Face::Serif, Face::SerifItalic, Face::SerifBold, Face::Sans, Face::SansBold];
 
     /// Returns the bytes of the font file of this face.
     pub fn data(self) -> &'static [u8] {
@@ -121,22 +115,8 @@ pub struct Text {
 
 impl Text {
     /// Creates a line of text. The left end of its baseline lies at `at`. `size` is the font size in pixels.
-    pub fn new(
-        at: PagePoint,
-        words: impl Into<String>,
-        face: Face,
-        size: f64,
-        fill: Colour,
-    ) -> Text {
-        Text {
-            at,
-            anchor: Anchor::Start,
-            words: words.into(),
-            face,
-            size,
-            fill,
-            halo: None,
-        }
+    pub fn new(at: PagePoint, words: impl Into<String>, face: Face, size: f64, fill: Colour) -> Text {
+        Text { at, anchor: Anchor::Start, words: words.into(), face, size, fill, halo: None }
     }
 
     /// Returns the same text with another anchor: the start, the middle or the end of the line then lies at
@@ -147,10 +127,7 @@ impl Text {
 
     /// Returns the same text with a border (halo) around its letters; `width` is in pixels.
     pub fn with_halo(self, colour: Colour, width: f64) -> Text {
-        Text {
-            halo: Some((colour, width)),
-            ..self
-        }
+        Text { halo: Some((colour, width)), ..self }
     }
 }
 
@@ -199,8 +176,7 @@ fn estimated_advance(c: char) -> f64 {
 /// Returns the advance widths of the 128 ASCII characters as fractions of the font size. The widths are computed once,
 /// because line breaking needs them often.
 fn common_advances(face: Face) -> &'static [f64] {
-    static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] =
-        [const { OnceLock::new() }; Face::ALL.len()];
+    static KNOWN: [OnceLock<Vec<f64>>; Face::ALL.len()] = [const { OnceLock::new() }; Face::ALL.len()];
     KNOWN[face as usize].get_or_init(|| {
         let width = |c| advance(face as usize, c).unwrap_or_else(|| estimated_advance(c));
         (0..128_u8).map(|c| width(char::from(c))).collect()
@@ -214,11 +190,7 @@ pub fn wrap(words: &str, face: Face, size: f64, room: f64) -> Vec<String> {
     let mut line = String::new();
     let breaks = |c: char| c.is_whitespace() && c != NO_BREAK;
     for word in words.split(breaks).filter(|word| !word.is_empty()) {
-        let longer = if line.is_empty() {
-            word.to_owned()
-        } else {
-            format!("{line} {word}")
-        };
+        let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
         if width(&longer, face, size) <= room {
             line = longer;
             continue;
@@ -304,17 +276,13 @@ mod tests {
         let font = face.font();
         let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
         let width = |glyph| metrics.advance_width(glyph).unwrap_or(0.0) as u16;
-        (char::MIN..=char::MAX)
-            .filter_map(|c| Some((c, width(font.charmap().map(c)?))))
-            .collect()
+        (char::MIN..=char::MAX).filter_map(|c| Some((c, width(font.charmap().map(c)?)))).collect()
     }
 
     #[test]
     fn the_table_of_widths_contains_the_widths_of_the_fonts() {
         let table = Face::ALL.map(|face| {
-            let metrics = face
-                .font()
-                .metrics(Size::unscaled(), LocationRef::default());
+            let metrics = face.font().metrics(Size::unscaled(), LocationRef::default());
             advance::written(metrics.units_per_em, &characters(face))
         });
         let table = table.concat();
@@ -322,10 +290,7 @@ mod tests {
             let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
             std::fs::write(root.join("assets/fonts/advances.bin"), &table).expect("written");
         }
-        assert!(
-            advance::is(&table),
-            "set UPDATE_SNAPSHOTS=1, and build again"
-        );
+        assert!(advance::is(&table), "set UPDATE_SNAPSHOTS=1, and build again");
     }
 
     #[test]
@@ -344,15 +309,9 @@ mod tests {
     #[test]
     fn widths_depend_on_the_letters_and_are_proportional_to_the_size() {
         for face in Face::ALL {
-            assert!(
-                width("W", face, 20.0) > 2.0 * width("i", face, 20.0),
-                "{face:?}"
-            );
+            assert!(width("W", face, 20.0) > 2.0 * width("i", face, 20.0), "{face:?}");
             let (one, two) = (width("Robot 0", face, 10.0), width("Robot 0", face, 20.0));
-            assert!(
-                (two - 2.0 * one).abs() < 1e-3 && one > 20.0,
-                "{face:?} {one}"
-            );
+            assert!((two - 2.0 * one).abs() < 1e-3 && one > 20.0, "{face:?} {one}");
         }
     }
 
@@ -365,9 +324,7 @@ mod tests {
         assert_eq!(lines.concat().replace(' ', ""), words.replace(' ', ""));
         assert!(wrap(" \n\t", Face::Serif, 15.0, 120.0).is_empty());
         assert_eq!(
-            wrap("a pull of 750\u{a0}mN", Face::Sans, 12.0, 80.0)
-                .last()
-                .map(String::as_str),
+            wrap("a pull of 750\u{a0}mN", Face::Sans, 12.0, 80.0).last().map(String::as_str),
             Some("750\u{a0}mN")
         );
         let cut = cut(lines, 2, Face::Serif, 15.0, 120.0);

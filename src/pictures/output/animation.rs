@@ -49,29 +49,17 @@ pub fn apng(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErr
         }
         None => encoder.set_color(::png::ColorType::Rgba),
     }
-    encoder
-        .set_animated(patches.len() as u32, 0)
-        .map_err(failed)?;
+    encoder.set_animated(patches.len() as u32, 0).map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
     for (number, patch) in patches.iter().enumerate() {
         // The encoder checks after each call that the frame lies inside the picture. Therefore move the frame to the
         // upper left corner before its size changes.
         writer.reset_frame_position().map_err(failed)?;
-        writer
-            .set_frame_dimension(patch.width, patch.height)
-            .map_err(failed)?;
-        writer
-            .set_frame_position(patch.x, patch.y)
-            .map_err(failed)?;
-        writer
-            .set_frame_delay(patch.hundredths, 100)
-            .map_err(failed)?;
+        writer.set_frame_dimension(patch.width, patch.height).map_err(failed)?;
+        writer.set_frame_position(patch.x, patch.y).map_err(failed)?;
+        writer.set_frame_delay(patch.hundredths, 100).map_err(failed)?;
         let over = palette.is_some() && number > 0;
-        let blend = if over {
-            ::png::BlendOp::Over
-        } else {
-            ::png::BlendOp::Source
-        };
+        let blend = if over { ::png::BlendOp::Over } else { ::png::BlendOp::Source };
         writer.set_blend_op(blend).map_err(failed)?;
         let data = match &palette {
             Some(palette) => palette.indices(patch),
@@ -94,18 +82,12 @@ pub fn gif(steps: &[Step], size: Size, fonts: &Fonts) -> Result<Vec<u8>, PngErro
     let wrong = |why: &str| PngError::Encode(why.to_owned());
     let palette = Palette::new(&patches)
         .ok_or_else(|| wrong("a GIF must not have transparent pixels; give the page a colour"))?;
-    let side = |pixels: u32| {
-        u16::try_from(pixels).map_err(|_| wrong("a GIF has at most 65535 pixels along a side"))
-    };
+    let side = |pixels: u32| u16::try_from(pixels).map_err(|_| wrong("a GIF has at most 65535 pixels along a side"));
     let failed = |e: ::gif::EncodingError| PngError::Encode(e.to_string());
     let mut bytes = Vec::new();
-    let mut encoder =
-        ::gif::Encoder::new(&mut bytes, side(width)?, side(height)?, &palette.bytes())
-            .map_err(failed)?;
+    let mut encoder = ::gif::Encoder::new(&mut bytes, side(width)?, side(height)?, &palette.bytes()).map_err(failed)?;
     if patches.len() > 1 {
-        encoder
-            .set_repeat(::gif::Repeat::Infinite)
-            .map_err(failed)?;
+        encoder.set_repeat(::gif::Repeat::Infinite).map_err(failed)?;
     }
     for patch in &patches {
         let frame = ::gif::Frame {
@@ -136,8 +118,6 @@ fn film(steps: &[Step], size: Size, fonts: &Fonts) -> Result<(Vec<Patch>, [u32; 
     if !steps.iter().all(sound) {
         return wrong("each picture is shown for 0.01 to 600 seconds");
     }
-    let rasters = steps
-        .iter()
-        .map(|step| Ok((rgba_in(&step.svg, size, fonts)?, step.seconds)));
+    let rasters = steps.iter().map(|step| Ok((rgba_in(&step.svg, size, fonts)?, step.seconds)));
     patches(rasters)
 }

@@ -59,17 +59,11 @@ static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), WriteError> {
     let mut ready = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let prepared = prepare(path, bytes, existing).map_err(|why| WriteError {
-            path: path.clone(),
-            why,
-        })?;
+        let prepared = prepare(path, bytes, existing).map_err(|why| WriteError { path: path.clone(), why })?;
         ready.push(prepared);
     }
     for (prepared, (path, bytes)) in ready.into_iter().zip(files) {
-        prepared.put(bytes, existing).map_err(|why| WriteError {
-            path: path.clone(),
-            why,
-        })?;
+        prepared.put(bytes, existing).map_err(|why| WriteError { path: path.clone(), why })?;
     }
     Ok(())
 }
@@ -106,9 +100,7 @@ fn same_file((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
 
 fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
     // A poisoned lock is no problem: the list is valid even if a thread panicked while it held the lock.
-    TEMPORARY_FILES
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
+    TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file that is prepared for writing.
@@ -137,21 +129,13 @@ struct TemporaryFile {
 
 impl TemporaryFile {
     fn make(target: PathBuf) -> io::Result<TemporaryFile> {
-        let folder = target
-            .parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
+        let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         // Lock the list before the file is created, so that no file exists without an entry in the list.
         let mut list = temporary_files();
-        let file = builder()
-            .tempfile_in(folder)
-            .map_err(|error| nameless(&error))?;
+        let file = builder().tempfile_in(folder).map_err(|error| nameless(&error))?;
         list.push(file.path().to_owned());
         drop(list);
-        Ok(TemporaryFile {
-            file: Some(file),
-            target,
-        })
+        Ok(TemporaryFile { file: Some(file), target })
     }
 
     fn fill(&mut self, bytes: &[u8], old: Option<&Metadata>) -> io::Result<()> {
@@ -217,16 +201,10 @@ fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<Prepared
     let old = fs::metadata(&target).ok();
     if let Some(old) = &old {
         if old.is_dir() {
-            return Err(io::Error::new(
-                io::ErrorKind::IsADirectory,
-                "it is a folder",
-            ));
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
         if existing == Existing::Keep {
-            return Err(io::Error::new(
-                io::ErrorKind::AlreadyExists,
-                "it already exists",
-            ));
+            return Err(io::Error::new(io::ErrorKind::AlreadyExists, "it already exists"));
         }
         // Open the existing file without changing it: a file that this user may not write must not be replaced either.
         let open = OpenOptions::new().write(true).open(&target)?;
@@ -282,23 +260,13 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let good = folder.path().join("good.svg");
         fs::write(&good, "before").expect("writable");
-        for bad in [
-            folder.path().join("missing").join("bad.svg"),
-            folder.path().to_owned(),
-        ] {
-            let files = [
-                (good.clone(), b"after".to_vec()),
-                (bad.clone(), b"after".to_vec()),
-            ];
+        for bad in [folder.path().join("missing").join("bad.svg"), folder.path().to_owned()] {
+            let files = [(good.clone(), b"after".to_vec()), (bad.clone(), b"after".to_vec())];
             let refused = write_whole(&files, Existing::Replace).expect_err("no such place");
             assert_eq!(refused.path, bad);
             assert!(!refused.to_string().contains(".part"), "{refused}");
             assert_eq!(fs::read(&good).expect("still there"), b"before");
-            assert_eq!(
-                fs::read_dir(folder.path()).expect("listed").count(),
-                1,
-                "no temporary file is left"
-            );
+            assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1, "no temporary file is left");
         }
     }
 
@@ -320,10 +288,7 @@ mod tests {
         write("dangling.svg").expect("written");
         assert_eq!(fs::read(at("deep/real.svg")).expect("there"), b"new");
         assert_eq!(fs::read(at("deep/new.svg")).expect("there"), b"new");
-        let mode = fs::metadata(at("deep/real.svg"))
-            .expect("there")
-            .permissions()
-            .mode();
+        let mode = fs::metadata(at("deep/real.svg")).expect("there").permissions().mode();
         assert_eq!(mode & 0o777, 0o640);
         for link in ["one.svg", "two.svg", "dangling.svg"] {
             assert!(at(link).is_symlink(), "{link} is still a link");
@@ -349,9 +314,6 @@ mod tests {
         let null = Path::new("/dev/null");
         assert!(!same(null, null), "a device may be input and output");
         write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace).expect("written");
-        assert!(
-            !fs::metadata(null).expect("there").is_file(),
-            "no file replaces the device"
-        );
+        assert!(!fs::metadata(null).expect("there").is_file(), "no file replaces the device");
     }
 }

@@ -32,9 +32,7 @@ impl Fonts {
         if let Some(wrong) = files.iter().position(|data| !text::opens(data)) {
             return Err(wrong);
         }
-        Ok(Fonts {
-            more: files.into_iter().map(Arc::new).collect(),
-        })
+        Ok(Fonts { more: files.into_iter().map(Arc::new).collect() })
     }
 
     /// Returns the added font files.
@@ -55,10 +53,7 @@ impl Fonts {
     /// first appearance.
     pub fn lacking(&self, text: &str) -> Vec<char> {
         let mut lacking = Vec::new();
-        for c in text
-            .chars()
-            .filter(|c| !c.is_ascii_graphic() && !self.has(*c))
-        {
+        for c in text.chars().filter(|c| !c.is_ascii_graphic() && !self.has(*c)) {
             if !lacking.contains(&c) {
                 lacking.push(c);
             }
@@ -101,10 +96,7 @@ mod tests {
     fn characters_in_no_font_are_spelled_out_so_that_names_stay_different() {
         let fonts = Fonts::default();
         let names = ["石", "塔", "لوح", "पत्थर", "돌", "🪨", "a\u{202e}b", "\u{7}"];
-        let mut spelled: Vec<String> = names
-            .iter()
-            .map(|n| fonts.spelled(n).into_owned())
-            .collect();
+        let mut spelled: Vec<String> = names.iter().map(|n| fonts.spelled(n).into_owned()).collect();
         for name in &spelled {
             assert!(fonts.lacking(name).is_empty(), "{name}");
         }

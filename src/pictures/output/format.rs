@@ -67,13 +67,7 @@ struct Declaration {
 
 impl Format {
     /// All formats, in the order in which help lists them.
-    pub(crate) const ALL: [Format; 5] = [
-        Format::Svg,
-        Format::Png,
-        Format::Gif,
-        Format::Pdf,
-        Format::Tikz,
-    ];
+    pub(crate) const ALL: [Format; 5] = [Format::Svg, Format::Png, Format::Gif, Format::Pdf, Format::Tikz];
 
     fn declaration(self) -> Declaration {
         match self {
@@ -107,9 +101,7 @@ impl Format {
                 is_text: false,
                 has_pixels: false,
                 lays_out_words: true,
-                write: |drawing, settings| {
-                    Ok(pdf::write_in(drawing, settings.width_mm, settings.fonts)?)
-                },
+                write: |drawing, settings| Ok(pdf::write_in(drawing, settings.width_mm, settings.fonts)?),
             },
             Format::Tikz => Declaration {
                 ending: "tikz",
@@ -130,9 +122,7 @@ impl Format {
     /// Returns the format with this file ending, or `None` if there is no such format. `ending` must be in lower case
     /// and without a dot.
     pub(crate) fn from_ending(ending: &str) -> Option<Format> {
-        Format::ALL
-            .into_iter()
-            .find(|format| format.ending() == ending)
+        Format::ALL.into_iter().find(|format| format.ending() == ending)
     }
 
     /// Returns the description of the format in the help of the command line.
@@ -164,27 +154,18 @@ impl Format {
     pub(crate) fn unreadable(self) -> Option<String> {
         let declaration = self.declaration();
         let name = declaration.ending.to_ascii_uppercase();
-        (!declaration.is_text)
-            .then(|| format!("a {name} cannot be shown on a terminal; write it to a file with -o"))
+        (!declaration.is_text).then(|| format!("a {name} cannot be shown on a terminal; write it to a file with -o"))
     }
 
     /// Converts a drawing to the bytes of a file in this format.
-    pub(crate) fn write(
-        self,
-        drawing: &Drawing,
-        settings: &Settings<'_>,
-    ) -> Result<Vec<u8>, FormatError> {
+    pub(crate) fn write(self, drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
         (self.declaration().write)(drawing, settings)
     }
 }
 
 fn write_svg(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
-    let options = svg::Options {
-        width_mm: settings.width_mm,
-        words: settings.words,
-        fonts: settings.fonts.clone(),
-        mark: None,
-    };
+    let options =
+        svg::Options { width_mm: settings.width_mm, words: settings.words, fonts: settings.fonts.clone(), mark: None };
     Ok(svg::write_with(drawing, &options)?.into_bytes())
 }
 
@@ -192,20 +173,12 @@ fn write_png(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, Form
     // Check the size before the SVG is written, because the SVG takes far more memory than the drawing.
     png::check(drawing.width, drawing.height, settings.size)?;
     let svg = svg::for_pixels(drawing);
-    Ok(png::render_in(
-        &svg,
-        settings.size,
-        settings.fonts,
-        settings.compression,
-    )?)
+    Ok(png::render_in(&svg, settings.size, settings.fonts, settings.compression)?)
 }
 
 fn write_gif(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
     png::check(drawing.width, drawing.height, settings.size)?;
-    let still = Step {
-        svg: svg::for_pixels(drawing),
-        seconds: 1.0,
-    };
+    let still = Step { svg: svg::for_pixels(drawing), seconds: 1.0 };
     Ok(animation::gif(&[still], settings.size, settings.fonts)?)
 }
 

@@ -80,27 +80,16 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfErr
 ///
 /// # Errors
 /// See [`write()`].
-pub fn write_in(
-    drawing: &Drawing,
-    width_mm: Option<f64>,
-    fonts: &Fonts,
-) -> Result<Vec<u8>, PdfError> {
+pub fn write_in(drawing: &Drawing, width_mm: Option<f64>, fonts: &Fonts) -> Result<Vec<u8>, PdfError> {
     let natural_mm = drawing.width * MM_PER_INCH / PIXELS_PER_INCH;
     let width = width_mm.unwrap_or(natural_mm);
     let sheet = Sheet {
         width: drawing.width,
         height: drawing.height,
-        parts: vec![Inset {
-            content: Content::Drawing(drawing),
-            at: PagePoint::new(0.0, 0.0),
-            scale: 1.0,
-        }],
+        parts: vec![Inset { content: Content::Drawing(drawing), at: PagePoint::new(0.0, 0.0), scale: 1.0 }],
         links: Vec::new(),
     };
-    let heading = Heading {
-        title: &drawing.title,
-        description: &drawing.description,
-    };
+    let heading = Heading { title: &drawing.title, description: &drawing.description };
     document(&[sheet], width / drawing.width, &heading, &[], fonts)
 }
 
@@ -196,11 +185,7 @@ pub struct Heading<'t> {
 ///
 /// # Errors
 /// See [`write()`]; each page is checked.
-pub fn write_sheets(
-    sheets: &[Sheet<'_>],
-    heading: &Heading<'_>,
-    bookmarks: &[Bookmark],
-) -> Result<Vec<u8>, PdfError> {
+pub fn write_sheets(sheets: &[Sheet<'_>], heading: &Heading<'_>, bookmarks: &[Bookmark]) -> Result<Vec<u8>, PdfError> {
     let natural = MM_PER_INCH / PIXELS_PER_INCH;
     document(sheets, natural, heading, bookmarks, &Fonts::default())
 }
@@ -237,8 +222,7 @@ fn document(
         if !(fits(width) && fits(height)) {
             return Err(PdfError::Size { width, height });
         }
-        let settings = PageSettings::from_wh(points(width), points(height))
-            .ok_or(PdfError::Size { width, height })?;
+        let settings = PageSettings::from_wh(points(width), points(height)).ok_or(PdfError::Size { width, height })?;
         let scale = points(width) / sheet.width as f32;
         let mut page = document.start_page_with(settings);
         let mut surface = page.surface();
@@ -254,17 +238,13 @@ fn document(
         page.finish();
     }
     let mut tree = TagTree::new();
-    structure::grouped(tags)
-        .into_iter()
-        .for_each(|node| tree.push(node));
+    structure::grouped(tags).into_iter().for_each(|node| tree.push(node));
     document.set_tag_tree(tree);
     let scale = points(mm_per_pixel);
     if !bookmarks.is_empty() {
         document.set_outline(structure::outline(bookmarks, scale));
     }
-    document
-        .finish()
-        .map_err(|e| PdfError::Write(e.to_string()))
+    document.finish().map_err(|e| PdfError::Write(e.to_string()))
 }
 
 fn points(mm: f64) -> f32 {
@@ -279,9 +259,7 @@ fn annotation(link: &Link, scale: f32) -> Annotation {
     let area = Rect::from_xywh(x, y, wide.max(1.0), high.max(1.0));
     let top = XyzDestination::new(link.page, Point::from_xy(0.0, 0.0));
     let target = Target::Destination(Destination::Xyz(top));
-    let area = area.unwrap_or_else(|| {
-        Rect::from_xywh(0.0, 0.0, 1.0, 1.0).expect("an area of one point is not empty")
-    });
+    let area = area.unwrap_or_else(|| Rect::from_xywh(0.0, 0.0, 1.0, 1.0).expect("an area of one point is not empty"));
     Annotation::new_link(LinkAnnotation::new(area, target), Some(line(&link.words)))
 }
 
@@ -313,10 +291,7 @@ fn inset(
     let mut tagged = |content: &mut dyn FnMut(&mut PdfPainter<'_, '_>), tag: ContentTag<'_>| {
         let id = surface.start_tagged(tag);
         surface.push_transform(&place);
-        let mut pen = PdfPainter {
-            surface: &mut *surface,
-            fonts: std::mem::take(known),
-        };
+        let mut pen = PdfPainter { surface: &mut *surface, fonts: std::mem::take(known) };
         content(&mut pen);
         *known = pen.fonts;
         surface.pop();
@@ -333,11 +308,7 @@ fn inset(
         let usvg::Node::Group(group) = node else {
             continue;
         };
-        let number = group
-            .id()
-            .rsplit("-e")
-            .next()
-            .and_then(|n| n.parse::<usize>().ok());
+        let number = group.id().rsplit("-e").next().and_then(|n| n.parse::<usize>().ok());
         let role = number.and_then(|n| roles.get(n)).unwrap_or(&Role::Artifact);
         let tag = match role {
             Role::Artifact => ContentTag::Artifact(Artifact::with_kind(ArtifactType::Layout)),

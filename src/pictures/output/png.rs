@@ -99,12 +99,7 @@ pub fn render(svg: &str, size: Size) -> Result<Vec<u8>, PngError> {
 ///
 /// # Errors
 /// See [`render`].
-pub fn render_in(
-    svg: &str,
-    size: Size,
-    fonts: &Fonts,
-    compression: Compression,
-) -> Result<Vec<u8>, PngError> {
+pub fn render_in(svg: &str, size: Size, fonts: &Fonts, compression: Compression) -> Result<Vec<u8>, PngError> {
     encode(raster(svg, size, fonts)?, per_metre(size), compression)
 }
 
@@ -165,31 +160,21 @@ fn pixels(natural_width: f64, natural_height: f64, size: Size) -> Result<(f64, f
         Size::Scale(scale) => scale,
         Size::Print { width_mm, dpi } => width_mm / MM_PER_INCH * dpi / natural_width,
     };
-    let (width, height) = (
-        (natural_width * scale).round(),
-        (natural_height * scale).round(),
-    );
+    let (width, height) = ((natural_width * scale).round(), (natural_height * scale).round());
     let fits = |side: f64| (1.0..=f64::from(MAX_SIDE)).contains(&side);
     if fits(width) && fits(height) && width * height <= MAX_PIXELS as f64 {
         Ok((width, height))
     } else {
-        Err(PngError::Size {
-            width: natural_width * scale,
-            height: natural_height * scale,
-        })
+        Err(PngError::Size { width: natural_width * scale, height: natural_height * scale })
     }
 }
 
 /// Renders an SVG to pixels. The colours are premultiplied by their opacity.
 fn raster(svg: &str, size: Size, fonts: &Fonts) -> Result<Pixmap, PngError> {
     let tree = tree::read(svg, fonts).map_err(PngError::Svg)?;
-    let natural = (
-        f64::from(tree.size().width()),
-        f64::from(tree.size().height()),
-    );
+    let natural = (f64::from(tree.size().width()), f64::from(tree.size().height()));
     let (width, height) = pixels(natural.0, natural.1, size)?;
-    let mut pixels =
-        Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
+    let mut pixels = Pixmap::new(width as u32, height as u32).ok_or(PngError::Size { width, height })?;
     // Stretch the drawing by less than one pixel, so that it fills whole pixels. Otherwise the border pixels of the
     // picture would be partly transparent.
     let scale = Transform::from_scale((width / natural.0) as f32, (height / natural.1) as f32);

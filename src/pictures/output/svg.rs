@@ -162,10 +162,7 @@ enum Form<'f> {
     #[cfg(feature = "embed")]
     Embedded(&'f str),
     /// As path data. The map has the path data of each line of text, by the number of the line.
-    #[cfg_attr(
-        not(feature = "png"),
-        expect(dead_code, reason = "only used if text can be laid out")
-    )]
+    #[cfg_attr(not(feature = "png"), expect(dead_code, reason = "only used if text can be laid out"))]
     Outlines(&'f BTreeMap<usize, String>),
 }
 
@@ -173,20 +170,11 @@ enum Form<'f> {
 const DEFAULT_FACE: Face = Face::Sans;
 
 fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>) -> String {
-    let mut svg = Writer {
-        text: String::new(),
-        mark,
-        form,
-        clips: 0,
-        texts: 0,
-    };
+    let mut svg = Writer { text: String::new(), mark, form, clips: 0, texts: 0 };
     let (w, h) = (number(drawing.width), number(drawing.height));
     let (across, down) = match width_mm {
         None => (w.clone(), h.clone()),
-        Some(mm) => (
-            format!("{}mm", number(mm)),
-            format!("{}mm", number(mm * drawing.height / drawing.width)),
-        ),
+        Some(mm) => (format!("{}mm", number(mm)), format!("{}mm", number(mm * drawing.height / drawing.width))),
     };
     // Write attributes that most shapes and texts share only once, at the root element.
     svg.put(&format!(
@@ -196,24 +184,15 @@ fn document(drawing: &Drawing, width_mm: Option<f64>, mark: &str, form: Form<'_>
         svg.families(DEFAULT_FACE)
     ));
     if !svg.is_bare() {
-        svg.put(&format!(
-            "<title id=\"{mark}-title\">{}</title>\n",
-            xml(&drawing.title)
-        ));
-        svg.put(&format!(
-            "<desc id=\"{mark}-desc\">{}</desc>\n",
-            xml(&drawing.description)
-        ));
+        svg.put(&format!("<title id=\"{mark}-title\">{}</title>\n", xml(&drawing.title)));
+        svg.put(&format!("<desc id=\"{mark}-desc\">{}</desc>\n", xml(&drawing.description)));
     }
     #[cfg(feature = "embed")]
     if let Form::Embedded(sheet) = form {
         svg.put(&format!("<style>\n{sheet}</style>\n"));
     }
     if let Some(colour) = drawing.background {
-        svg.put(&format!(
-            "<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n",
-            colour.css()
-        ));
+        svg.put(&format!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", colour.css()));
     }
     for item in &drawing.items {
         svg.item(item);
@@ -367,9 +346,7 @@ impl Writer<'_> {
 }
 
 fn holds_titles(items: &[Item]) -> bool {
-    items
-        .iter()
-        .any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
+    items.iter().any(|item| matches!(item, Item::Group(g) if !g.title.is_empty() || holds_titles(&g.items)))
 }
 
 /// Returns a 32-bit hash of a text: the exclusive or of the two halves of a 64-bit hash.

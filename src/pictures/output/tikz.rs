@@ -7,8 +7,7 @@ use std::fmt::Write as _;
 
 use super::{MM_PER_INCH, PIXELS_PER_INCH};
 use crate::drawing::{
-    Anchor, Colour, Drawing, Face, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke,
-    Text,
+    Anchor, Colour, Drawing, Face, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke, Text,
 };
 
 /// PostScript points per inch; TeX calls them big points (`bp`).
@@ -34,21 +33,12 @@ pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> String {
         Some(mm) => mm / drawing.width * BIG_POINTS_PER_INCH / MM_PER_INCH,
         None => BIG_POINTS_PER_INCH / PIXELS_PER_INCH,
     };
-    let mut pen = TikzWriter {
-        text: String::new(),
-        unit,
-    };
+    let mut pen = TikzWriter { text: String::new(), unit };
     pen.line(&format!("% {}", comment(&drawing.title)));
-    pen.line(&format!(
-        "\\begin{{tikzpicture}}[x={u}bp,y=-{u}bp,line join=round,line cap=round]",
-        u = number(unit)
-    ));
+    pen.line(&format!("\\begin{{tikzpicture}}[x={u}bp,y=-{u}bp,line join=round,line cap=round]", u = number(unit)));
     let (w, h) = (number(drawing.width), number(drawing.height));
     match drawing.background {
-        Some(page) => pen.line(&format!(
-            "\\fill[{}] (0,0) rectangle ({w},{h});",
-            fill(page)
-        )),
+        Some(page) => pen.line(&format!("\\fill[{}] (0,0) rectangle ({w},{h});", fill(page))),
         None => pen.line(&format!("\\path (0,0) rectangle ({w},{h});")),
     }
     pen.items(&drawing.items);
@@ -85,11 +75,7 @@ impl TikzWriter {
         };
         let end = clip.at.moved(clip.width, clip.height);
         self.line("\\begin{scope}");
-        self.line(&format!(
-            "\\clip {} rectangle {};",
-            place(clip.at),
-            place(end)
-        ));
+        self.line(&format!("\\clip {} rectangle {};", place(clip.at), place(end)));
         self.items(&group.items);
         self.line("\\end{scope}");
     }
@@ -99,14 +85,8 @@ impl TikzWriter {
             return;
         }
         let steps = steps(&path.outline);
-        let opacity = if path.opacity < 1.0 {
-            format!(",opacity={}", number(path.opacity))
-        } else {
-            String::new()
-        };
-        let filled = path
-            .fill
-            .map(|c| format!("\\fill[{}{opacity}] {steps};", fill(c)));
+        let opacity = if path.opacity < 1.0 { format!(",opacity={}", number(path.opacity)) } else { String::new() };
+        let filled = path.fill.map(|c| format!("\\fill[{}{opacity}] {steps};", fill(c)));
         let drawn = path.stroke.as_ref().filter(|s| s.width > 0.0);
         let drawn = drawn.map(|s| format!("\\draw[{}{opacity}] {steps};", self.stroke(s)));
         let mut passes = [filled, drawn];
@@ -119,11 +99,7 @@ impl TikzWriter {
     }
 
     fn stroke(&self, stroke: &Stroke) -> String {
-        let mut stated = format!(
-            "draw={},line width={}bp",
-            colour(stroke.colour),
-            number(stroke.width * self.unit)
-        );
+        let mut stated = format!("draw={},line width={}bp", colour(stroke.colour), number(stroke.width * self.unit));
         if stroke.join == Join::Miter {
             stated.push_str(",line join=miter,line cap=butt");
         }
@@ -193,10 +169,7 @@ fn steps(outline: &Outline) -> String {
 
 /// Formats a number with at most three decimals and without an exponent, which TeX cannot read.
 fn number(value: f64) -> String {
-    assert!(
-        value.is_finite(),
-        "a drawing holds the number {value}; every number of a drawing is finite"
-    );
+    assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
     let mut text = format!("{value:.3}");
     let kept = text.trim_end_matches('0').trim_end_matches('.').len();
     text.truncate(kept);
@@ -205,9 +178,7 @@ fn number(value: f64) -> String {
 
 /// Replaces control characters, such as line breaks, by spaces, so that the text fits in a one-line comment.
 fn comment(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Escapes text for LaTeX. Letters of other scripts are not changed, except μ, which becomes `$\mu$`.
@@ -238,8 +209,7 @@ fn escaped(words: &str) -> String {
             '–' => out.push_str("--"),
             '—' => out.push_str("---"),
             '⁻' => out.push_str("$^{-}$"),
-            '⁰'..='⁹' | '¹' | '²' | '³' => match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c)
-            {
+            '⁰'..='⁹' | '¹' | '²' | '³' => match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c) {
                 Some(digit) => {
                     let _ = write!(out, "$^{{{digit}}}$");
                 }
@@ -273,10 +243,7 @@ mod tests {
             before = c;
         }
         assert_eq!(depth, 0, "{escaped}");
-        assert!(
-            escaped.contains("$\\times$10$^{-}$$^{3}$ N$\\cdot$m"),
-            "{escaped}"
-        );
+        assert!(escaped.contains("$\\times$10$^{-}$$^{3}$ N$\\cdot$m"), "{escaped}");
     }
 
     #[test]

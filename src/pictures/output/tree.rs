@@ -115,11 +115,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
         };
         match runs.last_mut().filter(|run| run.face == face) {
             Some(run) => run.glyphs.push(placed),
-            None => runs.push(Run {
-                face,
-                size: f64::from(glyph.font_size()),
-                glyphs: vec![placed],
-            }),
+            None => runs.push(Run { face, size: f64::from(glyph.font_size()), glyphs: vec![placed] }),
         }
     }
     runs
@@ -128,10 +124,7 @@ pub(super) fn runs(span: &usvg::layout::Span) -> Vec<Run> {
 /// Returns the face of the built-in font with this id, or `None` for an added font.
 pub(super) fn face(id: fontdb::ID) -> Option<Face> {
     let known = &fonts().1;
-    known
-        .iter()
-        .find(|(of, _)| *of == id)
-        .map(|(_, face)| *face)
+    known.iter().find(|(of, _)| *of == id).map(|(_, face)| *face)
 }
 
 /// The built-in fonts, and the id of each font in the font database.

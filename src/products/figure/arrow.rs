@@ -165,10 +165,7 @@ impl Marks {
         let torques = torques.filter(|t| t.arc.abs() < least).count();
         // The arrow of a torque is as long as the arrow of a force of magnitude torque / unit.
         let force = least / unit * self.newtons_per_unit;
-        let parts = [
-            ("force", forces, force, units.force()),
-            ("torque", torques, force * unit, units.torque()),
-        ];
+        let parts = [("force", forces, force, units.force()), ("torque", torques, force * unit, units.torque())];
         let parts = parts.into_iter().filter(|part| part.1 > 0);
         let parts = parts.map(|(what, count, limit, of)| {
             let limit = quantity(round_above(limit), of);
@@ -218,11 +215,7 @@ pub(crate) fn distance_to_arrow(arrow: &ForceArrow, p: Point) -> f64 {
 fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
     let along = b - a;
     let length = along.norm_squared();
-    let share = if length > 0.0 {
-        ((p - a).dot(&along) / length).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let share = if length > 0.0 { ((p - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
     (p - (a + along * share)).norm()
 }
 
@@ -253,11 +246,7 @@ mod tests {
             let note = marks.unseen(unit, 1.0, UnitsEntry::default());
             let note = note.expect("a note on the hidden torque");
             let limit = round_above(MIN_VISIBLE_ARROW * 10.0);
-            assert_eq!(
-                note,
-                format!("1 torque under {limit} N·m not drawn"),
-                "{unit}"
-            );
+            assert_eq!(note, format!("1 torque under {limit} N·m not drawn"), "{unit}");
         }
     }
 }

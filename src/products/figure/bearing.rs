@@ -27,11 +27,7 @@ pub(crate) struct Bearing {
 /// entry is `None` for a contact whose normal force is 0 or [numerical noise](noise).
 pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
     let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
-    let largest = frame_analysis
-        .contacts
-        .iter()
-        .map(pressed)
-        .fold(0.0, f64::max);
+    let largest = frame_analysis.contacts.iter().map(pressed).fold(0.0, f64::max);
     let bearing = |contact: &Contact| {
         let pressed = pressed(contact);
         let [one, other] = contact.normal_forces;

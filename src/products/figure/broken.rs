@@ -28,10 +28,7 @@ struct ListEntry {
 
 impl ListEntry {
     fn numbered(number: usize, words: String) -> ListEntry {
-        ListEntry {
-            number: Some(number),
-            words,
-        }
+        ListEntry { number: Some(number), words }
     }
 
     /// Returns a final entry such as `And 3 more gaps.` if there are more than [`MAX_MARKED`] entries of one kind.
@@ -39,10 +36,7 @@ impl ListEntry {
     /// plural.
     fn unlisted(count: usize, what: &str) -> Option<ListEntry> {
         let more = count.saturating_sub(MAX_MARKED);
-        (more > 0).then(|| ListEntry {
-            number: None,
-            words: format!("And {more} more {what}."),
-        })
+        (more > 0).then(|| ListEntry { number: None, words: format!("And {more} more {what}.") })
     }
 }
 
@@ -96,10 +90,7 @@ pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
         width: wide,
         height: (y + MAX_MARGIN).ceil(),
         title,
-        description: format!(
-            "The outlines of the scene file, without forces. {}",
-            listed.join(" ")
-        ),
+        description: format!("The outlines of the scene file, without forces. {}", listed.join(" ")),
         background: Some(theme.page),
         items,
     }
@@ -150,12 +141,7 @@ fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
     for (i, (problem, spot)) in problems.enumerate().take(MAX_MARKED) {
         let number = i + 1;
         if let Some(Spot { at, bodies }) = spot {
-            marks.push(NumberedMark {
-                at: *at,
-                bodies: bodies.clone(),
-                code: Some(problem.code),
-                number,
-            });
+            marks.push(NumberedMark { at: *at, bodies: bodies.clone(), code: Some(problem.code), number });
         }
         let words = problem_in_words(problem, spot.is_some());
         entries.push(ListEntry::numbered(number, words));
@@ -176,12 +162,7 @@ fn marks(sketch: &Sketch) -> (Vec<NumberedMark>, Vec<ListEntry>) {
             name(gap.bodies[1])
         );
         entries.push(ListEntry::numbered(number, words));
-        marks.push(NumberedMark {
-            at: gap.at,
-            bodies: gap.bodies.to_vec(),
-            code: None,
-            number,
-        });
+        marks.push(NumberedMark { at: gap.at, bodies: gap.bodies.to_vec(), code: None, number });
     }
     entries.extend(ListEntry::unlisted(near.len(), "gaps"));
     (marks, entries)

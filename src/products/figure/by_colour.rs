@@ -16,10 +16,7 @@ impl ByColour {
 
     /// Returns one filled path for each colour. All paths have the same stroke.
     pub fn paths(self, stroke: Option<Stroke>) -> impl Iterator<Item = Item> {
-        let path = move |(fill, outline)| Path {
-            stroke: stroke.clone(),
-            ..Path::filled(outline, fill)
-        };
+        let path = move |(fill, outline)| Path { stroke: stroke.clone(), ..Path::filled(outline, fill) };
         self.0.into_iter().map(path).map(Item::from)
     }
 

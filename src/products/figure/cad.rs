@@ -49,9 +49,7 @@ const LETTER_SHARE: f64 = 0.15;
 /// ```
 pub fn dxf(analysis: &Analysis, frame: usize) -> String {
     let scene = &analysis.scene;
-    let (Some(placed), Some(frame_analysis)) =
-        (scene.frames.get(frame), analysis.frames.get(frame))
-    else {
+    let (Some(placed), Some(frame_analysis)) = (scene.frames.get(frame), analysis.frames.get(frame)) else {
         return String::new();
     };
     let unit = unit::unit(scene, None);
@@ -137,12 +135,7 @@ impl DxfWriter {
             self.group(62, &colour.to_string());
             self.group(6, "CONTINUOUS");
         }
-        for (code, value) in [
-            (0, "ENDTAB"),
-            (0, "ENDSEC"),
-            (0, "SECTION"),
-            (2, "ENTITIES"),
-        ] {
+        for (code, value) in [(0, "ENDTAB"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")] {
             self.group(code, value);
         }
     }

@@ -20,9 +20,7 @@ use super::words::{quantity, round_below_in};
 use crate::analysis::CapacityShape;
 use crate::drawing::arrow::straight;
 use crate::drawing::placement::Ink;
-use crate::drawing::{
-    Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
-};
+use crate::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
 use crate::geometry::{Bounds, Point};
 use crate::scene::Scene;
 use crate::wording;
@@ -100,18 +98,10 @@ impl PanelContent for CarriedForces {
             entries.push(Entry::Symbol(force_symbol, 26.0, words.into()));
         }
         if plans.iter().any(|p| !p.capacity.rays.is_empty()) {
-            entries.push(Entry::Symbol(
-                open_symbol,
-                26.0,
-                "continues without limit".into(),
-            ));
+            entries.push(Entry::Symbol(open_symbol, 26.0, "continues without limit".into()));
         }
         if plans.len() > 1 {
-            entries.push(Entry::Symbol(
-                before_symbol,
-                26.0,
-                "in the previous step".into(),
-            ));
+            entries.push(Entry::Symbol(before_symbol, 26.0, "in the previous step".into()));
         }
         if plans.iter().any(|p| !p.pictures.is_empty()) {
             entries.push(Entry::Symbol(
@@ -182,11 +172,7 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
     let colour = edge_colour(theme);
     for side in &plan.sides {
         let [from, to] = side.ends.map(|p| pen.camera.place(p));
-        let width = if side.number.is_some() {
-            EDGE_WIDTHS.0
-        } else {
-            EDGE_WIDTHS.1
-        };
+        let width = if side.number.is_some() { EDGE_WIDTHS.0 } else { EDGE_WIDTHS.1 };
         ink.line(from, to, width);
         let stroke = Stroke::new(colour, width);
         group = group.with(Path::stroked(Outline::line([from, to]), stroke));
@@ -208,9 +194,7 @@ fn polygon(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink, callouts: &mut Vec<Cal
         }
     }
     if plan.capacity.shape() == CapacityShape::Point {
-        let at = pen
-            .camera
-            .place(plan.zero + plan.capacity.vertices[0].force * plan.scale);
+        let at = pen.camera.place(plan.zero + plan.capacity.vertices[0].force * plan.scale);
         ink.disc(at, DOT_RADIUS);
         group = group.with(Path::filled(Outline::circle(at, DOT_RADIUS), colour));
     }
@@ -253,12 +237,7 @@ fn leader(pen: &Pen<'_>, plan: &Plan<'_>, ink: &mut Ink) -> Group {
     let dotted = Stroke::new(theme.faint, 1.0).dashed([1.5, 3.0]);
     let mut group = Group::with_class("leader");
     group = group.with(Path::stroked(Outline::line([from, to]), dotted));
-    let ends: Vec<PagePoint> = plan
-        .capacity
-        .at
-        .iter()
-        .map(|p| pen.camera.place(*p))
-        .collect();
+    let ends: Vec<PagePoint> = plan.capacity.at.iter().map(|p| pen.camera.place(*p)).collect();
     if ends.len() > 1 {
         let stroke = Stroke::new(edge_colour(theme), 3.2);
         group = group.with(Path::stroked(Outline::line(ends), stroke));
@@ -273,9 +252,7 @@ fn earlier(pen: &Pen<'_>, plan: &Plan<'_>) -> Group {
     let theme = &pen.context.options.theme;
     let ring = plan.ring.iter().map(|p| pen.camera.place(*p));
     let path = Path::stroked(Outline::ring(ring), before_stroke(theme));
-    Group::with_class("before")
-        .titled("The forces that the block could carry in the previous step")
-        .with(path)
+    Group::with_class("before").titled("The forces that the block could carry in the previous step").with(path)
 }
 
 fn before_stroke(theme: &Theme) -> Stroke {
@@ -294,13 +271,9 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let moved = Course::new(&ghost, pen.number, pen.context.unit / small.scale.sqrt()).at(1.0);
     let line = Stroke::new(theme.outline, (0.6 * pen.line).max(0.5));
     let mut group = Group::with_class("mechanism");
-    group = group.titled(format!(
-        "How the structure begins to fall beyond edge {}",
-        small.number
-    ));
+    group = group.titled(format!("How the structure begins to fall beyond edge {}", small.number));
     group = group.with(small_ground(pen, shown, &place));
-    let (mut rest, mut was, mut goes) =
-        (Outline::default(), Outline::default(), Outline::default());
+    let (mut rest, mut was, mut goes) = (Outline::default(), Outline::default(), Outline::default());
     for id in &scene.frames[pen.number].placed {
         let displaced = moved.get(id.0).and_then(Option::as_ref);
         for ring in scene.blocks[id.0].body.polygon.rings() {
@@ -315,9 +288,7 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
         }
     }
     let dashed = Stroke::new(theme.rule, 0.7).dashed([2.0, 1.6]);
-    group = group
-        .with(Path::stroked(was, dashed))
-        .with(Path::filled(rest, theme.block).with_stroke(line.clone()));
+    group = group.with(Path::stroked(was, dashed)).with(Path::filled(rest, theme.block).with_stroke(line.clone()));
     let fill = theme.page.mixed(theme.motion, DISPLACED_OPACITY);
     let edge = theme.motion.mixed(theme.ink, 0.25);
     group = group.with(Path::filled(goes, fill).with_stroke(Stroke::new(edge, line.width)));
@@ -329,27 +300,15 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let along = (small.outward.x * length, -small.outward.y * length);
     group = group.with(Path::filled(straight(from, along, 1.6), edge_colour(theme)));
     // Write the number to the left of the picture, because a low and wide picture has no free corner.
-    let at = PagePoint::new(
-        shown.at.x - 1.0,
-        shown.at.y + 0.5 * shown.height + 0.36 * theme.sizes.amount,
-    );
+    let at = PagePoint::new(shown.at.x - 1.0, shown.at.y + 0.5 * shown.height + 0.36 * theme.sizes.amount);
     ink.disc(at.moved(-3.0, -0.36 * theme.sizes.amount), 4.0);
-    let number = Text::new(
-        at,
-        small.number.to_string(),
-        Face::SansBold,
-        theme.sizes.amount,
-        edge_colour(theme),
-    );
+    let number = Text::new(at, small.number.to_string(), Face::SansBold, theme.sizes.amount, edge_colour(theme));
     group.with(number.anchored(Anchor::End))
 }
 
 /// Draws the ground in a small picture. `place` converts a point of the scene to a point of the page.
 fn small_ground(pen: &Pen<'_>, shown: PageRect, place: &impl Fn(Point) -> PagePoint) -> Group {
-    let mut ground = Group {
-        clip: Some(shown),
-        ..Group::with_class("ground")
-    };
+    let mut ground = Group { clip: Some(shown), ..Group::with_class("ground") };
     for body in &pen.context.analysis.scene.ground {
         let mut outline = Outline::default();
         for ring in body.body.polygon.rings() {
@@ -365,8 +324,7 @@ fn edge_colour(theme: &Theme) -> crate::drawing::Colour {
 }
 
 fn dot(at: PagePoint, theme: &Theme) -> Path {
-    Path::filled(Outline::circle(at, DOT_RADIUS), theme.page)
-        .with_stroke(Stroke::new(theme.ink, 1.5))
+    Path::filled(Outline::circle(at, DOT_RADIUS), theme.page).with_stroke(Stroke::new(theme.ink, 1.5))
 }
 
 /// Returns a small triangle at `end`, which shows that the edge from `other` continues beyond `end` without limit.
@@ -383,16 +341,10 @@ fn open_end(end: PagePoint, other: PagePoint) -> Outline {
 }
 
 fn area_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let swatch = PageRect {
-        at: at.moved(0.0, -6.5),
-        width: 20.0,
-        height: 13.0,
-    };
+    let swatch = PageRect { at: at.moved(0.0, -6.5), width: 20.0, height: 13.0 };
     let outline = Outline::rounded(swatch, 0.0);
     vec![
-        Path::filled(outline.clone(), theme.safe)
-            .with_opacity(AREA_OPACITY)
-            .into(),
+        Path::filled(outline.clone(), theme.safe).with_opacity(AREA_OPACITY).into(),
         Path::stroked(outline, Stroke::new(edge_colour(theme), EDGE_WIDTHS.1)).into(),
     ]
 }

@@ -30,11 +30,7 @@ pub fn caption(analysis: &Analysis) -> String {
             _ => verdict.to_owned(),
         };
         let reasons = reasons(scene, frame_analysis);
-        let reasons = if reasons.is_empty() {
-            String::new()
-        } else {
-            format!(": {reasons}")
-        };
+        let reasons = if reasons.is_empty() { String::new() } else { format!(": {reasons}") };
         let title = &scene.frames[number].title;
         sentences.push(match (several, title.as_str()) {
             (false, _) => format!("It {verdict}{reasons}."),

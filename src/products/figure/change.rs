@@ -64,10 +64,7 @@ pub(crate) fn shared_forces<'a>([then, now]: [(&Scene, &'a [Contact]); 2]) -> Ve
         let rest = before.get_mut(&names).filter(|rest| !rest.is_empty())?;
         let same = rest.iter().position(|other| is_same_place(other, contact));
         let contacts = [rest.remove(same.unwrap_or(0)), contact];
-        Some(ForceChange {
-            contacts,
-            forces: [force(then.0, contacts[0]), force(now.0, contact)],
-        })
+        Some(ForceChange { contacts, forces: [force(then.0, contacts[0]), force(now.0, contact)] })
     };
     now.1.iter().filter_map(pair).collect()
 }

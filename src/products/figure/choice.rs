@@ -38,8 +38,7 @@ pub(crate) fn named_block(scene: &Scene, name: &str) -> Result<BlockId, String> 
     let number = scene.blocks.iter().position(|b| b.id == name);
     number.map(BlockId).ok_or_else(|| {
         let known = scene.blocks.iter().map(|b| b.id.as_str());
-        let near = nearest(name, known)
-            .map_or_else(|| listed(scene), |near| format!("; did you mean {near}?"));
+        let near = nearest(name, known).map_or_else(|| listed(scene), |near| format!("; did you mean {near}?"));
         format!("there is no block {name}{near}")
     })
 }

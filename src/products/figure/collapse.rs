@@ -50,12 +50,7 @@ pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
 fn collapse(analysis: &Analysis, frame: usize) -> String {
     let joints = joints(analysis, frame);
     let bodies = rigid_bodies(analysis, frame, &joints);
-    let sentences = Sentences {
-        analysis,
-        frame,
-        joints: &joints,
-        bodies: &bodies,
-    };
+    let sentences = Sentences { analysis, frame, joints: &joints, bodies: &bodies };
     let hinges = joints.iter().filter(|j| j.hinge.is_some()).count();
     let slips = joints.iter().filter(|j| j.slip != 0.0).count();
     let counts: Vec<String> = [(hinges, "hinge"), (slips, "sliding interface")]
@@ -72,11 +67,7 @@ fn collapse(analysis: &Analysis, frame: usize) -> String {
     }
     let moving: usize = bodies.iter().map(Vec::len).sum();
     let blocks = analysis.scene.frames[frame].placed.len();
-    let how = if counts.is_empty() {
-        String::new()
-    } else {
-        format!(" with {}", listed(&counts))
-    };
+    let how = if counts.is_empty() { String::new() } else { format!(" with {}", listed(&counts)) };
     let bodies = bodies.len();
     format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
 }
@@ -93,20 +84,14 @@ impl Sentences<'_> {
     /// Describes the motion of one rigid body, such as `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
         let scene = &self.analysis.scene;
-        let names: Vec<String> = body
-            .iter()
-            .map(|m| scene.blocks[m.block.0].id.clone())
-            .collect();
+        let names: Vec<String> = body.iter().map(|m| scene.blocks[m.block.0].id.clone()).collect();
         let subject = match names.len() {
             1 => format!("block{NO_BREAK}{}", names[0]),
             n if n <= MAX_NAMED_BLOCKS => format!("blocks {}", listed(&names)),
             n => format!("{n} blocks"),
         };
-        let (turns, slides, falls) = if body.len() == 1 {
-            ("turns", "slides", "falls")
-        } else {
-            ("turn", "slide", "fall")
-        };
+        let (turns, slides, falls) =
+            if body.len() == 1 { ("turns", "slides", "falls") } else { ("turn", "slide", "fall") };
         let fastest = body.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
         let slip = self.joints_of(body).find(|j| j.0.slip != 0.0);
         if !self.turning(body, fastest) {
@@ -125,25 +110,15 @@ impl Sentences<'_> {
         match (hinge, slip) {
             (Some((_, other)), _) => {
                 // With a safety kernel, a block turns about a point inside its interface and not about a corner.
-                let about = if scene.kernel > 0.0 {
-                    "hinge"
-                } else {
-                    "corner"
-                };
+                let about = if scene.kernel > 0.0 { "hinge" } else { "corner" };
                 let mut slips = self.joints_of(body).filter(|j| j.0.slip != 0.0);
                 let also = match slips.find(|(_, support)| !self.moves(*support)) {
                     Some((_, support)) => format!(" and {slides} on {}", self.named(support)),
                     None => String::new(),
                 };
-                format!(
-                    "{subject} {turns} about a {about} on {}{also}",
-                    self.named(other)
-                )
+                format!("{subject} {turns} about a {about} on {}{also}", self.named(other))
             }
-            (None, Some(_)) => format!(
-                "{subject} {turns} and {slides} on {}",
-                self.slipped_on(body)
-            ),
+            (None, Some(_)) => format!("{subject} {turns} and {slides} on {}", self.slipped_on(body)),
             (None, None) => format!("{subject} {turns}"),
         }
     }
@@ -165,8 +140,7 @@ impl Sentences<'_> {
     /// block or ground. Joints to ground and to blocks at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
         let contacts = &self.analysis.frames[self.frame].contacts;
-        let within =
-            |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
+        let within = |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
         let mut joints: Vec<(&Joint, BodyId)> = Vec::new();
         for joint in self.joints {
             let [a, b] = contacts[joint.contact].interface.bodies;
@@ -187,9 +161,7 @@ impl Sentences<'_> {
         if others.iter().any(|other| !self.moves(*other)) {
             others.retain(|other| !self.moves(*other));
         }
-        let ground = others
-            .iter()
-            .any(|other| matches!(other, BodyId::Ground(_)));
+        let ground = others.iter().any(|other| matches!(other, BodyId::Ground(_)));
         let mut names: Vec<String> = Vec::new();
         for other in others {
             let name = self.analysis.scene.name(other);
@@ -225,9 +197,7 @@ impl Sentences<'_> {
         let scene = &self.analysis.scene;
         let robots = &self.analysis.frames[self.frame].robots;
         let holding = robots.iter().find(|robot| {
-            body.iter().any(|m| {
-                m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest
-            })
+            body.iter().any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest)
         })?;
         Some(&scene.robots[holding.robot.0].id)
     }

@@ -37,8 +37,7 @@ fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     };
     let frames = &analysis.scene.frames;
     let (now, before) = (&frames[frame].placed, &frames[earlier].placed);
-    let without =
-        |a: &[BlockId], b: &[BlockId]| a.iter().copied().filter(|id| !b.contains(id)).collect();
+    let without = |a: &[BlockId], b: &[BlockId]| a.iter().copied().filter(|id| !b.contains(id)).collect();
     [without(now, before), without(before, now)]
 }
 
@@ -89,9 +88,7 @@ impl PanelContent for Comparison {
     }
 
     fn extent(&self, of: FrameSource<'_>, _unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let FrameSource {
-            analysis, frame, ..
-        } = of;
+        let FrameSource { analysis, frame, .. } = of;
         let [_, gone] = blocks(analysis, frame);
         let bounds = |id: &BlockId| analysis.scene.blocks[id.0].body.polygon.bounds();
         gone.iter().map(bounds).reduce(Bounds::union)
@@ -134,18 +131,14 @@ impl PanelContent for Comparison {
             let now = change.contacts[1];
             let at = camera.place(now.resultant.at);
             let pair = description::pair(scene, now.interface.bodies);
-            let [was, is] = change
-                .amounts()
-                .map(|amount| quantity(amount, scene.units.force()));
+            let [was, is] = change.amounts().map(|amount| quantity(amount, scene.units.force()));
             let title = format!("Between {pair}: {was} before, {is} now");
             ink.disc(at, radius + 1.0);
             let stroke = Stroke::new(theme.motion, 1.6);
             let ring = Path::stroked(Outline::circle(at, radius), stroke);
             let drawn = Group::with_class("change").titled(title);
             changed.items.push(drawn.with(ring).into());
-            before
-                .items
-                .extend(previous_arrows(pen, &change, &true_lines));
+            before.items.extend(previous_arrows(pen, &change, &true_lines));
         }
         parts.extend([before, pen.arrows(false), pen.arrows(true), changed]);
         composed(pen, view, pen.blocks(), parts, ink)
@@ -161,9 +154,7 @@ impl PanelContent for Comparison {
         for frame in 0..context.analysis.frames.len() {
             let [new, gone] = blocks(context.analysis, frame);
             came |= !new.is_empty();
-            altered |= new
-                .iter()
-                .any(|id| gone.iter().any(|g| name(g) == name(id)));
+            altered |= new.iter().any(|id| gone.iter().any(|g| name(g) == name(id)));
             went |= !left_behind(scene, &new, &gone).is_empty();
             changed |= !changes(context.analysis, frame).0.is_empty();
         }
@@ -172,11 +163,7 @@ impl PanelContent for Comparison {
             entries.push(Entry::Symbol(new_symbol, 20.0, words.to_owned()));
         }
         if went {
-            let words = if altered {
-                "gone, or the previous outline"
-            } else {
-                "gone"
-            };
+            let words = if altered { "gone, or the previous outline" } else { "gone" };
             entries.push(Entry::Symbol(gone_symbol, 20.0, words.to_owned()));
         }
         if changed {
@@ -212,18 +199,8 @@ impl PanelContent for Comparison {
         let (came, went) = (names(&came), names(&went));
         // `both` are the names of blocks that both frames contain, but with different outlines, weights or loads.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
-        let alone = |names: &[String]| -> Vec<String> {
-            names
-                .iter()
-                .filter(|n| !both.contains(n))
-                .cloned()
-                .collect()
-        };
-        for (names, how) in [
-            (alone(&came), "new"),
-            (alone(&went), "gone"),
-            (both.clone(), "changed"),
-        ] {
+        let alone = |names: &[String]| -> Vec<String> { names.iter().filter(|n| !both.contains(n)).cloned().collect() };
+        for (names, how) in [(alone(&came), "new"), (alone(&went), "gone"), (both.clone(), "changed")] {
             match names.len() {
                 0 => {}
                 n if n <= MAX_NAMED_BLOCKS => stated.push(format!("{how}: {}", listed(&names))),
@@ -281,18 +258,11 @@ fn new_path(outline: Outline, theme: &Theme) -> Path {
 }
 
 fn gone_path(outline: Outline, theme: &Theme) -> Path {
-    Path::stroked(
-        outline,
-        Stroke::new(theme.motion, GONE_WIDTH).dashed([5.0, 4.0]),
-    )
+    Path::stroked(outline, Stroke::new(theme.motion, GONE_WIDTH).dashed([5.0, 4.0]))
 }
 
 fn swatch(at: PagePoint) -> Outline {
-    let rect = PageRect {
-        at: at.moved(0.0, -6.5),
-        width: 20.0,
-        height: 13.0,
-    };
+    let rect = PageRect { at: at.moved(0.0, -6.5), width: 20.0, height: 13.0 };
     Outline::rounded(rect, 0.0)
 }
 

@@ -12,9 +12,7 @@ use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
-use super::load_arrows::{
-    lengthen_loads, load_marks, load_scale, uncover_from_missing_forces, uncover_from_weights,
-};
+use super::load_arrows::{lengthen_loads, load_marks, load_scale, uncover_from_missing_forces, uncover_from_weights};
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
@@ -120,29 +118,18 @@ pub(crate) trait PanelContent: Sync {
 impl<'a> FigureContext<'a> {
     /// Computes the data that all panels of a figure share. Each step uses the results of the earlier steps: the scale
     /// of the arrows, the arrows, the shown part of each frame, and the text below each verdict.
-    pub fn new(
-        analysis: &'a Analysis,
-        options: &'a Options,
-        content: &dyn PanelContent,
-    ) -> FigureContext<'a> {
+    pub fn new(analysis: &'a Analysis, options: &'a Options, content: &dyn PanelContent) -> FigureContext<'a> {
         let scene = &analysis.scene;
         let about = content.about();
         let frames = 0..analysis.frames.len();
         let marks = scaled_marks(analysis, options, content);
         let unit = unit(scene, options.zoom);
-        let courses: Vec<Course> = frames
-            .clone()
-            .map(|frame| content.course(analysis, frame, unit))
-            .collect();
+        let courses: Vec<Course> = frames.clone().map(|frame| content.course(analysis, frame, unit)).collect();
         let shown = match options.zoom {
             Some(block) => vec![view::zoomed_view(scene, block); marks.len()],
             None => {
                 let extent = |frame: usize| {
-                    let source = FrameSource {
-                        analysis,
-                        frame,
-                        options,
-                    };
+                    let source = FrameSource { analysis, frame, options };
                     let own = content.extent(source, unit, &marks[frame]);
                     let reach = courses[frame].reach(scene, &marks[frame]);
                     own.into_iter().chain(reach).reduce(Bounds::union)
@@ -151,10 +138,7 @@ impl<'a> FigureContext<'a> {
                 view::shown(scene, &marks, &extents, options.theme.widths.disc, unit)
             }
         };
-        let nothing = Bounds {
-            min: Point::origin(),
-            max: Point::origin(),
-        };
+        let nothing = Bounds { min: Point::origin(), max: Point::origin() };
         let view = shown.iter().copied().reduce(Bounds::union);
         let mut context = FigureContext {
             analysis,
@@ -174,9 +158,7 @@ impl<'a> FigureContext<'a> {
             cramped: Cell::new(0),
         };
         context.move_blocks(options.motion_progress);
-        context.statements = frames
-            .map(|frame| content.reason(&context, frame))
-            .collect();
+        context.statements = frames.map(|frame| content.reason(&context, frame)).collect();
         context
     }
 }
@@ -185,19 +167,11 @@ impl<'a> FigureContext<'a> {
 /// kind of figure draws the forces on each block, except in the style of the thesis.
 fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelContent) -> Vec<Marks> {
     let about = content.about();
-    let source = |frame: usize| FrameSource {
-        analysis,
-        frame,
-        options,
-    };
+    let source = |frame: usize| FrameSource { analysis, frame, options };
     let frames = 0..analysis.frames.len();
-    let own: Vec<f64> = frames
-        .map(|frame| content.largest_force(source(frame)))
-        .collect();
+    let own: Vec<f64> = frames.map(|frame| content.largest_force(source(frame))).collect();
     let shared = own.iter().copied().fold(0.0, f64::max);
-    let zoomed = options
-        .zoom
-        .map(|block| view::zoomed_view(&analysis.scene, block));
+    let zoomed = options.zoom.map(|block| view::zoomed_view(&analysis.scene, block));
     let (stretch, least_load) = match about.stretches_arrows && !options.printed() {
         true => stretch(analysis, options),
         false => (1.0, 0.0),
@@ -215,9 +189,7 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     };
     let mut all: Vec<Marks> = own.iter().copied().enumerate().map(scaled).collect();
     match options.scale {
-        ArrowScale::Panel => all
-            .iter_mut()
-            .for_each(|marks| lengthen_loads(core::slice::from_mut(marks), least_load)),
+        ArrowScale::Panel => all.iter_mut().for_each(|marks| lengthen_loads(core::slice::from_mut(marks), least_load)),
         ArrowScale::Strip => lengthen_loads(&mut all, least_load),
     }
     for marks in &mut all {

@@ -61,26 +61,16 @@ impl<'a> FigureContext<'a> {
     /// Moves the blocks of every frame along their paths, together with the arrows on them. `path_share` is 0 at the
     /// beginning of the path and 1 at its end.
     pub fn move_blocks(&mut self, path_share: f64) {
-        self.displaced = self
-            .courses
-            .iter()
-            .map(|course| course.at(path_share))
-            .collect();
+        self.displaced = self.courses.iter().map(|course| course.at(path_share)).collect();
         let frames = self.still.iter().zip(&self.displaced);
-        self.marks = frames
-            .map(|(marks, displaced)| displacement::moved_marks(marks, displaced))
-            .collect();
+        self.marks = frames.map(|(marks, displaced)| displacement::moved_marks(marks, displaced)).collect();
     }
 
     /// Returns the extreme thrust states of a frame. The forces of the frame may vary between these states. The first
     /// call computes the states of all frames.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
         let frames = 0..self.analysis.frames.len();
-        let all = || {
-            frames
-                .map(|frame| self.analysis.thrust_states(frame))
-                .collect()
-        };
+        let all = || frames.map(|frame| self.analysis.thrust_states(frame)).collect();
         &self.thrust.get_or_init(all)[frame]
     }
 
@@ -92,10 +82,7 @@ impl<'a> FigureContext<'a> {
             Some(ground) if ground.min.y <= self.view.min.y + self.unit => 0.0,
             _ => down,
         };
-        let grown = |b: Bounds| Bounds {
-            min: b.min - Vector::new(across, down),
-            max: b.max + Vector::new(across, up),
-        };
+        let grown = |b: Bounds| Bounds { min: b.min - Vector::new(across, down), max: b.max + Vector::new(across, up) };
         self.shown.iter_mut().for_each(|b| *b = grown(*b));
         self.view = grown(self.view);
         self.cramped.set(0);
@@ -106,12 +93,7 @@ impl<'a> FigureContext<'a> {
     /// show the forces. False if every frame has fewer than 40 blocks, or in the style of the thesis. Also false if the
     /// colours of blocks show no quantity, or if the scene file gives the colour of every block.
     pub fn arrows_too_small(&self, scale: f64) -> bool {
-        let has_plain_block = self
-            .analysis
-            .scene
-            .blocks
-            .iter()
-            .any(|b| b.body.fill.is_none());
+        let has_plain_block = self.analysis.scene.blocks.iter().any(|b| b.body.fill.is_none());
         let frames = self.analysis.scene.frames.iter();
         let most = frames.map(|f| f.placed.len()).max().unwrap_or(0);
         most >= MIN_CROWD
@@ -141,10 +123,7 @@ impl<'a> FigureContext<'a> {
     pub fn row(&self, frames: &[usize]) -> Bounds {
         let rows = frames.iter().filter_map(|f| self.shown.get(*f)).copied();
         let row = rows.reduce(Bounds::union).unwrap_or(self.view);
-        let (min, max) = (
-            Point::new(self.view.min.x, row.min.y),
-            Point::new(self.view.max.x, row.max.y),
-        );
+        let (min, max) = (Point::new(self.view.min.x, row.min.y), Point::new(self.view.max.x, row.max.y));
         Bounds { min, max }
     }
 }

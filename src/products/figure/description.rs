@@ -9,19 +9,12 @@ pub(crate) use crate::wording::failure::{named, pair};
 
 /// Returns the weight of a block and the value that its colour shows, in words. `place` is the index of the block among
 /// the placed blocks of the frame.
-pub(crate) fn block(
-    context: &FigureContext<'_>,
-    frame: usize,
-    place: usize,
-    block: &Block,
-) -> String {
+pub(crate) fn block(context: &FigureContext<'_>, frame: usize, place: usize, block: &Block) -> String {
     let weight = quantity(block.weight, context.analysis.scene.units.force());
     if !context.colours_show_amplitudes {
         return format!("weight {weight}");
     }
-    let fill = context
-        .fills
-        .description(context.fills.shares[frame][place]);
+    let fill = context.fills.description(context.fills.shares[frame][place]);
     if fill.is_empty() {
         return format!("weight {weight}");
     }
@@ -43,14 +36,8 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-    let (on, amount) = (
-        named(arrow.on),
-        force(arrow.force, context.analysis.scene.units),
-    );
-    let torque = quantity(
-        arrow.force.norm() * context.unit,
-        context.analysis.scene.units.torque(),
-    );
+    let (on, amount) = (named(arrow.on), force(arrow.force, context.analysis.scene.units));
+    let torque = quantity(arrow.force.norm() * context.unit, context.analysis.scene.units.torque());
     match arrow.kind {
         ArrowKind::Weight => format!("Weight of {on}: {amount}"),
         ArrowKind::Load => format!("Load on {on}: {amount}"),
@@ -81,27 +68,14 @@ pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
 /// Describes the torque that an arrow shows, such as `Torque of a load on block a: 6 N·m clockwise`.
 pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
     let scene = &context.analysis.scene;
-    let direction = if turn.torque > 0.0 {
-        "anticlockwise"
-    } else {
-        "clockwise"
-    };
-    let amount = format!(
-        "{} {direction}",
-        quantity(turn.torque.abs(), context.analysis.scene.units.torque())
-    );
+    let direction = if turn.torque > 0.0 { "anticlockwise" } else { "clockwise" };
+    let amount = format!("{} {direction}", quantity(turn.torque.abs(), context.analysis.scene.units.torque()));
     let on = scene.name(turn.on);
     match turn.kind {
         TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),
-        TurnKind::Robot(id) => format!(
-            "Torque on block {on} from robot {}: {amount}",
-            scene.robots[id.0].id
-        ),
+        TurnKind::Robot(id) => format!("Torque on block {on} from robot {}: {amount}", scene.robots[id.0].id),
         TurnKind::Missing(id) => {
-            format!(
-                "Missing torque on block {on} from robot {}: {amount}",
-                scene.robots[id.0].id
-            )
+            format!("Missing torque on block {on} from robot {}: {amount}", scene.robots[id.0].id)
         }
     }
 }
@@ -112,16 +86,10 @@ pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     let degrees = libm::atan2(motion.velocity.y, motion.velocity.x).to_degrees();
     let degrees = (degrees.round() + 360.0) % 360.0;
     let turning = motion.spin.abs().to_degrees();
-    let sense = if motion.spin > 0.0 {
-        "anticlockwise"
-    } else {
-        "clockwise"
-    };
+    let sense = if motion.spin > 0.0 { "anticlockwise" } else { "clockwise" };
     let begins = format!("Block {name} begins to move at {degrees:.0}°");
     match turning < 5e-4 {
         true => format!("{begins}, without turning"),
-        false => format!(
-            "{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves"
-        ),
+        false => format!("{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves"),
     }
 }

@@ -70,10 +70,7 @@ impl Course {
             amplitude: amplitude(analysis, &motions, unit),
             linkage: Linkage::new(analysis, frame, &joints, &motions),
         });
-        let mut course = Course {
-            groups: groups.collect(),
-            blocks: analysis.scene.blocks.len(),
-        };
+        let mut course = Course { groups: groups.collect(), blocks: analysis.scene.blocks.len() };
         course.stop_before_overlaps(analysis, frame);
         course
     }
@@ -97,8 +94,7 @@ impl Course {
     /// covers the start of the path and its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves.
     /// `marks` are the arrows before the motion.
     pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
-        let places = (0..=TESTED_POSITIONS)
-            .map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
+        let places = (0..=TESTED_POSITIONS).map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
         let each = places.filter_map(|displaced| {
             let blocks = displaced.iter().zip(&scene.blocks);
             let corners = blocks.filter_map(|(displacement, block)| {
@@ -134,14 +130,9 @@ impl Course {
             let Some((place, pairs)) = self.first_overlap(&clearance) else {
                 return;
             };
-            let factor =
-                ((f64::from(place) - 0.5) / f64::from(TESTED_POSITIONS)).max(MIN_REDUCTION_FACTOR);
-            let mut reduced: Vec<usize> = pairs
-                .into_iter()
-                .flatten()
-                .flatten()
-                .filter_map(|block| group_of[block.0])
-                .collect();
+            let factor = ((f64::from(place) - 0.5) / f64::from(TESTED_POSITIONS)).max(MIN_REDUCTION_FACTOR);
+            let mut reduced: Vec<usize> =
+                pairs.into_iter().flatten().flatten().filter_map(|block| group_of[block.0]).collect();
             reduced.sort_unstable();
             reduced.dedup();
             for number in reduced {
@@ -200,16 +191,9 @@ fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
     if fastest <= 0.0 {
         return 0.0;
     }
-    let displacement = f64::max(
-        MIN_DISPLACEMENT * unit.min(size),
-        MIN_DISPLACEMENT_SHARE * size,
-    );
+    let displacement = f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
     let amplitude = displacement / fastest;
-    if spin > 0.0 {
-        amplitude.min(MAX_ROTATION / spin)
-    } else {
-        amplitude
-    }
+    if spin > 0.0 { amplitude.min(MAX_ROTATION / spin) } else { amplitude }
 }
 
 #[cfg(test)]

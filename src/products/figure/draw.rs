@@ -57,12 +57,7 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 /// second.
 ///
 /// Units: all times are in seconds.
-pub fn film(
-    analysis: &Analysis,
-    kind: Kind,
-    options: &Options,
-    seconds: f64,
-) -> Vec<(Drawing, f64)> {
+pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
     let (analysis, options) = (shown(analysis, kind), kind.options(options));
     if !kind.content().about().needs_elementary_mechanisms {
         let pages = frame_pages(&analysis, kind, &options).into_iter();
@@ -70,9 +65,7 @@ pub fn film(
     }
     let mut steps: Vec<(usize, f64)> = Vec::new();
     let mut times = Vec::new();
-    let count = (seconds / MOTION_FRAME_SECONDS)
-        .round()
-        .clamp(MOTION_STEP_LIMITS.0, MOTION_STEP_LIMITS.1) as u32;
+    let count = (seconds / MOTION_FRAME_SECONDS).round().clamp(MOTION_STEP_LIMITS.0, MOTION_STEP_LIMITS.1) as u32;
     for (frame, frame_analysis) in analysis.frames.iter().enumerate() {
         if frame_analysis.verdict != Verdict::Unstable {
             steps.push((frame, 1.0));
@@ -99,12 +92,7 @@ pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing
 }
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
-pub fn panels_of(
-    analysis: &Analysis,
-    kind: Kind,
-    options: &Options,
-    frames: &[usize],
-) -> Vec<Drawing> {
+pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
     let analysis = shown(analysis, kind);
     let count = analysis.frames.len();
     let existing = frames.iter().copied().filter(|frame| *frame < count);

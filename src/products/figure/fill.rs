@@ -47,38 +47,23 @@ impl Fills {
         let scene = &analysis.scene;
         let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
             let frames = scene.frames.iter().zip(&analysis.frames);
-            frames
-                .map(|(frame, frame_analysis)| amount(scene, frame, frame_analysis))
-                .collect()
+            frames.map(|(frame, frame_analysis)| amount(scene, frame, frame_analysis)).collect()
         };
         let (scale, shares) = match rule {
             Fill::Amplitude => to_largest(each(amplitudes), FillScale::Largest),
-            Fill::Stress => to_largest(each(stresses), |largest| {
-                FillScale::Stress(largest, scene.thickness)
-            }),
+            Fill::Stress => to_largest(each(stresses), |largest| FillScale::Stress(largest, scene.thickness)),
             Fill::Friction => (FillScale::Friction, each(friction)),
-            Fill::None => (
-                FillScale::Plain,
-                each(|_, frame, _| vec![0.0; frame.placed.len()]),
-            ),
+            Fill::None => (FillScale::Plain, each(|_, frame, _| vec![0.0; frame.placed.len()])),
             Fill::Source => source(analysis, each(amplitudes)),
         };
-        Fills {
-            scale,
-            shares,
-            rule,
-            units: scene.units,
-        }
+        Fills { scale, shares, rule, units: scene.units }
     }
 
     /// True if the figure needs a legend of colours: colours show a quantity, and the shares differ or are not all near
     /// 0.
     pub fn vary(&self) -> bool {
         let all = || self.shares.iter().flatten().copied();
-        let (least, most) = (
-            all().fold(f64::INFINITY, f64::min),
-            all().fold(0.0, f64::max),
-        );
+        let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
         self.scale != FillScale::Plain && (most - least > 0.02 || most > 0.08)
     }
 
@@ -102,20 +87,17 @@ impl Fills {
                 let what = format!("of the robots' limit of {limit}, by the rule of the thesis");
                 (ends("100 %".into()), what)
             }
-            FillScale::Largest(largest) => (
-                ends(quantity(largest, self.units.force())),
-                "weight or largest normal force of a block".into(),
-            ),
+            FillScale::Largest(largest) => {
+                (ends(quantity(largest, self.units.force())), "weight or largest normal force of a block".into())
+            }
             FillScale::Stress(largest, thickness) => {
                 let thickness = quantity(thickness, self.units.length());
-                let what =
-                    format!("largest mean pressure on a joint of a block; thickness {thickness}");
+                let what = format!("largest mean pressure on a joint of a block; thickness {thickness}");
                 (ends(quantity(largest, self.units.stress())), what)
             }
-            FillScale::Friction => (
-                ends("100 %".into()),
-                "largest used share of the available friction at a joint of a block".into(),
-            ),
+            FillScale::Friction => {
+                (ends("100 %".into()), "largest used share of the available friction at a joint of a block".into())
+            }
             FillScale::Plain => (ends(String::new()), String::new()),
         }
     }
@@ -136,10 +118,7 @@ impl Fills {
                 format!("colour: {}", quantity(share * largest, self.units.stress()))
             }
             FillScale::Friction => {
-                format!(
-                    "colour: {:.1} % of the available friction used",
-                    100.0 * share
-                )
+                format!("colour: {:.1} % of the available friction used", 100.0 * share)
             }
             FillScale::Plain => String::new(),
         }
@@ -159,10 +138,7 @@ fn ramp(rule: Fill) -> fn(&Theme, f64) -> Colour {
 
 /// Returns the colour scale, and all amounts divided by the largest amount. `scale` makes the colour scale from the
 /// largest amount. All amounts have the same unit.
-fn to_largest(
-    amounts: Vec<Vec<f64>>,
-    scale: impl Fn(f64) -> FillScale,
-) -> (FillScale, Vec<Vec<f64>>) {
+fn to_largest(amounts: Vec<Vec<f64>>, scale: impl Fn(f64) -> FillScale) -> (FillScale, Vec<Vec<f64>>) {
     let largest = amounts.iter().flatten().copied().fold(0.0, f64::max);
     let share = |a: f64| if largest > 0.0 { a / largest } else { 0.0 };
     let frame = |frame: Vec<f64>| frame.into_iter().map(share).collect();
@@ -183,8 +159,7 @@ fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec
         .zip(amplitudes)
         .map(|((frame, frame_analysis), amplitudes)| {
             let of_block = |(block, amplitude): (&BlockId, f64)| {
-                robot_limit_used(scene, frame_analysis, *block)
-                    .unwrap_or_else(|| share(amplitude, limit))
+                robot_limit_used(scene, frame_analysis, *block).unwrap_or_else(|| share(amplitude, limit))
             };
             frame.placed.iter().zip(amplitudes).map(of_block).collect()
         })
@@ -236,15 +211,9 @@ fn largest(
 /// Returns, for each placed block in placing order, the larger of its weight and the largest normal force on its
 /// interfaces, N.
 fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    let normals = largest(scene, frame, frame_analysis, |c| {
-        c.normal_forces.iter().sum()
-    });
+    let normals = largest(scene, frame, frame_analysis, |c| c.normal_forces.iter().sum());
     let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
-    normals
-        .into_iter()
-        .zip(weights)
-        .map(|(n, w)| n.max(w))
-        .collect()
+    normals.into_iter().zip(weights).map(|(n, w)| n.max(w)).collect()
 }
 
 /// Returns, for each placed block, the largest mean normal stress on its interfaces, N/m². The stress is normal force /
@@ -262,10 +231,6 @@ fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec
 fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
         let pressed: f64 = contact.normal_forces.iter().sum();
-        if pressed > 0.0 {
-            contact.friction_used.clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        if pressed > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
     })
 }

@@ -64,11 +64,7 @@ impl PanelContent for ForceFlow {
     }
 
     fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
+        let FrameSource { analysis, frame, options } = of;
         let edge = unit(&analysis.scene, options.zoom);
         largest_arrow(analysis, frame) * edge / longest_load(&analysis.scene, options.zoom)
     }
@@ -110,11 +106,7 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     let longest = longest_load(&analysis.scene, options.zoom);
     let width = LOAD_SHAFT * longest;
     let shown = |arrow: ForceArrow| match arrow.kind {
-        ArrowKind::Load => Some(ForceArrow {
-            at: arrow.at - arrow.vector,
-            width,
-            ..arrow
-        }),
+        ArrowKind::Load => Some(ForceArrow { at: arrow.at - arrow.vector, width, ..arrow }),
         kind if kind.is_failure() => {
             let arrow = ForceArrow { width, ..arrow };
             Some(lengthened(arrow, LEAST_MISSING_ARROW * longest))
@@ -124,17 +116,11 @@ fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit:
     let turns = marks.turns.into_iter();
     let shown = Marks {
         arrows: marks.arrows.into_iter().filter_map(shown).collect(),
-        turns: turns
-            .filter(|turn| !matches!(turn.kind, TurnKind::Robot(_)))
-            .collect(),
+        turns: turns.filter(|turn| !matches!(turn.kind, TurnKind::Robot(_))).collect(),
         newtons_per_unit,
     };
     // If there are no arrows, return no scale either, so that the legend shows none.
-    if shown.arrows.is_empty() && shown.turns.is_empty() {
-        Marks::default()
-    } else {
-        shown
-    }
+    if shown.arrows.is_empty() && shown.turns.is_empty() { Marks::default() } else { shown }
 }
 
 /// Returns the arrow of a missing force with a length of at least `least` metres. For a pull, the tip of the arrow
@@ -149,11 +135,7 @@ fn lengthened(arrow: ForceArrow, least: f64) -> ForceArrow {
         ArrowKind::MissingPull(_) => arrow.at + arrow.vector - vector,
         _ => arrow.at,
     };
-    ForceArrow {
-        at,
-        vector,
-        ..arrow
-    }
+    ForceArrow { at, vector, ..arrow }
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
@@ -162,9 +144,7 @@ fn largest(context: &FigureContext<'_>) -> f64 {
     let contacts = frames.iter().filter_map(largest_contact);
     let contacts = contacts.map(|c| c.resultant.force.norm());
     let robots = frames.iter().flat_map(|f| &f.robots);
-    contacts
-        .chain(robots.map(|r| r.force.norm()))
-        .fold(0.0, f64::max)
+    contacts.chain(robots.map(|r| r.force.norm())).fold(0.0, f64::max)
 }
 
 /// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit length in pixels.
@@ -225,14 +205,7 @@ impl<'a> Picture<'a> {
         let dots = self.dots(&mut ink);
         let (forces, missing) = (self.pen.arrows(false), self.pen.arrows(true));
         let marks = vec![flow, dots, forces, missing];
-        composed_with(
-            self.pen,
-            view,
-            self.pen.blocks(),
-            marks,
-            self.callout(),
-            ink,
-        )
+        composed_with(self.pen, view, self.pen.blocks(), marks, self.callout(), ink)
     }
 
     /// True if the frame has more than [`MAX_SINGLE_STRANDS`] blocks. All bands of one colour are then drawn as one
@@ -277,18 +250,8 @@ impl<'a> Picture<'a> {
         let mut axis = strand.axis.clone();
         if self.many() && !strand.exact {
             // In a figure with many blocks, bends are not visible. Straight bands make the file smaller.
-            axis = axis
-                .first()
-                .into_iter()
-                .chain(axis.last())
-                .copied()
-                .collect();
-            widths = widths
-                .first()
-                .into_iter()
-                .chain(widths.last())
-                .copied()
-                .collect();
+            axis = axis.first().into_iter().chain(axis.last()).copied().collect();
+            widths = widths.first().into_iter().chain(widths.last()).copied().collect();
         }
         for (pair, width) in axis.windows(2).zip(&widths) {
             let [from, to] = [pair[0], pair[1]].map(|p| camera.place(p));
@@ -307,12 +270,7 @@ impl<'a> Picture<'a> {
         }
         let radius = dot(self.pen.unit());
         let marked = limit::marked(self.pen.context, self.pen.number);
-        for (contact, bearing) in self
-            .frame_analysis
-            .contacts
-            .iter()
-            .zip(bearings(self.scene, self.frame_analysis))
-        {
+        for (contact, bearing) in self.frame_analysis.contacts.iter().zip(bearings(self.scene, self.frame_analysis)) {
             if bearing.is_none() {
                 continue;
             }
@@ -346,20 +304,14 @@ impl<'a> Picture<'a> {
 fn filled(outline: Outline, colour: Colour, kind: StrandKind, theme: &Theme) -> Path {
     let band = Path::filled(outline, colour);
     match kind {
-        StrandKind::Missing => {
-            band.with_stroke(Stroke::new(theme.failure, MISSING_EDGE).dashed([3.0, 2.0]))
-        }
+        StrandKind::Missing => band.with_stroke(Stroke::new(theme.failure, MISSING_EDGE).dashed([3.0, 2.0])),
         StrandKind::Carried | StrandKind::Weight => band,
     }
 }
 
 /// Draws a band of missing forces for the legend.
 fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let rect = PageRect {
-        at: at.moved(0.0, -2.5),
-        width: MISSING_SIGN,
-        height: 5.0,
-    };
+    let rect = PageRect { at: at.moved(0.0, -2.5), width: MISSING_SIGN, height: 5.0 };
     let colour = colour(theme, Verdict::Unstable, StrandKind::Missing);
     let outline = Outline::rounded(rect, 0.0);
     vec![filled(outline, colour, StrandKind::Missing, theme).into()]

@@ -40,9 +40,7 @@ fn own_scale(marks: &Marks) -> bool {
         let mut arrows = marks.arrows.iter();
         arrows.find(|a| a.kind.is_failure() == missing).map(ratio)
     };
-    of(true)
-        .zip(of(false))
-        .is_some_and(|(missing, other)| missing > 1.01 * other)
+    of(true).zip(of(false)).is_some_and(|(missing, other)| missing > 1.01 * other)
 }
 
 /// A figure of forces.

@@ -65,20 +65,12 @@ pub(crate) struct ThrustSegment {
 }
 
 /// Returns the segments of the line of thrust of a frame, block by block in placing order.
-pub(crate) fn segments(
-    scene: &Scene,
-    frame: &Frame,
-    frame_analysis: &FrameAnalysis,
-) -> Vec<ThrustSegment> {
+pub(crate) fn segments(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<ThrustSegment> {
     let (pressing, loads) = (pressing(scene, frame_analysis), loads(scene));
     let mut segments = Vec::new();
     for id in &frame.placed {
-        let forces = BlockForces {
-            id: *id,
-            block: &scene.blocks[id.0],
-            pressing: &pressing[id.0],
-            loads: &loads[id.0],
-        };
+        let forces =
+            BlockForces { id: *id, block: &scene.blocks[id.0], pressing: &pressing[id.0], loads: &loads[id.0] };
         match forces.path() {
             Some(path) => segments.extend(path),
             None => segments.extend(forces.schematic()),
@@ -109,11 +101,7 @@ fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfActi
         }
         let [first, second] = contact.interface.bodies;
         let force = contact.resultant.force;
-        let force = if contact.resultant.on == first {
-            force
-        } else {
-            -force
-        };
+        let force = if contact.resultant.on == first { force } else { -force };
         for (body, force) in [(first, force), (second, -force)] {
             if let BodyId::Block(block) = body {
                 lines[block.0].push(LineOfAction {
@@ -202,16 +190,9 @@ impl BlockForces<'_> {
         if !self.balances() {
             return None;
         }
-        let orders = if self.loads.len() <= MAX_ORDERED_LOADS + 1 {
-            permutations(self.loads)
-        } else {
-            Vec::new()
-        };
+        let orders = if self.loads.len() <= MAX_ORDERED_LOADS + 1 { permutations(self.loads) } else { Vec::new() };
         let together = self.total_load().map(|sum| vec![sum]);
-        orders
-            .into_iter()
-            .chain(together)
-            .find_map(|loads| self.funicular(first, &loads, last))
+        orders.into_iter().chain(together).find_map(|loads| self.funicular(first, &loads, last))
     }
 
     /// True if the forces on the block are in equilibrium. In a structure that falls, the forces may be out of balance.
@@ -283,11 +264,7 @@ impl BlockForces<'_> {
             if miss > 10.0 * tolerance {
                 return None;
             }
-            let force = if origin == last.origin {
-                last.force
-            } else {
-                force
-            };
+            let force = if origin == last.origin { last.force } else { force };
             path.extend(self.segment(origin, (at, last.at), force));
         }
         let inside = path.iter().all(|s| self.within(s.from, s.to));
@@ -295,20 +272,8 @@ impl BlockForces<'_> {
     }
 
     /// Creates a segment on a true line of action; `None` if the two points coincide.
-    fn segment(
-        &self,
-        origin: ForceOrigin,
-        (from, to): (Point, Point),
-        force: Vector,
-    ) -> Option<ThrustSegment> {
-        let segment = ThrustSegment {
-            on: self.id,
-            origin,
-            from,
-            to,
-            force,
-            through: true,
-        };
+    fn segment(&self, origin: ForceOrigin, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
+        let segment = ThrustSegment { on: self.id, origin, from, to, force, through: true };
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
@@ -330,10 +295,7 @@ impl BlockForces<'_> {
         let given: Vec<&LineOfAction> = given.collect();
         let piece = |line: &LineOfAction, to: Point| {
             let segment = self.segment(line.origin, (line.entry, to), line.force)?;
-            Some(ThrustSegment {
-                through: false,
-                ..segment
-            })
+            Some(ThrustSegment { through: false, ..segment })
         };
         if let [one, other] = given[..] {
             let [strong, weak] = match one.force.norm() < other.force.norm() {
@@ -345,10 +307,7 @@ impl BlockForces<'_> {
             }
         }
         let meeting = self.meeting(&given);
-        given
-            .iter()
-            .filter_map(|line| piece(line, meeting))
-            .collect()
+        given.iter().filter_map(|line| piece(line, meeting)).collect()
     }
 
     /// Returns the common point of a schematic path: the mean of the points at which the forces act, weighted with the
@@ -357,25 +316,16 @@ impl BlockForces<'_> {
     fn meeting(&self, given: &[&LineOfAction]) -> Point {
         let sum: f64 = given.iter().map(|line| line.force.norm()).sum();
         let centroid = self.block.centroid;
-        let arms = given
-            .iter()
-            .map(|line| (line.entry - centroid) * line.force.norm());
+        let arms = given.iter().map(|line| (line.entry - centroid) * line.force.norm());
         let mean = centroid + arms.sum::<Vector>() / sum.max(f64::MIN_POSITIVE);
-        if given.len() > 2 && self.polygon().contains(mean) {
-            mean
-        } else {
-            centroid
-        }
+        if given.len() > 2 && self.polygon().contains(mean) { mean } else { centroid }
     }
 }
 
 /// True if no segment of the path points backwards, compared with the straight line from the beginning to the end of
 /// the path. A path that turns back would cover itself. Segments of loads are side branches and are not tested.
 fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
-    let main = || {
-        path.iter()
-            .filter(|s| !matches!(s.origin, ForceOrigin::Load(_)))
-    };
+    let main = || path.iter().filter(|s| !matches!(s.origin, ForceOrigin::Load(_)));
     let (Some(first), Some(last)) = (main().next(), main().next_back()) else {
         return true;
     };
@@ -396,11 +346,7 @@ fn intersection(at: Point, force: Vector, load: &LineOfAction, near: f64) -> Opt
         return (off <= near).then(|| at + a * between.dot(&a));
     }
     let corner = at + a * (cross(between, b) / sine);
-    corner
-        .coords
-        .iter()
-        .all(|c| c.is_finite())
-        .then_some(corner)
+    corner.coords.iter().all(|c| c.is_finite()).then_some(corner)
 }
 
 /// Returns all permutations of a few loads. The first permutation has the order of `loads`.

@@ -33,12 +33,7 @@ enum Subject {
     /// The forces of a scene.
     Forces(&'static str),
     /// The forces of several scenes, in lettered panels.
-    Plate {
-        title: &'static str,
-        columns: usize,
-        scenes: &'static [&'static str],
-        panels: &'static [Panel],
-    },
+    Plate { title: &'static str, columns: usize, scenes: &'static [&'static str], panels: &'static [Panel] },
 }
 
 const fn panel(of: usize, frame: usize, caption: &'static str) -> Panel {
@@ -64,11 +59,7 @@ const PLATES: [(&str, Subject); 10] = [
         Subject::Plate {
             title: "Figure 6: three kernels",
             columns: 3,
-            scenes: &[
-                scene!("figure-6-kernel-0"),
-                scene!("figure-6-kernel-02"),
-                scene!("figure-6-kernel-05"),
-            ],
+            scenes: &[scene!("figure-6-kernel-0"), scene!("figure-6-kernel-02"), scene!("figure-6-kernel-05")],
             panels: &[
                 panel(0, 0, "(a) An upright link, no kernel"),
                 panel(1, 0, "(b) Kernel 0.2"),
@@ -85,11 +76,7 @@ const PLATES: [(&str, Subject); 10] = [
         Subject::Plate {
             title: "Figure 8: bridges of four and of five blocks",
             columns: 3,
-            scenes: &[
-                scene!("figure-8-left"),
-                scene!("figure-8-right"),
-                scene!("figure-8-right-corners"),
-            ],
+            scenes: &[scene!("figure-8-left"), scene!("figure-8-right"), scene!("figure-8-right-corners")],
             panels: &[
                 panel(0, 0, "(a) Four blocks"),
                 panel(1, 0, "(b) Five blocks"),
@@ -124,10 +111,7 @@ const PLATES: [(&str, Subject); 10] = [
 /// Arrows are drawn as in the thesis: normal and friction forces have separate arrows, and the arrow of the largest
 /// weight, load or single unknown force is one unit length long.
 pub fn gallery(theme: &Theme) -> Vec<Plate> {
-    PLATES
-        .iter()
-        .map(|(name, subject)| plate(name, subject, theme))
-        .collect()
+    PLATES.iter().map(|(name, subject)| plate(name, subject, theme)).collect()
 }
 
 fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
@@ -146,18 +130,14 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         }
         Subject::Shapes => (
             shapes(theme),
-            "The predefined shapes on the triangular lattice, each with its cells and its origin."
-                .into(),
+            "The predefined shapes on the triangular lattice, each with its cells and its origin.".into(),
         ),
         Subject::Freebody(text, block) => {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
             let id = crate::scene::BlockId(id.expect("the built-in scene has this block"));
             // The figures of the thesis name every unknown.
-            let options = Options {
-                corners: Corners::All,
-                ..options
-            };
+            let options = Options { corners: Corners::All, ..options };
             let drawing = freebody(&Analysis::new(&scene), 0, id, &options);
             let drawing = drawing.expect("the built-in scene places this block");
             let caption = format!("{}. Block {block} cut free.", scene.title);
@@ -168,12 +148,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let analysis = Analysis::new(&scene);
             (draw(&analysis, Kind::Forces, &options), caption(&analysis))
         }
-        Subject::Plate {
-            title,
-            columns,
-            scenes,
-            panels,
-        } => {
+        Subject::Plate { title, columns, scenes, panels } => {
             let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
             let analyses: Vec<Analysis> = scenes.iter().map(Analysis::new).collect();
             let captions: Vec<String> = analyses.iter().map(caption).collect();
@@ -181,14 +156,9 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             (drawing, captions.join(" "))
         }
     };
-    Plate {
-        name,
-        caption,
-        drawing,
-    }
+    Plate { name, caption, drawing }
 }
 
 fn read(text: &str) -> Scene {
-    Scene::from_json(text)
-        .expect("the built-in scenes are valid, because a test reads each of them")
+    Scene::from_json(text).expect("the built-in scenes are valid, because a test reads each of them")
 }

@@ -45,11 +45,7 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
             })
         })
         .collect();
-    let largest = relative
-        .iter()
-        .flatten()
-        .map(|v| v.norm())
-        .fold(0.0, f64::max);
+    let largest = relative.iter().flatten().map(|v| v.norm()).fold(0.0, f64::max);
     if largest <= 0.0 {
         return Vec::new();
     }
@@ -61,17 +57,9 @@ pub(crate) fn joints(analysis: &Analysis, frame: usize) -> Vec<Joint> {
         let [a, b] = contact.interface.bodies;
         let turning = (spin(a) - spin(b)).abs() * frame_analysis.length;
         let joint = joint(contact, relative[number], turning, SPEED_TOL * largest)?;
-        Some(Joint {
-            contact: number,
-            ..joint
-        })
+        Some(Joint { contact: number, ..joint })
     };
-    frame_analysis
-        .contacts
-        .iter()
-        .enumerate()
-        .filter_map(one)
-        .collect()
+    frame_analysis.contacts.iter().enumerate().filter_map(one).collect()
 }
 
 /// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the
@@ -106,17 +94,9 @@ fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> 
         [true, _] => opening[0],
         _ => opening[1],
     };
-    let lift = if slip != 0.0 && lift > noise {
-        lift
-    } else {
-        0.0
-    };
+    let lift = if slip != 0.0 && lift > noise { lift } else { 0.0 };
     let parted = touches == [false, false];
-    let (hinge, touch) = if slip == 0.0 {
-        (turns_about, None)
-    } else {
-        (None, turns_about)
-    };
+    let (hinge, touch) = if slip == 0.0 { (turns_about, None) } else { (None, turns_about) };
     (hinge.is_some() || slip != 0.0 || parted).then_some(Joint {
         contact: 0,
         hinge,
@@ -180,15 +160,11 @@ mod tests {
             )
         };
         let (_, slides) = joints_of(&on_slope(0.5));
-        let [joint] = slides[..] else {
-            panic!("{slides:?}")
-        };
+        let [joint] = slides[..] else { panic!("{slides:?}") };
         assert_eq!(joint.hinge, None);
         assert!(joint.slip != 0.0);
         let (_, turns) = joints_of(&on_slope(8.0).replace("0.4", "2.0"));
-        let [joint] = turns[..] else {
-            panic!("{turns:?}")
-        };
+        let [joint] = turns[..] else { panic!("{turns:?}") };
         let hinge = joint.hinge.expect("a hinge at the lower corner");
         assert!(hinge.coords.norm() < 1e-9 && joint.slip == 0.0, "{joint:?}");
     }

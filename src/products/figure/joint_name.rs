@@ -7,11 +7,7 @@ use crate::scene::{BodyId, Scene};
 
 /// Returns the names of the two bodies of a joint, such as `beam and the ground`. If the bodies have several joints,
 /// the side of the joint follows: `beam and the ground (left)`.
-pub(crate) fn joint_name(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    contact: &Contact,
-) -> String {
+pub(crate) fn joint_name(scene: &Scene, frame_analysis: &FrameAnalysis, contact: &Contact) -> String {
     let pair = description::pair(scene, contact.interface.bodies);
     let contacts = frame_analysis.contacts.iter();
     let alike = contacts.filter(|other| have_same_names(other, contact));
@@ -67,15 +63,9 @@ mod tests {
         let at = |x: f64, y: f64| Point::new(x, y);
         let feet = [at(0.0, 0.0), at(3.0, 0.1), at(5.0, 0.0)];
         let sides = feet.map(|p| side(&feet, p));
-        assert_eq!(
-            sides,
-            [Some("left"), Some("between the others"), Some("right")]
-        );
+        assert_eq!(sides, [Some("left"), Some("between the others"), Some("right")]);
         let steps = [at(0.0, 0.0), at(0.5, 2.0)];
-        assert_eq!(
-            steps.map(|p| side(&steps, p)),
-            [Some("lower"), Some("upper")]
-        );
+        assert_eq!(steps.map(|p| side(&steps, p)), [Some("lower"), Some("upper")]);
         assert_eq!(side(&[at(1.0, 1.0)], at(1.0, 1.0)), None);
     }
 }

@@ -46,16 +46,8 @@ impl PanelContent for Kernel {
             ink.line(from, to, bold + 1.0);
         }
         let stretches = stretches(pen, frame_analysis);
-        let dots = dots(pen, frame_analysis, &mut |at| {
-            ink.disc(at, dot(pen.unit()) + 1.0)
-        });
-        composed(
-            pen,
-            view,
-            pen.blocks(),
-            vec![pen.arrows(false), stretches, dots],
-            ink,
-        )
+        let dots = dots(pen, frame_analysis, &mut |at| ink.disc(at, dot(pen.unit()) + 1.0));
+        composed(pen, view, pen.blocks(), vec![pen.arrows(false), stretches, dots], ink)
     }
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
@@ -71,12 +63,8 @@ impl PanelContent for Kernel {
             }
         }
         let standing = frames.iter().filter(|f| f.verdict == Verdict::Stable);
-        let bearings: Vec<Bearing> = standing
-            .flat_map(|f| bearings(scene, f))
-            .flatten()
-            .collect();
-        let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) =
-            bearings.iter().partition(|b| at_end(b));
+        let bearings: Vec<Bearing> = standing.flat_map(|f| bearings(scene, f)).flatten().collect();
+        let (ends, within): (Vec<&Bearing>, Vec<&Bearing>) = bearings.iter().partition(|b| at_end(b));
         if !within.is_empty() {
             entries.push(Entry::Symbol(within_symbol, 9.0, "resultant".into()));
         }
@@ -118,37 +106,25 @@ impl PanelContent for Kernel {
                 false => "every safe part is a point".into(),
             };
         };
-        let at_end = bearings
-            .iter()
-            .filter_map(share)
-            .filter(|s| *s >= FULL_UTILISATION)
-            .count();
+        let at_end = bearings.iter().filter_map(share).filter(|s| *s >= FULL_UTILISATION).count();
         if at_end > 1 {
-            return format!(
-                "in the forces shown, {at_end} resultants act at an end of the safe part"
-            );
+            return format!("in the forces shown, {at_end} resultants act at an end of the safe part");
         }
         let pair = joint_name(scene, frame_analysis, contact);
         if at_end == 1 {
-            return format!(
-                "in the forces shown, the resultant between {pair} acts at an end of the safe part"
-            );
+            return format!("in the forces shown, the resultant between {pair} acts at an end of the safe part");
         }
         if most < 0.005 {
             return "in the forces shown, every resultant acts in the middle".into();
         }
         let most = percent(most);
-        format!(
-            "farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe part"
-        )
+        format!("farthest from the middle: the resultant between {pair}, {most} of the way to the end of its safe part")
     }
 }
 
 /// True if a resultant acts at an end of the safe part of its interface, or outside this part.
 fn at_end(bearing: &Bearing) -> bool {
-    bearing
-        .eccentricity
-        .is_some_and(|share| share >= FULL_UTILISATION)
+    bearing.eccentricity.is_some_and(|share| share >= FULL_UTILISATION)
 }
 
 /// Returns the width of the line of a safe part, in pixels. `unit` is the unit length in pixels.
@@ -163,9 +139,7 @@ fn dot(unit: f64) -> f64 {
 }
 
 fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
-    Stroke::new(theme.faint, 0.45 * bold)
-        .dashed([1.1 * bold, 0.9 * bold])
-        .mitred()
+    Stroke::new(theme.faint, 0.45 * bold).dashed([1.1 * bold, 0.9 * bold]).mitred()
 }
 
 /// Draws the safe part of each interface as a solid line, and the unsafe parts as dashed lines.
@@ -174,9 +148,8 @@ fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let bold = bold(pen.unit());
     let mut group = Group::with_class("interfaces");
     let (mut all_safe, mut all_rests) = (Outline::default(), Outline::default());
-    let casing = |outline: Outline| {
-        Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8)
-    };
+    let casing =
+        |outline: Outline| Path::stroked(outline, Stroke::new(theme.page, 0.45 * bold + 2.0)).with_opacity(0.8);
     for contact in &frame_analysis.contacts {
         let place = |points: [Point; 2]| points.map(|p| pen.camera.place(p));
         let ends = place(contact.interface.ends);
@@ -201,9 +174,7 @@ fn stretches(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
         );
         let mut drawn = Group::with_class("interface").titled(title);
         if !rests.segments.is_empty() {
-            drawn = drawn
-                .with(casing(rests.clone()))
-                .with(Path::stroked(rests, rest_stroke(theme, bold)));
+            drawn = drawn.with(casing(rests.clone())).with(Path::stroked(rests, rest_stroke(theme, bold)));
         }
         // A safe part of length 0 is a point, which is drawn as a dot.
         let path = if scene.kernel < 1.0 && length > 0.0 {
@@ -235,11 +206,7 @@ fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PageP
     }
     let radius = dot(pen.unit());
     let mut joined = ByColour::default();
-    for (contact, bearing) in frame_analysis
-        .contacts
-        .iter()
-        .zip(bearings(scene, frame_analysis))
-    {
+    for (contact, bearing) in frame_analysis.contacts.iter().zip(bearings(scene, frame_analysis)) {
         let Some(bearing) = bearing else { continue };
         let at = pen.camera.place(contact.resultant.at);
         ink(at);
@@ -256,12 +223,7 @@ fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PageP
         });
         let title = format!("Resultant between {pair}: {amount}{place}");
         let path = Path::filled(outline, fill).cased(theme.page, 0.28 * radius);
-        group.items.push(
-            Group::with_class("resultant")
-                .titled(title)
-                .with(path)
-                .into(),
-        );
+        group.items.push(Group::with_class("resultant").titled(title).with(path).into());
     }
     group.items.extend(joined.paths(None));
     group
@@ -269,12 +231,7 @@ fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PageP
 
 /// Returns the colour and the outline of the mark of a resultant: a disc for a resultant inside the safe part, a
 /// diamond at an end of this part, and a red diamond outside it.
-fn resultant_symbol(
-    bearing: &Bearing,
-    at: PagePoint,
-    radius: f64,
-    theme: &Theme,
-) -> (Colour, Outline) {
+fn resultant_symbol(bearing: &Bearing, at: PagePoint, radius: f64, theme: &Theme) -> (Colour, Outline) {
     if at_end(bearing) {
         let r = 1.35 * radius;
         let corners = [(0.0, -r), (r, 0.0), (0.0, r), (-r, 0.0)];
@@ -304,11 +261,7 @@ fn within_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 fn end_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let end = Bearing {
-        pressed: 1.0,
-        eccentricity: Some(1.0),
-        friction: None,
-    };
+    let end = Bearing { pressed: 1.0, eccentricity: Some(1.0), friction: None };
     let (fill, outline) = resultant_symbol(&end, at.moved(5.5, 0.0), 3.8, theme);
     vec![Path::filled(outline, fill).into()]
 }

@@ -142,14 +142,10 @@ impl Kind {
     pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options) -> bool {
         let frames = &analysis.frames;
         let margins = || frames.iter().all(|f| f.margins.is_some());
-        let capacity =
-            || analysis_options.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
+        let capacity = || analysis_options.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
         let sensitivity = || {
-            let kind = frames
-                .iter()
-                .find_map(|f| Some(f.sensitivity.as_ref()?.kind));
-            kind.is_some()
-                && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
+            let kind = frames.iter().find_map(|f| Some(f.sensitivity.as_ref()?.kind));
+            kind.is_some() && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
         };
         self.needs_margins() && !margins()
             || self.needs_capacity() && !capacity()
@@ -186,11 +182,7 @@ impl Kind {
 
     /// Computes the data that all panels of a figure of this kind have in common, such as the arrows and the shown part
     /// of the scene.
-    pub(crate) fn context<'a>(
-        self,
-        analysis: &'a Analysis,
-        options: &'a Options,
-    ) -> FigureContext<'a> {
+    pub(crate) fn context<'a>(self, analysis: &'a Analysis, options: &'a Options) -> FigureContext<'a> {
         FigureContext::new(analysis, options, self.content())
     }
 }

@@ -16,31 +16,19 @@ const SIMILAR_TOL: f64 = 1e-3;
 pub(crate) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact> {
     let force = |c: &&Contact| c.resultant.force.norm();
     let contacts = frame_analysis.contacts.iter();
-    contacts.filter(|c| force(c) > 0.0).reduce(|most, c| {
-        if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) {
-            c
-        } else {
-            most
-        }
-    })
+    contacts
+        .filter(|c| force(c) > 0.0)
+        .reduce(|most, c| if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) { c } else { most })
 }
 
 /// Returns a label `largest: …`, with the amount of the force, for the joint with the largest force. `clear` is the
 /// least distance of the label from the joint, pixels. The list is empty if no joint has a force.
-pub(crate) fn callout(
-    pen: &Pen<'_>,
-    found: &FrameAnalysis,
-    clear: f64,
-    colour: Colour,
-) -> Vec<Callout> {
+pub(crate) fn callout(pen: &Pen<'_>, found: &FrameAnalysis, clear: f64, colour: Colour) -> Vec<Callout> {
     let newtons = pen.context.analysis.scene.units.force();
     let callout = |contact: &Contact| Callout {
         at: pen.camera.place(contact.resultant.at),
         clear,
-        words: format!(
-            "largest: {}",
-            quantity(contact.resultant.force.norm(), newtons)
-        ),
+        words: format!("largest: {}", quantity(contact.resultant.force.norm(), newtons)),
         colour,
     };
     largest_contact(found).map(callout).into_iter().collect()
@@ -60,8 +48,5 @@ pub(crate) fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String 
         1 => " and at one other joint".to_owned(),
         n => format!(" and at {n} other joints"),
     };
-    format!(
-        "largest contact force {} between {pair}{others}",
-        quantity(most, scene.units.force())
-    )
+    format!("largest contact force {} between {pair}{others}", quantity(most, scene.units.force()))
 }

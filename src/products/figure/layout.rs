@@ -70,12 +70,7 @@ impl Layout {
     pub fn both(self, other: Layout) -> Layout {
         let panel = self.panel.max(other.panel);
         let between = (self.columns - 1) as f64 * self.gap;
-        Layout {
-            panel,
-            content: self.columns as f64 * panel + between,
-            scale: self.scale.min(other.scale),
-            ..self
-        }
+        Layout { panel, content: self.columns as f64 * panel + between, scale: self.scale.min(other.scale), ..self }
     }
 
     /// Returns lower bounds for the width and the height of the page, in pixels: the size of all pictures without
@@ -89,41 +84,22 @@ impl Layout {
 
     fn with(context: &FigureContext<'_>, count: usize, fit: Fit) -> Layout {
         let margin = context.options.width.map_or(MAX_MARGIN, margin);
-        let across = context
-            .options
-            .width
-            .map_or(MAX_ROW_WIDTH, |width| (width - 2.0 * margin).max(1.0));
+        let across = context.options.width.map_or(MAX_ROW_WIDTH, |width| (width - 2.0 * margin).max(1.0));
         let gap = match context.options.width {
             Some(width) => MAX_GAP.0.min(MAX_GAP.1 * width),
             None => MAX_GAP.0,
         };
-        let row = Row {
-            context,
-            count: count.max(1),
-            across,
-            gap,
-        };
+        let row = Row { context, count: count.max(1), across, gap };
         let columns = match context.options.columns {
             Some(columns) => columns.clamp(1, row.count),
             None => row.columns(fit),
         };
         let scale = row.scale(columns);
-        let least = if row.count == 1 {
-            1.6 * MIN_PANEL_WIDTH
-        } else {
-            MIN_PANEL_WIDTH
-        };
+        let least = if row.count == 1 { 1.6 * MIN_PANEL_WIDTH } else { MIN_PANEL_WIDTH };
         let dimensions = dimensions(context);
         let panel = (context.view.width() * scale + dimensions).max(least.min(row.room(columns)));
         let between = (columns - 1) as f64 * gap;
-        Layout {
-            margin,
-            columns,
-            gap,
-            panel,
-            content: columns as f64 * panel + between,
-            scale,
-        }
+        Layout { margin, columns, gap, panel, content: columns as f64 * panel + between, scale }
     }
 }
 
@@ -161,11 +137,7 @@ impl Row<'_> {
             _ => 3,
         };
         let roomy = (1..=most).rev().find(|c| fits(*c)).unwrap_or(1);
-        let page = if self.context.options.is_column() {
-            MAX_COLUMN_RATIO
-        } else {
-            MAX_PAGE_RATIO
-        };
+        let page = if self.context.options.is_column() { MAX_COLUMN_RATIO } else { MAX_PAGE_RATIO };
         if fit == Fit::Rows || self.height(roomy) <= page * across {
             return roomy;
         }
@@ -215,11 +187,7 @@ impl Row<'_> {
 /// Returns the total width of the spaces for dimension lines on both sides of a picture, pixels; 0 without dimension
 /// lines.
 fn dimensions(context: &FigureContext<'_>) -> f64 {
-    if context.options.dimensions {
-        2.0 * dimension::SPACE_LEFT
-    } else {
-        0.0
-    }
+    if context.options.dimensions { 2.0 * dimension::SPACE_LEFT } else { 0.0 }
 }
 
 /// Returns the height of the caption with the most lines, pixels; 0 if there are no captions. `panel` is the width of a

@@ -52,11 +52,7 @@ fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearnes
             ContactKind::Corner => 0.0,
             _ => off / contact.interface.length(),
         };
-        Some(Nearness {
-            contact,
-            friction,
-            edge,
-        })
+        Some(Nearness { contact, friction, edge })
     };
     pressed.filter_map(near).collect()
 }
@@ -76,10 +72,7 @@ pub(crate) fn has_limits(scene: &Scene, robot: RobotId) -> bool {
 
 /// Returns the robots whose force or torque reaches one of their limits in a frame. The list is empty if the frame does
 /// not stand.
-pub(crate) fn robots_reached<'a>(
-    scene: &Scene,
-    frame_analysis: &'a FrameAnalysis,
-) -> Vec<&'a RobotForce> {
+pub(crate) fn robots_reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a RobotForce> {
     let stands = frame_analysis.verdict == Verdict::Stable;
     let robots = frame_analysis.robots.iter().filter(|_| stands);
     let reached = robots.filter(|r| r.limit_used >= FULL_UTILISATION);
@@ -164,10 +157,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let how = match nearest.friction >= nearest.edge {
         true => format!("{} of its friction is used", percent(nearest.friction)),
         false if nearest.reached() => "its resultant acts at the edge".to_owned(),
-        false => format!(
-            "its resultant is {} of the way from the middle to the edge",
-            percent(nearest.edge)
-        ),
+        false => format!("its resultant is {} of the way from the middle to the edge", percent(nearest.edge)),
     };
     let named = |n: &Nearness| {
         let pair = joint_name(scene, frame_analysis, n.contact);
@@ -175,9 +165,7 @@ pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     };
     match at_limit {
         0 => format!("nearest to its limit (open diamond): the joint between {pair}; {how}"),
-        1 => format!(
-            "at its limit, within 1 %, in the forces shown: the joint between {pair}; {how}"
-        ),
+        1 => format!("at its limit, within 1 %, in the forces shown: the joint between {pair}; {how}"),
         n if n <= MAX_NAMED => {
             let joints: Vec<String> = all.iter().filter(|n| n.reached()).map(named).collect();
             let joints = listed(&joints);

@@ -19,34 +19,17 @@ const TESTED_POINTS: u32 = 24;
 
 /// Returns only the arrows of the loads of a frame and of their torques. The tip of a straight arrow is at the point
 /// where the load acts. The arrow of a load of `newtons_per_unit` newtons is one unit length long.
-pub(super) fn load_marks(
-    analysis: &Analysis,
-    frame: usize,
-    options: &Options,
-    newtons_per_unit: f64,
-) -> Marks {
+pub(super) fn load_marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let loads = marks.arrows.into_iter();
     let loads = loads.filter(|arrow| arrow.kind == ArrowKind::Load);
     let width = LOAD_SHAFT * longest_load(&analysis.scene, options.zoom);
-    let ended = loads.map(|arrow| ForceArrow {
-        at: arrow.at - arrow.vector,
-        width: arrow.width.max(width),
-        ..arrow
-    });
+    let ended = loads.map(|arrow| ForceArrow { at: arrow.at - arrow.vector, width: arrow.width.max(width), ..arrow });
     let turns = marks.turns.into_iter();
     let turns = turns.filter(|turn| turn.kind == TurnKind::Load);
-    let loads = Marks {
-        arrows: ended.collect(),
-        turns: turns.collect(),
-        newtons_per_unit,
-    };
+    let loads = Marks { arrows: ended.collect(), turns: turns.collect(), newtons_per_unit };
     // If there are no arrows, return no scale either, so that the legend shows none.
-    if loads.arrows.is_empty() && loads.turns.is_empty() {
-        Marks::default()
-    } else {
-        loads
-    }
+    if loads.arrows.is_empty() && loads.turns.is_empty() { Marks::default() } else { loads }
 }
 
 /// Returns the load, in newtons, whose arrow is one unit length long in a figure of loads alone. At this scale, the
@@ -106,10 +89,7 @@ pub(super) fn uncover_from_missing_forces(marks: &mut Marks) {
         arrows.copied().collect::<Vec<ForceArrow>>()
     };
     let (missing, loads) = (of(true), of(false));
-    let ended = loads.iter().map(|load| ForceArrow {
-        at: load.at - load.vector,
-        ..*load
-    });
+    let ended = loads.iter().map(|load| ForceArrow { at: load.at - load.vector, ..*load });
     let ended: Vec<ForceArrow> = ended.collect();
     let covered = |loads: &[ForceArrow]| {
         let is_covered = |load: &&ForceArrow| missing.iter().any(|other| covers(other, load));
@@ -162,14 +142,9 @@ mod tests {
         let load = arrow(ArrowKind::Load, [0.0, 0.0], [0.0, -1.0]);
         for (y, expected) in [(-0.5, 1.0), (0.5, 0.0), (-3.0, 0.0)] {
             let red = arrow(missing, [-0.5, y], [1.0, 0.0]);
-            let mut marks = Marks {
-                arrows: vec![load, red],
-                ..Marks::default()
-            };
+            let mut marks = Marks { arrows: vec![load, red], ..Marks::default() };
             uncover_from_missing_forces(&mut marks);
-            let [drawn, same] = marks.arrows[..] else {
-                panic!("two arrows")
-            };
+            let [drawn, same] = marks.arrows[..] else { panic!("two arrows") };
             assert_eq!((drawn.at.x, drawn.at.y), (0.0, expected), "{y}");
             assert_eq!((drawn.vector, same), (load.vector, red), "{y}");
         }

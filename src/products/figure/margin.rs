@@ -41,20 +41,15 @@ impl PanelContent for CollapseMargin {
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
+        let FrameSource { analysis, frame, options } = of;
         let toward = options.toward;
         let copies = falling_copies(analysis, frame, toward);
         let gravity = copies.first().and_then(|(_, edge)| {
             let gravity = Gravity::new(analysis, frame, *edge, toward)?;
             Some(Bounds::from_points(gravity.points())?.grown(0.1 * unit))
         });
-        let ghosts = copies.iter().filter_map(|(ghost, _)| {
-            mechanism::reach(analysis, &Course::new(ghost, frame, unit).at(1.0))
-        });
+        let ghosts =
+            copies.iter().filter_map(|(ghost, _)| mechanism::reach(analysis, &Course::new(ghost, frame, unit).at(1.0)));
         ghosts.chain(gravity).reduce(Bounds::union)
     }
 
@@ -81,12 +76,9 @@ impl PanelContent for CollapseMargin {
         let mut entries = Vec::new();
         let toward = context.options.toward;
         let frames = 0..context.analysis.frames.len();
-        let copies: Vec<(usize, Vec<(Analysis, f64)>)> = frames
-            .map(|frame| (frame, falling_copies(context.analysis, frame, toward)))
-            .collect();
-        let nearer = copies
-            .iter()
-            .filter_map(|(f, ends)| Some((*f, ends.first()?)));
+        let copies: Vec<(usize, Vec<(Analysis, f64)>)> =
+            frames.map(|frame| (frame, falling_copies(context.analysis, frame, toward))).collect();
+        let nearer = copies.iter().filter_map(|(f, ends)| Some((*f, ends.first()?)));
         let joints: Vec<Vec<Joint>> = nearer.map(|(f, (ghost, _))| joints(ghost, f)).collect();
         if !joints.is_empty() {
             let ghost = "how it would begin to fall".to_owned();
@@ -111,18 +103,13 @@ impl PanelContent for CollapseMargin {
 /// Returns the legend entry for the arrows that show the value of the parameter; `None` for the load factor, which has
 /// no such arrows.
 fn parameter_entry(toward: Toward) -> Option<Entry> {
-    let entry = |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| {
-        Some(Entry::Symbol(symbol, 26.0, words.to_owned()))
-    };
+    let entry =
+        |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| Some(Entry::Symbol(symbol, 26.0, words.to_owned()));
     match toward {
-        Toward::Tilt => entry(
-            gravity_symbol,
-            "direction of gravity at the margin; pale: at its other end",
-        ),
-        Toward::HorizontalLoad => entry(
-            push_symbol,
-            "largest additional load perpendicular to gravity; pale: the other way",
-        ),
+        Toward::Tilt => entry(gravity_symbol, "direction of gravity at the margin; pale: at its other end"),
+        Toward::HorizontalLoad => {
+            entry(push_symbol, "largest additional load perpendicular to gravity; pale: the other way")
+        }
         Toward::LoadFactor => None,
     }
 }
@@ -158,11 +145,7 @@ struct GhostStyle {
 
 /// The styles of the displaced blocks for the nearer and for the farther end of the interval.
 const GHOSTS: [GhostStyle; 2] = [
-    GhostStyle {
-        title: "How it would begin to fall",
-        paleness: 0.0,
-        dashes: [5.0, 3.5],
-    },
+    GhostStyle { title: "How it would begin to fall", paleness: 0.0, dashes: [5.0, 3.5] },
     GhostStyle {
         title: "How it would begin to fall at the other end of the margin",
         paleness: 0.5,
@@ -179,9 +162,7 @@ fn ghosts(pen: &Pen<'_>, copy: &Analysis, style: GhostStyle) -> Group {
             continue;
         };
         for ring in block.body.polygon.rings() {
-            let corners = ring
-                .iter()
-                .map(|p| pen.camera.place(displacement.moved(*p)));
+            let corners = ring.iter().map(|p| pen.camera.place(displacement.moved(*p)));
             outline.extend(Outline::ring(corners));
         }
     }
@@ -205,10 +186,6 @@ fn other_ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 }
 
 fn ghost_swatch(at: PagePoint, style: GhostStyle, theme: &Theme) -> Vec<Item> {
-    let swatch = PageRect {
-        at: at.moved(0.0, -6.5),
-        width: 20.0,
-        height: 13.0,
-    };
+    let swatch = PageRect { at: at.moved(0.0, -6.5), width: 20.0, height: 13.0 };
     vec![ghost_path(Outline::rounded(swatch, 0.0), 1.0, style, theme).into()]
 }

@@ -102,20 +102,13 @@ impl PanelContent for Mechanism {
 
     fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
         let analysis = context.analysis;
-        let falling =
-            (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
+        let falling = (0..analysis.frames.len()).filter(|f| analysis.frames[*f].verdict == Verdict::Unstable);
         let mut entries = Vec::new();
         let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
-        if falling
-            .clone()
-            .any(|f| !analysis.frames[f].mechanism.is_empty())
-        {
+        if falling.clone().any(|f| !analysis.frames[f].mechanism.is_empty()) {
             let [stood, goes] = match context.options.is_column() {
                 true => ["blocks now", "how blocks begin to move, enlarged"],
-                false => [
-                    "where the blocks stand now",
-                    "how the blocks begin to move, enlarged",
-                ],
+                false => ["where the blocks stand now", "how the blocks begin to move, enlarged"],
             };
             entries.push(Entry::Symbol(ghost_symbol, SYMBOL_WIDTH, stood.to_owned()));
             entries.push(Entry::Symbol(moved_symbol, SYMBOL_WIDTH, goes.to_owned()));
@@ -130,9 +123,7 @@ impl PanelContent for Mechanism {
 /// Returns the blocks that are drawn in displaced positions, with their motions in the mechanism.
 fn moved<'a>(pen: &'a Pen<'_>) -> impl Iterator<Item = (BlockId, &'a Motion)> {
     let motions = pen.context.analysis.frames[pen.number].mechanism.iter();
-    motions
-        .map(|m| (m.block, m))
-        .filter(|m| pen.displacement(m.0).is_some())
+    motions.map(|m| (m.block, m)).filter(|m| pen.displacement(m.0).is_some())
 }
 
 /// Draws dashed outlines of the moving blocks in their present positions. Returns `None` if no block moves.
@@ -145,11 +136,7 @@ fn ghosts(pen: &Pen<'_>) -> Option<Item> {
     let width = pen.line.clamp(0.6, 1.1);
     let stroke = Stroke::new(theme.faint, width).dashed([3.6 * width, 2.8 * width]);
     // Small outlines are partly transparent, so that many of them do not hide the displaced blocks.
-    let opacity = if pen.unit() < MIN_READABLE_UNIT_LENGTH {
-        0.6
-    } else {
-        1.0
-    };
+    let opacity = if pen.unit() < MIN_READABLE_UNIT_LENGTH { 0.6 } else { 1.0 };
     let path = Path::stroked(outline, stroke).with_opacity(opacity);
     let ghosts = Group::with_class("ghosts").titled("Where the blocks that move stand now");
     (!path.outline.segments.is_empty()).then(|| ghosts.with(path).into())
@@ -203,17 +190,11 @@ fn moved_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let outline = Outline::rounded(swatch(at), 0.0);
     let edge = Stroke::new(theme.motion.mixed(theme.ink, 0.25), 1.2);
     vec![
-        Path::filled(outline.clone(), theme.motion)
-            .with_opacity(DISPLACED_OPACITY)
-            .into(),
+        Path::filled(outline.clone(), theme.motion).with_opacity(DISPLACED_OPACITY).into(),
         Path::stroked(outline, edge).into(),
     ]
 }
 
 fn swatch(at: PagePoint) -> PageRect {
-    PageRect {
-        at: at.moved(0.0, -6.5),
-        width: SYMBOL_WIDTH,
-        height: 13.0,
-    }
+    PageRect { at: at.moved(0.0, -6.5), width: SYMBOL_WIDTH, height: 13.0 }
 }

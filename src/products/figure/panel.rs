@@ -54,12 +54,8 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
         }
         false => Vec::new(),
     };
-    group
-        .items
-        .push(label::labels(pen, view, callouts, || ink).into());
-    group.items.retain(
-        |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
-    );
+    group.items.push(label::labels(pen, view, callouts, || ink).into());
+    group.items.retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()));
     group
 }
 
@@ -129,13 +125,7 @@ pub(crate) fn cut_ground(pen: &Pen<'_>, picture: &mut Group) {
 
 /// Composes the picture of a frame: ground, `blocks`, planned blocks, robots, `marks`, and labels that do not cover
 /// `ink`. `view` is the shown part of the scene in metres; ground outside it is cut off.
-pub(crate) fn composed(
-    pen: &Pen<'_>,
-    view: Bounds,
-    blocks: Group,
-    marks: Vec<Group>,
-    ink: Ink,
-) -> Group {
+pub(crate) fn composed(pen: &Pen<'_>, view: Bounds, blocks: Group, marks: Vec<Group>, ink: Ink) -> Group {
     composed_with(pen, view, blocks, marks, Vec::new(), ink)
 }
 
@@ -156,11 +146,7 @@ pub(crate) fn composed_with(
     let parts = [pen.ground(view), blocks, pen.plans(), pen.discs()];
     let parts = parts.into_iter().chain(marks);
     group.items.extend(parts.map(Item::from));
-    group
-        .items
-        .push(label::labels(pen, view, callouts, || ink).into());
-    group.items.retain(
-        |item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()),
-    );
+    group.items.push(label::labels(pen, view, callouts, || ink).into());
+    group.items.retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()));
     group
 }

@@ -59,19 +59,9 @@ pub(crate) fn separate_parallel_arrows(marks: &mut Marks) {
     for i in 0..arrows.len() {
         if let Some(across) = across(&original[i]) {
             let has_opposite = has_opposite(&by_x, &original, i);
-            let ideal = if has_opposite {
-                -0.5 * (1.0 + ARROW_GAP) * original[i].width
-            } else {
-                0.0
-            };
+            let ideal = if has_opposite { -0.5 * (1.0 + ARROW_GAP) * original[i].width } else { 0.0 };
             let offset = match candidates < MAX_CANDIDATES_PER_FRAME {
-                true => offset_of_least_change(
-                    &original[i],
-                    across,
-                    ideal,
-                    (arrows, &placed),
-                    &mut candidates,
-                ),
+                true => offset_of_least_change(&original[i], across, ideal, (arrows, &placed), &mut candidates),
                 false => ideal,
             };
             arrows[i].at = original[i].at + across * offset;
@@ -91,20 +81,14 @@ fn offset_of_least_change(
     candidates: &mut usize,
 ) -> f64 {
     let clear = |offset: &f64| {
-        let there = ForceArrow {
-            at: arrow.at + across * *offset,
-            ..*arrow
-        };
-        !placed.any(space_around(&there), |other| {
-            too_close(&there, &arrows[other])
-        })
+        let there = ForceArrow { at: arrow.at + across * *offset, ..*arrow };
+        !placed.any(space_around(&there), |other| too_close(&there, &arrows[other]))
     };
     // Most arrows do not overlap any other arrow at their ideal offset.
     if clear(&ideal) {
         return ideal;
     }
-    let distance =
-        |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
+    let distance = |offset: &f64| ((offset - ideal).abs() / arrow.width / OFFSET_RESOLUTION).round();
     let mut nearest = |within: Option<Bounds>| {
         let mut offsets = vec![ideal, 0.0];
         for other in placed.meeting(within) {
@@ -120,9 +104,7 @@ fn offset_of_least_change(
     };
     // Consider only nearby arrows first. If the offset found is small, do not search again, because arrows farther away
     // can only lead to larger offsets.
-    let nearby = nearest(Some(
-        space_around(arrow).grown(NEARBY_DISTANCE * arrow.width),
-    ));
+    let nearby = nearest(Some(space_around(arrow).grown(NEARBY_DISTANCE * arrow.width)));
     nearby
         .filter(|offset| offset.abs() < 0.5 * NEARBY_DISTANCE * arrow.width)
         .or_else(|| nearest(None))
@@ -133,10 +115,7 @@ fn offset_of_least_change(
 /// overlap.
 fn space_around(arrow: &ForceArrow) -> Bounds {
     let tip = arrow.at + arrow.reach();
-    let ends = Bounds {
-        min: arrow.at.inf(&tip),
-        max: arrow.at.sup(&tip),
-    };
+    let ends = Bounds { min: arrow.at.inf(&tip), max: arrow.at.sup(&tip) };
     ends.grown((HEAD_WIDTH + 2.0 * ARROW_GAP) * arrow.width)
 }
 
@@ -196,10 +175,7 @@ fn side_by_side(a: &ForceArrow, b: &ForceArrow) -> Option<(f64, f64)> {
         .fold(0.0, f64::max);
     let cross = |d: Vector| along.x * d.y - along.y * d.x;
     // The distance of two straight axes is smallest at the beginning or end of their common range.
-    let ends = [
-        from.max(0.0).min(long),
-        (from + project(v)).max(0.0).min(long),
-    ];
+    let ends = [from.max(0.0).min(long), (from + project(v)).max(0.0).min(long)];
     let distances = ends.map(|at| {
         let share = ((at - from) / project(v)).clamp(0.0, 1.0);
         cross(b.at + v * share - a.at).abs()
@@ -239,9 +215,7 @@ mod tests {
         }
         let overlaps = |arrows: &[ForceArrow]| {
             let pairs = (0..arrows.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-            pairs
-                .filter(|(i, j)| too_close(&arrows[*i], &arrows[*j]))
-                .count()
+            pairs.filter(|(i, j)| too_close(&arrows[*i], &arrows[*j])).count()
         };
         assert!(overlaps(&before.arrows) > 0, "no arrows overlap before");
         assert_eq!(overlaps(&marks.arrows), 0);
@@ -253,15 +227,12 @@ mod tests {
         let arrows = spread(include_str!("../../../tests/scenes/one.json"));
         assert_eq!(arrows.len(), 2);
         assert!((arrows[0].at.x - arrows[1].at.x).abs() > arrows[0].width);
-        let mut column = String::from(
-            r#"{ "drystone": 1, "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }], "blocks": ["#,
-        );
+        let mut column =
+            String::from(r#"{ "drystone": 1, "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }], "blocks": ["#);
         for y in 0..9 {
             let comma = if y > 0 { "," } else { "" };
             let up = y + 1;
-            column.push_str(&format!(
-                r#"{comma}{{ "polygon": [[0,{y}],[2,{y}],[2,{up}],[0,{up}]], "weight": {up} }}"#
-            ));
+            column.push_str(&format!(r#"{comma}{{ "polygon": [[0,{y}],[2,{y}],[2,{up}],[0,{up}]], "weight": {up} }}"#));
         }
         spread(&(column + "] }"));
         spread(include_str!("../../../tests/scenes/lintel.json"));

@@ -83,11 +83,7 @@ pub(crate) struct Pen<'a> {
 }
 
 impl<'a> Pen<'a> {
-    pub(crate) fn new(
-        context: &'a FigureContext<'a>,
-        number: usize,
-        camera: &'a Camera,
-    ) -> Pen<'a> {
+    pub(crate) fn new(context: &'a FigureContext<'a>, number: usize, camera: &'a Camera) -> Pen<'a> {
         let unit = camera.length(context.unit);
         let (scene, widths) = (&context.analysis.scene, &context.options.theme.widths);
         let mut places = vec![None; scene.blocks.len()];
@@ -129,9 +125,7 @@ impl<'a> Pen<'a> {
             let fill = ground.body.fill.map_or(theme.ground, colour);
             colours.add(fill, self.camera.polygon(&ground.body.polygon));
         }
-        group
-            .items
-            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group.items.extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -161,9 +155,7 @@ impl<'a> Pen<'a> {
             None if self.context.plain() => self.context.options.theme.block,
             None => {
                 let share = self.context.fills.shares[self.number][place];
-                self.context
-                    .fills
-                    .colour(&self.context.options.theme, share)
+                self.context.fills.colour(&self.context.options.theme, share)
             }
         }
     }
@@ -194,20 +186,13 @@ impl<'a> Pen<'a> {
     /// colours can be distinguished. Exceptions are missing forces, and scales so small that wider arrows would hide
     /// the blocks.
     pub(crate) fn width(&self, arrow: &ForceArrow) -> f64 {
-        let wider = if arrow.kind.is_failure() {
-            1.0
-        } else {
-            self.wider
-        };
+        let wider = if arrow.kind.is_failure() { 1.0 } else { self.wider };
         wider * self.camera.length(arrow.width)
     }
 
     /// Returns the stroke of the lines between the lattice cells of a block with this fill colour.
     fn seam(&self, fill: Colour) -> Stroke {
-        Stroke::new(
-            self.context.options.theme.seam_on(fill, 0.22),
-            0.6 * self.line,
-        )
+        Stroke::new(self.context.options.theme.seam_on(fill, 0.22), 0.6 * self.line)
     }
 
     /// Draws the blocks that are not displaced, each with a tooltip, and the contacts that the scene file lists. In
@@ -236,9 +221,7 @@ impl<'a> Pen<'a> {
                 edge = edge.dashed([4.0, 3.0]);
                 body = body.with(self.centre(block.centroid));
             }
-            group
-                .items
-                .push(body.with(Path::stroked(outline, edge)).into());
+            group.items.push(body.with(Path::stroked(outline, edge)).into());
         }
         if scene.lists_contacts() {
             group.items.push(self.listed_contacts().into());
@@ -251,8 +234,7 @@ impl<'a> Pen<'a> {
     fn blocks_by_colour(&self) -> Group {
         let (scene, theme) = (&self.context.analysis.scene, &self.context.options.theme);
         let frame = &scene.frames[self.number];
-        let mut group =
-            Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
+        let mut group = Group::with_class("blocks").titled(format!("{} blocks", frame.placed.len()));
         let mut colours = ByColour::default();
         for (place, id) in frame.placed.iter().enumerate() {
             if self.displacement(*id).is_some() {
@@ -261,9 +243,7 @@ impl<'a> Pen<'a> {
             let outline = self.camera.polygon(&scene.blocks[id.0].body.polygon);
             colours.add(self.fill(place, *id), outline);
         }
-        group
-            .items
-            .extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
+        group.items.extend(colours.paths(Some(Stroke::new(theme.outline, self.line))));
         group
     }
 
@@ -293,16 +273,11 @@ impl<'a> Pen<'a> {
         for hold in &scene.frames[self.number].holds {
             let at = self.moved(hold.block, hold.at);
             let disc = Outline::circle(self.camera.place(at), self.disc());
-            let title = format!(
-                "Robot {} holds block {}",
-                scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id
-            );
+            let title =
+                format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);
             let edge = theme.robot(hold.robot.0).mixed(theme.ink, 0.35);
-            let path = Path::filled(disc, theme.robot(hold.robot.0))
-                .with_stroke(Stroke::new(edge, 0.7 * self.line));
-            group
-                .items
-                .push(Group::with_class("robot").titled(title).with(path).into());
+            let path = Path::filled(disc, theme.robot(hold.robot.0)).with_stroke(Stroke::new(edge, 0.7 * self.line));
+            group.items.push(Group::with_class("robot").titled(title).with(path).into());
         }
         group
     }

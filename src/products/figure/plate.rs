@@ -28,18 +28,10 @@ pub(crate) fn plate(
     columns: usize,
     options: &Options,
 ) -> Drawing {
-    let options = Options {
-        columns: Some(columns),
-        ..options.clone()
-    };
-    let contexts: Vec<FigureContext<'_>> = analyses
-        .iter()
-        .map(|analysis| FigureContext::new(analysis, &options, &FORCES))
-        .collect();
-    let layouts: Vec<Layout> = contexts
-        .iter()
-        .map(|context| Layout::new(context, panels.len()))
-        .collect();
+    let options = Options { columns: Some(columns), ..options.clone() };
+    let contexts: Vec<FigureContext<'_>> =
+        analyses.iter().map(|analysis| FigureContext::new(analysis, &options, &FORCES)).collect();
+    let layouts: Vec<Layout> = contexts.iter().map(|context| Layout::new(context, panels.len())).collect();
     let Some(layout) = layouts.iter().copied().reduce(Layout::both) else {
         return Drawing::default();
     };
@@ -47,21 +39,12 @@ pub(crate) fn plate(
         let own = panels.iter().find(|p| (p.of, p.frame) == (of, frame));
         own.map_or_else(String::new, |p| p.caption.to_owned())
     };
-    let captions: Vec<Vec<String>> = analyses
-        .iter()
-        .enumerate()
-        .map(|(of, a)| (0..a.frames.len()).map(|f| caption(of, f)).collect())
-        .collect();
+    let captions: Vec<Vec<String>> =
+        analyses.iter().enumerate().map(|(of, a)| (0..a.frames.len()).map(|f| caption(of, f)).collect()).collect();
     let strips: Vec<Strip<'_>> = contexts
         .iter()
         .zip(&captions)
-        .map(|(context, captions)| Strip {
-            content: &FORCES,
-            context,
-            layout,
-            captions: Some(captions),
-            alike: false,
-        })
+        .map(|(context, captions)| Strip { content: &FORCES, context, layout, captions: Some(captions), alike: false })
         .collect();
     let strips: Vec<&Strip<'_>> = strips.iter().collect();
     let order: Vec<(usize, usize)> = panels.iter().map(|p| (p.of, p.frame)).collect();

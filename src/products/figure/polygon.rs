@@ -75,11 +75,7 @@ impl PanelContent for ForcePolygon {
     }
 
     fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
+        let FrameSource { analysis, frame, options } = of;
         let marks = mark::marks(analysis, frame, options, newtons_per_unit);
         let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
         let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
@@ -159,11 +155,7 @@ impl PanelContent for ForcePolygon {
                 (how, why)
             }
         };
-        if why.is_empty() {
-            how
-        } else {
-            format!("{how}; {why}")
-        }
+        if why.is_empty() { how } else { format!("{how}; {why}") }
     }
 }
 
@@ -234,27 +226,19 @@ struct Chain {
 /// of the polygon, in the unit of these corners.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
     let pair = |ends: &[Point]| [ends[0], ends[1]];
-    let (acting, answering): (Vec<_>, Vec<_>) = (
-        acting.windows(2).map(pair).collect(),
-        answering.windows(2).map(pair).collect(),
-    );
+    let (acting, answering): (Vec<_>, Vec<_>) =
+        (acting.windows(2).map(pair).collect(), answering.windows(2).map(pair).collect());
     // Two sides overlap if the midpoint and the first quarter point of one of them both lie close to the other.
     let from = |[a, b]: [Point; 2], p: Point| {
         let along = b - a;
         let length = along.norm_squared();
-        let share = if length > 0.0 {
-            ((p - a).dot(&along) / length).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let share = if length > 0.0 { ((p - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
         (p - (a + along * share)).norm()
     };
     let lies_on = |short: &[Point; 2], long: &[Point; 2]| {
         let middle = nalgebra::center(&short[0], &short[1]);
         let quarter = nalgebra::center(&short[0], &middle);
-        [middle, quarter]
-            .iter()
-            .all(|p| from(*long, *p) < OVERLAP_SHARE * size)
+        [middle, quarter].iter().all(|p| from(*long, *p) < OVERLAP_SHARE * size)
     };
     acting.iter().any(|a| {
         let mut others = answering.iter();
@@ -268,9 +252,7 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let scene = &analysis.scene;
     let blocks = scene.frames.iter().flat_map(|frame| &frame.placed);
-    let structure = blocks
-        .map(|id| scene.blocks[id.0].body.polygon.bounds())
-        .reduce(Bounds::union)?;
+    let structure = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)?;
     // The corners of the polygon, N.
     let mut at = Point::origin();
     let mut corners = vec![at];
@@ -290,23 +272,14 @@ fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let answers = |arrow: &ForceArrow| !matches!(arrow.kind, ArrowKind::Weight | ArrowKind::Load);
     let acting = outer(marks).position(answers);
     let acting = acting.unwrap_or(corners.len() - 1);
-    let aside = if covers(&corners[..=acting], &corners[acting..], size) {
-        REACTION_OFFSET * size
-    } else {
-        0.0
-    };
+    let aside = if covers(&corners[..=acting], &corners[acting..], size) { REACTION_OFFSET * size } else { 0.0 };
     let (share, least) = POLYGON_GAP;
     let apart = (share * structure.diagonal()).max(least * unit(scene, None));
     // Place the polygon to the right of the structure and its ground, at the height of the middle of the structure.
-    let right = view::ground_shown(scene, unit(scene, None))
-        .map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
+    let right = view::ground_shown(scene, unit(scene, None)).map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
     let middle = 0.5 * (structure.min.y + structure.max.y);
-    let shift = Vector::new(
-        right + apart - scale * own.min.x,
-        middle - 0.5 * scale * (own.min.y + own.max.y),
-    );
-    let place =
-        |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * scale + shift);
+    let shift = Vector::new(right + apart - scale * own.min.x, middle - 0.5 * scale * (own.min.y + own.max.y));
+    let place = |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * scale + shift);
     let side = |(number, ends): (usize, &[Point])| {
         let aside = if number < acting { 0.0 } else { aside };
         [place(ends[0], aside), place(ends[1], aside)]
@@ -316,11 +289,7 @@ fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
     let joins = ends.map(|(answer, act)| [place(act, 0.0), place(answer, aside)]);
     Some(Chain {
         sides: corners.windows(2).enumerate().map(side).collect(),
-        joins: if aside > 0.0 {
-            joins.collect()
-        } else {
-            Vec::new()
-        },
+        joins: if aside > 0.0 { joins.collect() } else { Vec::new() },
         scale,
     })
 }
@@ -341,9 +310,7 @@ fn scale(structure: Bounds, own: Bounds, is_one_of_several: bool) -> f64 {
 
 /// True if the sum of the forces is zero, except for rounding.
 fn closed<'a>(arrows: impl Iterator<Item = &'a ForceArrow>) -> bool {
-    let sides = arrows.fold((Vector::zeros(), 0.0), |(sum, all), arrow| {
-        (sum + arrow.force, all + arrow.force.norm())
-    });
+    let sides = arrows.fold((Vector::zeros(), 0.0), |(sum, all), arrow| (sum + arrow.force, all + arrow.force.norm()));
     sides.0.norm() <= CLOSURE_TOL * sides.1
 }
 

@@ -5,8 +5,7 @@ use core::f64::consts::TAU;
 
 use crate::drawing::arrow::straight;
 use crate::drawing::{
-    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text,
-    Theme,
+    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text, Theme,
 };
 
 /// Width of the page, pixels.
@@ -29,9 +28,7 @@ pub fn ring(theme: &Theme) -> Drawing {
     }
     let line = |y: f64, words: &str| -> Item {
         let at = PagePoint::new(centre.x, y);
-        Text::new(at, words, Face::Sans, FONT_SIZE, theme.faint)
-            .anchored(Anchor::Middle)
-            .into()
+        Text::new(at, words, Face::Sans, FONT_SIZE, theme.faint).anchored(Anchor::Middle).into()
     };
     items.push(line(centre.y - 0.15 * FONT_SIZE, "forces on"));
     items.push(line(centre.y + 1.05 * FONT_SIZE, "blocks"));
@@ -41,16 +38,11 @@ pub fn ring(theme: &Theme) -> Drawing {
     items.push(line(y, "robots, repeated in this order"));
     y += 30.0;
     let arrow = straight(PagePoint::new(centre.x - 34.0, y), (67.0, 0.0), 5.6);
-    let failure = Group::with_class("failure").titled(format!(
-        "Missing forces have the colour {}",
-        theme.failure.css()
-    ));
+    let failure =
+        Group::with_class("failure").titled(format!("Missing forces have the colour {}", theme.failure.css()));
     items.push(failure.with(Path::filled(arrow, theme.failure)).into());
     y += 28.0;
-    items.push(line(
-        y,
-        "missing forces: adhesion, friction or robot forces",
-    ));
+    items.push(line(y, "missing forces: adhesion, friction or robot forces"));
     Drawing {
         width: PAGE_WIDTH,
         height: (y + 24.0).ceil(),
@@ -75,8 +67,7 @@ fn labelled_sector(centre: PagePoint, entry: usize, theme: &Theme) -> Group {
     let blocks = format!("{first}, {}, …", first + count);
     let sector = Path::filled(sector(centre, from, sweep), colour);
     let middle = from + sweep / 2.0;
-    let at =
-        polar(centre, (RING_RADII.0 + RING_RADII.1) / 2.0, middle).moved(0.0, 0.36 * FONT_SIZE);
+    let at = polar(centre, (RING_RADII.0 + RING_RADII.1) / 2.0, middle).moved(0.0, 0.36 * FONT_SIZE);
     let ink = theme.letters_on(colour, None);
     let words = Text::new(at, blocks.as_str(), Face::SansBold, 12.0, ink);
     Group::with_class("sector")
@@ -92,10 +83,7 @@ fn robots(centre: PagePoint, theme: &Theme) -> Vec<Item> {
         let x = (number as f64 - (count - 1.0) / 2.0) * 40.0;
         let disc = Path::filled(Outline::circle(centre.moved(x, 0.0), 13.0), *colour)
             .with_stroke(Stroke::new(colour.mixed(theme.ink, 0.35), 0.8));
-        Group::with_class("robot")
-            .titled(format!("Robot {number} has the colour {}", colour.css()))
-            .with(disc)
-            .into()
+        Group::with_class("robot").titled(format!("Robot {number} has the colour {}", colour.css())).with(disc).into()
     };
     theme.robots.iter().enumerate().map(disc).collect()
 }
@@ -110,9 +98,7 @@ fn sector(centre: PagePoint, from: f64, sweep: f64) -> Outline {
     let steps = 72;
     let angle = |step: i32| from + sweep * f64::from(step) / f64::from(steps);
     let outer = (0..=steps).map(|s| polar(centre, RING_RADII.1, angle(s)));
-    let inner = (0..=steps)
-        .rev()
-        .map(|s| polar(centre, RING_RADII.0, angle(s)));
+    let inner = (0..=steps).rev().map(|s| polar(centre, RING_RADII.0, angle(s)));
     let mut outline = Outline::line(outer.chain(inner));
     outline.segments.push(Segment::Close);
     outline

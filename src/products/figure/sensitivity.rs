@@ -21,8 +21,7 @@ use crate::analysis::MarginKind;
 use crate::drawing::arrow::straight;
 use crate::drawing::placement::Ink;
 use crate::drawing::{
-    Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
-    text,
+    Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
 use crate::geometry::Bounds;
 use crate::scene::Scene;
@@ -82,17 +81,12 @@ impl PanelContent for CornerEffects {
             let pixels = scale(analysis, context.unit, context.options) * unit / context.unit;
             entries.extend(scale_entry(&analysis.scene, plan, pixels));
         }
-        if plans
-            .iter()
-            .any(|plan| plan.arrows.iter().any(|a| a.number.is_some()))
-        {
-            let words =
-                "one of the most effective moves; the text below states the estimated new margin";
+        if plans.iter().any(|plan| plan.arrows.iter().any(|a| a.number.is_some())) {
+            let words = "one of the most effective moves; the text below states the estimated new margin";
             entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
         }
         if plans.iter().any(Plan::has_marks) {
-            let words =
-                "change of a weight, load or joint; the text below states the estimated new margin";
+            let words = "change of a weight, load or joint; the text below states the estimated new margin";
             let wide = 1.6 * disc_radius(&context.options.theme);
             entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
         }
@@ -101,9 +95,7 @@ impl PanelContent for CornerEffects {
         let kinks = plans.iter().map(|plan| plan.kinks).sum();
         if kinks > 0 {
             let corners = counted(kinks, "corner");
-            entries.push(Entry::Note(format!(
-                "{corners} without an arrow, because the margin has a kink there"
-            )));
+            entries.push(Entry::Note(format!("{corners} without an arrow, because the margin has a kink there")));
         }
         if let [only] = &plans[..]
             && analysis.frames.len() == 1
@@ -141,11 +133,7 @@ impl PanelContent for CornerEffects {
         }
         let changes = plan.changes.iter();
         let changes = changes.map(|c| format!("{}: {}", c.number, c.words));
-        [stated]
-            .into_iter()
-            .chain(changes)
-            .collect::<Vec<_>>()
-            .join("; ")
+        [stated].into_iter().chain(changes).collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -169,10 +157,7 @@ fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>
         let outline = straight(from, along, width);
         let casing = Stroke::new(theme.page, 1.6);
         let per_step = format_change(plan.kind, arrow.effect.norm() * plan.step);
-        let title = format!(
-            "{per_step} for {}",
-            length(&context.analysis.scene, plan.step)
-        );
+        let title = format!("{per_step} for {}", length(&context.analysis.scene, plan.step));
         let one = Group::with_class("effect").titled(title);
         let casing = Path::stroked(outline.clone(), casing).with_opacity(0.85);
         let fill = Path::filled(outline, colour(theme, arrow.number.is_some()));
@@ -242,20 +227,10 @@ fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
 /// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The
 /// candidates lie on circles around `preferred`, up to `most` times `radius` away. Returns `None` if no candidate is
 /// free.
-fn nearest_free_position(
-    ink: &Ink,
-    preferred: PagePoint,
-    radius: f64,
-    most: f64,
-) -> Option<PagePoint> {
+fn nearest_free_position(ink: &Ink, preferred: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
     let side = 2.0 * radius;
-    let is_free = |centre: &PagePoint| {
-        ink.clear(PageRect {
-            at: centre.moved(-radius, -radius),
-            width: side,
-            height: side,
-        })
-    };
+    let is_free =
+        |centre: &PagePoint| ink.clear(PageRect { at: centre.moved(-radius, -radius), width: side, height: side });
     // Candidates lie on circles around `preferred`, twelve on each circle. The radii of the circles are multiples of a
     // fifth of the disc's radius.
     let place = |k: usize| {
@@ -336,15 +311,10 @@ fn disc_radius(theme: &Theme) -> f64 {
 /// Draws a disc with the number of a change.
 fn numbered(at: PagePoint, number: usize, theme: &Theme) -> Group {
     let size = 0.92 * theme.sizes.amount;
-    let disc = Path::filled(
-        Outline::circle(at, disc_radius(theme)),
-        number_colour(theme),
-    );
+    let disc = Path::filled(Outline::circle(at, disc_radius(theme)), number_colour(theme));
     let at = at.moved(0.0, 0.36 * size);
     let words = Text::new(at, number.to_string(), Face::SansBold, size, theme.page);
-    Group::default()
-        .with(disc)
-        .with(words.anchored(Anchor::Middle))
+    Group::default().with(disc).with(words.anchored(Anchor::Middle))
 }
 
 fn arrow_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {

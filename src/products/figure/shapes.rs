@@ -3,9 +3,7 @@
 
 use super::layout::MAX_MARGIN;
 use super::pen::seams;
-use crate::drawing::{
-    Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme,
-};
+use crate::drawing::{Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme};
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::scene::{Body, shape};
 
@@ -16,10 +14,7 @@ const MAX_ROW_WIDTH: f64 = 900.0;
 
 /// Draws an overview of the built-in shapes on the triangular lattice.
 pub fn shapes(theme: &Theme) -> Drawing {
-    let lattice = Lattice {
-        kind: LatticeKind::Triangular,
-        side: 1.0,
-    };
+    let lattice = Lattice { kind: LatticeKind::Triangular, side: 1.0 };
     let named = shape::BUILT_IN.map(|name| (name, shape::cells(name).unwrap_or_default()));
     sheet(lattice, &named, theme)
 }
@@ -36,10 +31,7 @@ impl<'n> SheetShape<'n> {
     /// Creates a shape from lattice cells; `None` if the cells do not form a valid polygon.
     fn new(lattice: Lattice, name: &'n str, cells: &[Cell]) -> Option<SheetShape<'n>> {
         let polygon = lattice.polygon(cells)?;
-        let origin = Bounds {
-            min: Point::origin(),
-            max: Point::origin(),
-        };
+        let origin = Bounds { min: Point::origin(), max: Point::origin() };
         let view = polygon.bounds().union(origin).grown(0.12 * lattice.side);
         let body = Body {
             polygon,
@@ -111,8 +103,7 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         width: (widest.max(420.0) + MAX_MARGIN).ceil(),
         height: (note.y + MAX_MARGIN - 8.0).ceil(),
         title: "Built-in shapes".into(),
-        description: "Outlines of the shapes, the seams between their cells, and their origins."
-            .into(),
+        description: "Outlines of the shapes, the seams between their cells, and their origins.".into(),
         background: Some(theme.page),
         items,
     }

@@ -11,12 +11,8 @@ mod line;
 mod state;
 
 use fan::Fans;
-use line::{
-    carried_colour, colour, dot_symbol, dots, lines, schematic_colour, seams, widest, width,
-};
-use state::{
-    central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note,
-};
+use line::{carried_colour, colour, dot_symbol, dots, lines, schematic_colour, seams, widest, width};
+use state::{central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note};
 
 use super::arrow::Marks;
 use super::content::{About, FrameSource, PanelContent};
@@ -55,11 +51,7 @@ impl PanelContent for ThrustLine {
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let FrameSource {
-            analysis,
-            frame,
-            options,
-        } = of;
+        let FrameSource { analysis, frame, options } = of;
         if !options.with_polygon {
             return None;
         }
@@ -81,9 +73,7 @@ impl PanelContent for ThrustLine {
         }
         let seams = seams(pen, frame_analysis);
         let [least, greatest] = limits(pen, family, &mut ink);
-        let dots = dots(pen, frame_analysis, &mut |at, radius| {
-            ink.disc(at, radius + 1.0)
-        });
+        let dots = dots(pen, frame_analysis, &mut |at, radius| ink.disc(at, radius + 1.0));
         let lines = lines(pen, scene, frame_analysis, &segments);
         let loads = pen.arrows(false);
         let fans = match context.options.with_polygon {
@@ -158,14 +148,12 @@ impl PanelContent for ThrustLine {
         let why = verdict::reason(scene, frame_analysis);
         match frame_analysis.verdict {
             Verdict::Stable => {
-                let state = other_figures_note(context, frame)
-                    .or_else(|| uniqueness_note(context, frame).map(str::to_owned));
+                let state =
+                    other_figures_note(context, frame).or_else(|| uniqueness_note(context, frame).map(str::to_owned));
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }
-            Verdict::Unstable => {
-                "the line shows the carried forces only, so it is not in equilibrium".into()
-            }
+            Verdict::Unstable => "the line shows the carried forces only, so it is not in equilibrium".into(),
             Verdict::Undecided => format!("no line of thrust is proved; {why}"),
         }
     }
@@ -174,9 +162,7 @@ impl PanelContent for ThrustLine {
 /// Returns the text of the legend for schematic lines. `largest` is the force that the width of the thickest line shows;
 /// `None` if another entry states it.
 fn schematic_text(context: &FigureContext<'_>, largest: Option<&str>) -> String {
-    let shows = largest.map_or_else(String::new, |largest| {
-        format!(" (this width shows {largest})")
-    });
+    let shows = largest.map_or_else(String::new, |largest| format!(" (this width shows {largest})"));
     match context.options.is_column() {
         true => format!("schematic{shows}: no single line of action in the block"),
         false => format!("schematic{shows}: no single line of action runs through the block"),
@@ -206,14 +192,11 @@ fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> &'a FrameAna
 /// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
-    let frames =
-        given.map(|(number, frame_analysis)| shown(context.thrust_states(number), frame_analysis));
+    let frames = given.map(|(number, frame_analysis)| shown(context.thrust_states(number), frame_analysis));
     let frames: Vec<&FrameAnalysis> = frames.collect();
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);
-    let forces = contacts
-        .map(|c| c.resultant.force)
-        .chain(robots.map(|r| r.force));
+    let forces = contacts.map(|c| c.resultant.force).chain(robots.map(|r| r.force));
     forces.map(|f| f.norm()).fold(0.0, f64::max)
 }
 
@@ -223,9 +206,7 @@ fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> 
     let scene = &analysis.scene;
     let frame_analysis = &analysis.frames[frame];
     let shown = shown(states, frame_analysis);
-    (frame_analysis.verdict == Verdict::Stable)
-        .then(|| Fans::new(scene, &scene.frames[frame], shown, unit))
-        .flatten()
+    (frame_analysis.verdict == Verdict::Stable).then(|| Fans::new(scene, &scene.frames[frame], shown, unit)).flatten()
 }
 
 /// Returns the note in the legend that explains the force polygon, or why there is none.
@@ -236,9 +217,7 @@ fn polygon_note(context: &FigureContext<'_>) -> &'static str {
         fans(context.analysis, frame, states, context.unit).is_some()
     });
     match any {
-        true => {
-            "force polygon: each ray from the pole O is the force in the joint with the same number"
-        }
+        true => "force polygon: each ray from the pole O is the force in the joint with the same number",
         false => "no force polygon: no chain of blocks in a standing frame has a horizontal thrust",
     }
 }

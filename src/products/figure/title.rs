@@ -19,9 +19,7 @@ pub(crate) fn lines(title: &str, room: f64, theme: &Theme) -> (Vec<String>, f64)
     let least = theme.sizes.caption.min(theme.sizes.title);
     let sizes = SIZE_STEPS.map(|share| (share * theme.sizes.title).max(least));
     let wrapped = |size: f64| text::wrap(title, FACE, size, room);
-    let fits = sizes
-        .into_iter()
-        .find(|size| wrapped(*size).len() <= MAX_FULL_SIZE_LINES);
+    let fits = sizes.into_iter().find(|size| wrapped(*size).len() <= MAX_FULL_SIZE_LINES);
     let size = fits.unwrap_or(sizes[SIZE_STEPS.len() - 1]);
     (text::balanced(title, FACE, size, room, MAX_LINES), size)
 }
@@ -39,9 +37,6 @@ mod tests {
         let (set, smaller) = lines(long, 240.0, &theme);
         assert!(smaller < size && set.concat().replace(' ', "") == long.replace(' ', ""));
         let (cut, _) = lines(&long.repeat(9), 240.0, &theme);
-        assert!(
-            cut.len() == MAX_LINES && cut[MAX_LINES - 1].ends_with('…'),
-            "{cut:?}"
-        );
+        assert!(cut.len() == MAX_LINES && cut[MAX_LINES - 1].ends_with('…'), "{cut:?}");
     }
 }

@@ -14,12 +14,7 @@ const UNEVEN_RATIO: f64 = 3.0;
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let near = zoom.map(|block| view::zoomed_view(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
-    let mut sizes: Vec<f64> = scene
-        .blocks
-        .iter()
-        .filter(shown)
-        .map(|b| b.body.polygon.area().sqrt())
-        .collect();
+    let mut sizes: Vec<f64> = scene.blocks.iter().filter(shown).map(|b| b.body.polygon.area().sqrt()).collect();
     sizes.sort_by(f64::total_cmp);
     let squares: f64 = sizes.iter().map(|s| s * s).sum();
     let mean = libm::sqrt(squares / sizes.len().max(1) as f64);
@@ -47,8 +42,6 @@ pub(crate) fn longest_load(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     let edge = unit(scene, zoom);
     let blocks = scene.blocks.iter();
     let all = blocks.map(|b| b.body.polygon.bounds());
-    let longer = all
-        .reduce(Bounds::union)
-        .map_or(edge, |b| b.width().max(b.height()));
+    let longer = all.reduce(Bounds::union).map_or(edge, |b| b.width().max(b.height()));
     edge.max(LONGEST_LOAD * longer)
 }

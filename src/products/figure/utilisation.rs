@@ -67,10 +67,7 @@ impl PanelContent for Utilisation {
         let scene = &context.analysis.scene;
         let frames = &context.analysis.frames;
         let all: Vec<Option<Bearing>> = frames.iter().flat_map(|f| bearings(scene, f)).collect();
-        let robots = frames
-            .iter()
-            .flat_map(|f| &f.robots)
-            .any(|r| limit::has_limits(scene, r.robot));
+        let robots = frames.iter().flat_map(|f| &f.robots).any(|r| limit::has_limits(scene, r.robot));
         let mut entries = Vec::new();
         let shared = all.iter().flatten().any(|b| b.friction.is_some());
         if shared || robots {
@@ -80,12 +77,7 @@ impl PanelContent for Utilisation {
                 (true, true) => "of the available friction; in discs, of a robot's limits",
             };
             let ends = ["0".to_owned(), "100 %".to_owned()];
-            entries.push(Entry::Amplitudes(
-                ends,
-                what.into(),
-                Theme::amplitude,
-                legend::BAR_LENGTH,
-            ));
+            entries.push(Entry::Amplitudes(ends, what.into(), Theme::amplitude, legend::BAR_LENGTH));
         }
         let mut robots = frames.iter().flat_map(|f| &f.robots);
         let spent = robots.any(|r| r.limit_used >= FULL_UTILISATION);
@@ -113,18 +105,13 @@ impl PanelContent for Utilisation {
         match frame_analysis.verdict {
             Verdict::Stable => format!("in the forces shown, {used}"),
             Verdict::Unstable => format!("with the missing forces added, {used}"),
-            Verdict::Undecided => format!(
-                "in the forces found, {used}; {}",
-                verdict::reason(scene, frame_analysis)
-            ),
+            Verdict::Undecided => format!("in the forces found, {used}; {}", verdict::reason(scene, frame_analysis)),
         }
     }
 }
 
 fn uses_all_friction(bearing: &Bearing) -> bool {
-    bearing
-        .friction
-        .is_some_and(|share| share >= FULL_UTILISATION)
+    bearing.friction.is_some_and(|share| share >= FULL_UTILISATION)
 }
 
 /// Describes the interface that uses the largest fraction of its friction, and the robot that uses the largest
@@ -139,11 +126,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
             most = Some((share, contact));
         }
     }
-    let sliding = bearings
-        .iter()
-        .flatten()
-        .filter(|b| uses_all_friction(b))
-        .count();
+    let sliding = bearings.iter().flatten().filter(|b| uses_all_friction(b)).count();
     match most {
         None => {}
         Some((share, _)) if share < 1e-6 => stated.push("no interface uses friction".to_owned()),
@@ -153,9 +136,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         Some((share, contact)) => {
             let pair = joint_name(scene, frame_analysis, contact);
             let share = percent(share);
-            stated.push(format!(
-                "the joint between {pair} uses the largest share of its friction, {share}"
-            ));
+            stated.push(format!("the joint between {pair} uses the largest share of its friction, {share}"));
         }
     }
     stated.extend(most_used_robots(scene, frame_analysis));
@@ -172,12 +153,7 @@ fn most_used(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 /// Names the robot that uses the largest fraction of its limits, or states how many robots use it. `None` if no robot of
 /// the frame has limits.
 fn most_used_robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
-    let robots = || {
-        frame_analysis
-            .robots
-            .iter()
-            .filter(|r| limit::has_limits(scene, r.robot))
-    };
+    let robots = || frame_analysis.robots.iter().filter(|r| limit::has_limits(scene, r.robot));
     let most = robots().map(|r| r.limit_used).reduce(f64::max);
     // Robots that use the same percentage of their limits are reported together, so that rounding errors do not select
     // one of them.
@@ -189,11 +165,9 @@ fn most_used_robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Str
             let (id, share) = (&scene.robots[robot.robot.0].id, percent(robot.limit_used));
             Some(format!("robot\u{a0}{id} gives {share} of its limit"))
         }
-        [robot, ..] => Some(format!(
-            "{} give {} of their limits",
-            counted(most_used.len(), "robot"),
-            percent(robot.limit_used)
-        )),
+        [robot, ..] => {
+            Some(format!("{} give {} of their limits", counted(most_used.len(), "robot"), percent(robot.limit_used)))
+        }
     }
 }
 
@@ -226,10 +200,7 @@ fn idle_stroke(theme: &Theme, bold: f64) -> Stroke {
 fn interfaces(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> (Group, Group) {
     let scene = &pen.context.analysis.scene;
     let (mut idle, mut used) = (Group::with_class("idle"), Group::with_class("interfaces"));
-    let bearings = frame_analysis
-        .contacts
-        .iter()
-        .zip(bearings(scene, frame_analysis));
+    let bearings = frame_analysis.contacts.iter().zip(bearings(scene, frame_analysis));
     if pen.many() {
         joined_interfaces(pen, bearings, &mut idle, &mut used);
         return (idle, used);
@@ -239,9 +210,7 @@ fn interfaces(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> (Group, Group) {
         bearings.partition(|(contact, _)| contact.interface.kind == ContactKind::Corner);
     for (contact, bearing) in edges.into_iter().chain(corners) {
         match bearing {
-            Some(bearing) => used
-                .items
-                .push(used_interface(pen, contact, &bearing).into()),
+            Some(bearing) => used.items.push(used_interface(pen, contact, &bearing).into()),
             None => idle.items.push(idle_interface(pen, contact).into()),
         }
     }
@@ -259,8 +228,7 @@ fn joined_interfaces<'c>(
     let theme = &pen.context.options.theme;
     let bold = bold(pen.unit());
     let mut lines = ByColour::default();
-    let (mut edges, mut bars, mut dashes) =
-        (Outline::default(), Outline::default(), Outline::default());
+    let (mut edges, mut bars, mut dashes) = (Outline::default(), Outline::default(), Outline::default());
     for (contact, bearing) in bearings {
         let line = line_of(pen, contact);
         let Some(bearing) = bearing else {
@@ -278,8 +246,7 @@ fn joined_interfaces<'c>(
         idle.items.push(path.into());
     }
     if !edges.segments.is_empty() {
-        used.items
-            .push(rimmed(edges, bold, rim(bold), theme).into());
+        used.items.push(rimmed(edges, bold, rim(bold), theme).into());
     }
     used.items.extend(lines.lines(bold));
     if !bars.segments.is_empty() {
@@ -297,9 +264,7 @@ fn idle_interface(pen: &Pen<'_>, contact: &Contact) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let pair = description::pair(scene, contact.interface.bodies);
     let path = Path::stroked(line_of(pen, contact), idle_stroke(theme, bold(pen.unit())));
-    Group::with_class("interface")
-        .titled(format!("Between {pair}: no force"))
-        .with(path)
+    Group::with_class("interface").titled(format!("Between {pair}: no force")).with(path)
 }
 
 /// Draws an interface with force as a line whose colour shows the used fraction of the available friction. A bar
@@ -350,10 +315,7 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
     let middle = pen.camera.place(contact.interface.middle());
     let half = 0.5 * BAR_LENGTH * bold(pen.unit());
     // The page has the same scale in both directions, so a unit normal in the scene is also a unit normal on the page.
-    let (x, y) = (
-        contact.interface.normal.x * half,
-        -contact.interface.normal.y * half,
-    );
+    let (x, y) = (contact.interface.normal.x * half, -contact.interface.normal.y * half);
     [middle.moved(-x, -y), middle.moved(x, y)]
 }
 
@@ -362,26 +324,13 @@ fn across(pen: &Pen<'_>, contact: &Contact) -> [PagePoint; 2] {
 fn robots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let mut group = Group::with_class("limits");
-    for robot in frame_analysis
-        .robots
-        .iter()
-        .filter(|r| limit::has_limits(scene, r.robot))
-    {
+    for robot in frame_analysis.robots.iter().filter(|r| limit::has_limits(scene, r.robot)) {
         let at = pen.camera.place(robot.at);
         let radius = 0.64 * pen.disc();
-        let title = format!(
-            "Robot {}: {} of its limit",
-            scene.robots[robot.robot.0].id,
-            percent(robot.limit_used)
-        );
+        let title = format!("Robot {}: {} of its limit", scene.robots[robot.robot.0].id, percent(robot.limit_used));
         let rim = Stroke::new(edge(theme), (0.06 * pen.disc()).clamp(0.4, 1.0));
-        let disc = Path::filled(
-            Outline::circle(at, radius),
-            theme.amplitude(robot.limit_used),
-        );
-        let mut drawn = Group::with_class("limit")
-            .titled(title)
-            .with(disc.with_stroke(rim));
+        let disc = Path::filled(Outline::circle(at, radius), theme.amplitude(robot.limit_used));
+        let mut drawn = Group::with_class("limit").titled(title).with(disc.with_stroke(rim));
         if robot.limit_used >= FULL_UTILISATION {
             let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
             drawn = drawn.with(Path::stroked(bar, Stroke::new(theme.ink, 1.4)));

@@ -38,41 +38,27 @@ pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -
 
 /// Draws the symbol of a verdict in a given colour: a disc of radius `r` pixels with a tick (stable), a cross
 /// (unstable) or a question mark (undecided).
-pub(crate) fn mark_in(
-    colour: Colour,
-    verdict: Verdict,
-    centre: PagePoint,
-    r: f64,
-    theme: &Theme,
-) -> Group {
+pub(crate) fn mark_in(colour: Colour, verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
     let at = |x: f64, y: f64| centre.moved(x * r, y * r);
     let pen = || Stroke::new(theme.page, 0.24 * r);
     let disc = Path::filled(Outline::circle(centre, r), colour);
     let group = Group::with_class("verdict").with(disc);
     match verdict {
-        Verdict::Stable => group.with(Path::stroked(
-            Outline::line([at(-0.45, 0.04), at(-0.13, 0.38), at(0.46, -0.34)]),
-            pen(),
-        )),
+        Verdict::Stable => {
+            group.with(Path::stroked(Outline::line([at(-0.45, 0.04), at(-0.13, 0.38), at(0.46, -0.34)]), pen()))
+        }
         Verdict::Unstable => group
-            .with(Path::stroked(
-                Outline::line([at(-0.36, -0.36), at(0.36, 0.36)]),
-                pen(),
-            ))
-            .with(Path::stroked(
-                Outline::line([at(-0.36, 0.36), at(0.36, -0.36)]),
-                pen(),
-            )),
+            .with(Path::stroked(Outline::line([at(-0.36, -0.36), at(0.36, 0.36)]), pen()))
+            .with(Path::stroked(Outline::line([at(-0.36, 0.36), at(0.36, -0.36)]), pen())),
         Verdict::Undecided => {
             let mut hook = Outline::line([at(-0.3, -0.26)]);
             hook.segments.extend([
                 crate::drawing::Segment::Curve(at(-0.28, -0.72), at(0.42, -0.68), at(0.3, -0.2)),
                 crate::drawing::Segment::Curve(at(0.24, 0.0), at(0.0, 0.0), at(0.0, 0.22)),
             ]);
-            group.with(Path::stroked(hook, pen())).with(Path::filled(
-                Outline::circle(at(0.0, 0.54), 0.15 * r),
-                theme.page,
-            ))
+            group
+                .with(Path::stroked(hook, pen()))
+                .with(Path::filled(Outline::circle(at(0.0, 0.54), 0.15 * r), theme.page))
         }
     }
 }

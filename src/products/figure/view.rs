@@ -18,13 +18,7 @@ const PADDING: f64 = 0.08;
 /// Returns, for each frame, a box in metres around everything that the frame shows: blocks, planned blocks, arrows
 /// (`marks`), robots, the box `reach` of other items, and the ground near the blocks of any frame. `disc` is the radius
 /// of a robot's disc in unit lengths; `unit` is the unit length in metres.
-pub(crate) fn shown(
-    scene: &Scene,
-    marks: &[Marks],
-    reach: &[Option<Bounds>],
-    disc: f64,
-    unit: f64,
-) -> Vec<Bounds> {
+pub(crate) fn shown(scene: &Scene, marks: &[Marks], reach: &[Option<Bounds>], disc: f64, unit: f64) -> Vec<Bounds> {
     let ground = ground_shown(scene, unit);
     let frame = |((frame, marks), reach): ((&Frame, &Marks), &Option<Bounds>)| {
         let blocks = blocks(scene, frame).map(|id| scene.blocks[id.0].body.polygon.bounds());
@@ -32,42 +26,18 @@ pub(crate) fn shown(
             let ends = Bounds::from_points([arrow.at, arrow.at + arrow.reach()]);
             ends.map(|b| b.grown(HEAD_WIDTH * arrow.width / 2.0))
         });
-        let turns = marks
-            .turns
-            .iter()
-            .map(|turn| square_around(turn.at, 0.7 * unit));
-        let robots = frame
-            .holds
-            .iter()
-            .map(|hold| square_around(hold.at, disc * unit));
-        let all = blocks
-            .chain(arrows)
-            .chain(turns)
-            .chain(robots)
-            .chain(ground)
-            .chain(*reach);
-        all.reduce(Bounds::union)
-            .unwrap_or(square_around(Point::origin(), unit))
-            .grown(PADDING * unit)
+        let turns = marks.turns.iter().map(|turn| square_around(turn.at, 0.7 * unit));
+        let robots = frame.holds.iter().map(|hold| square_around(hold.at, disc * unit));
+        let all = blocks.chain(arrows).chain(turns).chain(robots).chain(ground).chain(*reach);
+        all.reduce(Bounds::union).unwrap_or(square_around(Point::origin(), unit)).grown(PADDING * unit)
     };
-    scene
-        .frames
-        .iter()
-        .zip(marks)
-        .zip(reach)
-        .map(frame)
-        .collect()
+    scene.frames.iter().zip(marks).zip(reach).map(frame).collect()
 }
 
 /// Returns the blocks that a frame shows: placed and planned blocks.
 fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockId> + 'a {
     let planned = frame.plans.iter().map(|plan| plan.block);
-    frame
-        .placed
-        .iter()
-        .copied()
-        .chain(planned)
-        .filter(|id| id.0 < scene.blocks.len())
+    frame.placed.iter().copied().chain(planned).filter(|id| id.0 < scene.blocks.len())
 }
 
 /// Returns a box, in metres, around the part of the ground that the figures of a scene show: the ground near the
@@ -76,9 +46,7 @@ fn blocks<'a>(scene: &'a Scene, frame: &'a Frame) -> impl Iterator<Item = BlockI
 pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let ground = || scene.ground.iter().map(|g| g.body.polygon.bounds());
     let seen = scene.frames.iter().flat_map(|frame| blocks(scene, frame));
-    let structure = seen
-        .map(|id| scene.blocks[id.0].body.polygon.bounds())
-        .reduce(Bounds::union);
+    let structure = seen.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
     let Some(structure) = structure else {
         return ground().reduce(Bounds::union);
     };
@@ -86,13 +54,8 @@ pub(crate) fn ground_shown(scene: &Scene, unit: f64) -> Option<Bounds> {
     let near = structure.grown((SIDE_GROUND_SHARE * reach).max(unit));
     let far = structure.grown(reach);
     let shown = |part: Bounds| {
-        let small =
-            part.width() <= MAX_UNCUT_GROUND * unit && part.height() <= MAX_UNCUT_GROUND * unit;
-        if small && far.intersects(part) {
-            Some(part)
-        } else {
-            intersection(near, part)
-        }
+        let small = part.width() <= MAX_UNCUT_GROUND * unit && part.height() <= MAX_UNCUT_GROUND * unit;
+        if small && far.intersects(part) { Some(part) } else { intersection(near, part) }
     };
     ground().filter_map(shown).reduce(Bounds::union)
 }

@@ -72,35 +72,19 @@ pub fn svg(study: &Study) -> Result<String, ChartError> {
     let lines = summary(study);
     let place = |line: &Summary| Point {
         x: line.time.max(1e-6),
-        y: line
-            .total_error
-            .unwrap_or(MAX_SHOWN_ERROR)
-            .clamp(MIN_SHOWN_ERROR, MAX_SHOWN_ERROR),
+        y: line.total_error.unwrap_or(MAX_SHOWN_ERROR).clamp(MIN_SHOWN_ERROR, MAX_SHOWN_ERROR),
         wrong: line.wrong > 0,
     };
     let shown = |line: &&Summary| line.total_error.is_some() || line.wrong > 0;
     let series = Method::ALL.map(|method| Series {
         name: method.name().to_owned(),
         colour: colour(method),
-        points: lines
-            .iter()
-            .filter(|l| l.method == method)
-            .filter(shown)
-            .map(place)
-            .collect(),
+        points: lines.iter().filter(|l| l.method == method).filter(shown).map(place).collect(),
     });
-    let mut front: Vec<(f64, f64)> = lines
-        .iter()
-        .filter(|l| l.best)
-        .map(|l| (place(l).x, place(l).y))
-        .collect();
+    let mut front: Vec<(f64, f64)> = lines.iter().filter(|l| l.best).map(|l| (place(l).x, place(l).y)).collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
     scatter(&Scatter {
-        title: format!(
-            "What accuracy costs: {}, drystone {}",
-            frames(study),
-            env!("CARGO_PKG_VERSION")
-        ),
+        title: format!("What accuracy costs: {}, drystone {}", frames(study), env!("CARGO_PKG_VERSION")),
         x: "time, relative to standard".into(),
         y: "worst relative error of the total force".into(),
         series: series.into(),

@@ -57,22 +57,14 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     };
     let mut problems = Vec::new();
     // mdBook 0.5 uses the key `items` for the chapters, earlier versions use `sections`.
-    let key = if book["items"].is_array() {
-        "items"
-    } else {
-        "sections"
-    };
+    let key = if book["items"].is_array() { "items" } else { "sections" };
     let Some(items) = book.get_mut(key).and_then(Value::as_array_mut) else {
         return Err(invalid("the JSON of the book has no list of chapters"));
     };
     for found in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
         chapter(found, &source, &mut problems);
     }
-    if problems.is_empty() {
-        Ok(book.to_string())
-    } else {
-        Err(BookError(problems))
-    }
+    if problems.is_empty() { Ok(book.to_string()) } else { Err(BookError(problems)) }
 }
 
 /// Draws the scenes in a chapter and in its sub-chapters. `source` is the folder of the chapter files. Adds a message
@@ -102,9 +94,8 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
         let Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(info))) = event else {
             continue;
         };
-        let Some(options) = info
-            .strip_prefix(FENCE_WORD)
-            .filter(|rest| rest.is_empty() || rest.starts_with([' ', ',', '\t']))
+        let Some(options) =
+            info.strip_prefix(FENCE_WORD).filter(|rest| rest.is_empty() || rest.starts_with([' ', ',', '\t']))
         else {
             continue;
         };
@@ -167,15 +158,12 @@ impl FigureRequest {
                 ("kind", value) if !value.is_empty() => value.clone_into(&mut request.kind),
                 ("block", value) if !value.is_empty() => request.block = Some(value.to_owned()),
                 ("theme", value) => {
-                    request.options.theme = Theme::named(value).ok_or(format!(
-                        "there is no theme {value:?}; known are {}",
-                        Theme::NAMES.join(", ")
-                    ))?;
+                    request.options.theme = Theme::named(value)
+                        .ok_or(format!("there is no theme {value:?}; known are {}", Theme::NAMES.join(", ")))?;
                 }
                 ("width", value) => {
                     let width = value.parse().ok().filter(|w| (100.0..=4000.0).contains(w));
-                    request.options.width =
-                        Some(width.ok_or("width= must be a number of pixels from 100 to 4000")?);
+                    request.options.width = Some(width.ok_or("width= must be a number of pixels from 100 to 4000")?);
                 }
                 ("amounts", "") => request.options.amounts = true,
                 ("nocaption", "") => request.caption = false,
@@ -197,18 +185,14 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     let text = match &request.file {
         Some(file) => {
             let path = chapter.parent().unwrap_or(Path::new("")).join(file);
-            fs::read_to_string(&path)
-                .map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
+            fs::read_to_string(&path).map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
         }
         None => body.to_owned(),
     };
     let scene = Scene::from_json(&text).map_err(|problems| {
         let whose = match &request.file {
-            Some(file) => text::line(&format!(
-                "the scene {file} is not valid; lines are counted in that file"
-            )),
-            None => "the scene is not valid; lines are counted from the first line of the block"
-                .to_owned(),
+            Some(file) => text::line(&format!("the scene {file} is not valid; lines are counted in that file")),
+            None => "the scene is not valid; lines are counted from the first line of the block".to_owned(),
         };
         format!("{whose}:\n{problems}")
     })?;
@@ -227,10 +211,7 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
     } else {
         String::new()
     };
-    Ok(format!(
-        "<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>",
-        lines.join("\n")
-    ))
+    Ok(format!("<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>", lines.join("\n")))
 }
 
 fn drawing(analysis: &Analysis, request: &FigureRequest) -> Result<Drawing, String> {

@@ -55,11 +55,7 @@ impl Refused {
                 (line, "") => format!("line {line}, column {}: ", problem.column),
                 (line, path) => format!("line {line}, column {}, {path}: ", problem.column),
             };
-            let help = if problem.help.is_empty() {
-                String::new()
-            } else {
-                format!(" ({})", problem.help)
-            };
+            let help = if problem.help.is_empty() { String::new() } else { format!(" ({})", problem.help) };
             text::line(&format!("{place}{}{help}", problem.message))
         });
         described.collect()
@@ -98,11 +94,7 @@ pub(super) fn slug(title: &str) -> String {
         }
     }
     let slug = slug.trim_end_matches('-');
-    if slug.is_empty() {
-        "scene".into()
-    } else {
-        slug.into()
-    }
+    if slug.is_empty() { "scene".into() } else { slug.into() }
 }
 
 /// Returns the mark of a verdict: `✓` for stable, `✗` for unstable, `?` for undecided.

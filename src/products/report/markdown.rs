@@ -2,9 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::entry::{
-    Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetPart, TableCell, overview,
-};
+use super::entry::{Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetPart, TableCell, overview};
 use super::head::{Head, OutputFile, ReportError, sign, slug};
 use crate::output::svg::{self, Options, Words};
 use crate::text::{self, markdown, markdown_cell};
@@ -49,11 +47,7 @@ fn push(out: &mut String, line: &str) {
 
 /// Returns the text for a scene, and the files of its figures. `number` is the number of the scene, from 1. `stem` is
 /// the name of the report file without its extension.
-pub(super) fn section(
-    entry: &Entry,
-    number: usize,
-    stem: &str,
-) -> Result<(String, Vec<OutputFile>), ReportError> {
+pub(super) fn section(entry: &Entry, number: usize, stem: &str) -> Result<(String, Vec<OutputFile>), ReportError> {
     let row = &entry.row;
     let mut writer = Writer {
         out: String::new(),
@@ -87,11 +81,7 @@ fn code(words: &str) -> String {
     while words.contains(&fence) {
         fence.push('`');
     }
-    if fence.len() > 1 {
-        format!("{fence} {words} {fence}")
-    } else {
-        format!("{fence}{words}{fence}")
-    }
+    if fence.len() > 1 { format!("{fence} {words} {fence}") } else { format!("{fence}{words}{fence}") }
 }
 
 struct Writer {
@@ -166,10 +156,7 @@ impl Writer {
 
     fn figure(&mut self, figure: &Figure) -> Result<(), ReportError> {
         // Text is drawn as outlines, because the reader may have other fonts.
-        let options = Options {
-            words: Words::Outlines,
-            ..Options::default()
-        };
+        let options = Options { words: Words::Outlines, ..Options::default() };
         let svg = svg::write_with(&figure.drawing, &options)?;
         let name = self.file(svg.into_bytes());
         let caption = markdown(&figure.caption);
@@ -233,20 +220,12 @@ fn table(out: &mut String, grid: &Grid) {
         push(out, &format!("**{}**\n", markdown(&grid.caption)));
     }
     let heads = columns.iter().map(|c| markdown_cell(&grid.heads[*c].0));
-    push(
-        out,
-        &format!("| {} |", heads.collect::<Vec<_>>().join(" | ")),
-    );
-    let rules = columns
-        .iter()
-        .map(|c| if grid.heads[*c].1 { "---:" } else { "---" });
+    push(out, &format!("| {} |", heads.collect::<Vec<_>>().join(" | ")));
+    let rules = columns.iter().map(|c| if grid.heads[*c].1 { "---:" } else { "---" });
     push(out, &format!("|{}|", rules.collect::<Vec<_>>().join("|")));
     for line in &grid.lines {
         let cells = columns.iter().filter_map(|c| line.cells.get(*c)).map(cell);
-        push(
-            out,
-            &format!("| {} |", cells.collect::<Vec<_>>().join(" | ")),
-        );
+        push(out, &format!("| {} |", cells.collect::<Vec<_>>().join(" | ")));
     }
     out.push('\n');
 }

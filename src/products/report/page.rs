@@ -82,13 +82,7 @@ impl Piece {
             Form::Pdf => PieceContent::Sheets(print::section(entry)),
             Form::Json => PieceContent::Text(json(entry)),
         };
-        Ok(Piece {
-            row: Row {
-                number,
-                ..entry.row.clone()
-            },
-            body,
-        })
+        Ok(Piece { row: Row { number, ..entry.row.clone() }, body })
     }
 }
 
@@ -97,16 +91,9 @@ fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
         several => {
-            let stated = entry
-                .changes
-                .iter()
-                .map(|words| crate::result::quoted(words));
+            let stated = entry.changes.iter().map(|words| crate::result::quoted(words));
             let stated: Vec<String> = stated.collect();
-            format!(
-                "{{\"changes\":[{}],\"scenes\":[{}]}}",
-                stated.join(","),
-                several.join(",")
-            )
+            format!("{{\"changes\":[{}],\"scenes\":[{}]}}", stated.join(","), several.join(","))
         }
     }
 }
@@ -142,10 +129,7 @@ impl Report {
             1 => format!("1 {one}"),
             n => format!("{n} {many}"),
         };
-        let mut parts = vec![
-            verb(counts.stable, "stands", "stand"),
-            verb(counts.unstable, "falls", "fall"),
-        ];
+        let mut parts = vec![verb(counts.stable, "stands", "stand"), verb(counts.unstable, "falls", "fall")];
         if counts.undecided > 0 {
             parts.push(verb(counts.undecided, "is undecided", "are undecided"));
         }
@@ -163,11 +147,7 @@ impl Report {
         }
         words.push_str(&parts.join(", "));
         if counts.refused > 0 {
-            let refused = verb(
-                counts.refused,
-                "file is not a valid scene",
-                "files are not valid scenes",
-            );
+            let refused = verb(counts.refused, "file is not a valid scene", "files are not valid scenes");
             words.push_str(&format!("; {refused}"));
         }
         words
@@ -193,11 +173,7 @@ impl Report {
     /// # Errors
     /// If a PDF cannot be written.
     pub fn files(mut self, form: Form, stem: &str) -> Result<Vec<OutputFile>, ReportError> {
-        let bodies: Vec<PieceContent> = self
-            .pieces
-            .iter_mut()
-            .map(|p| std::mem::take(&mut p.body))
-            .collect();
+        let bodies: Vec<PieceContent> = self.pieces.iter_mut().map(|p| std::mem::take(&mut p.body)).collect();
         let head = self.head();
         let texts = || bodies.iter().map(PieceContent::text).collect::<Vec<_>>();
         match form {
@@ -228,11 +204,7 @@ impl Report {
                 let mut objects: Vec<String> = texts().into_iter().map(str::to_owned).collect();
                 let refused = self.refused.iter();
                 objects.extend(refused.map(|r| refusal(&r.name, &r.problems, Layout::OneLine)));
-                let list = if self.compares {
-                    "comparisons"
-                } else {
-                    "scenes"
-                };
+                let list = if self.compares { "comparisons" } else { "scenes" };
                 let json = report_json(self.counts(), list, &objects);
                 Ok(vec![(format!("{stem}.json"), json.into_bytes())])
             }
@@ -256,11 +228,7 @@ fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, Re
     let is_short = scenes.len() == 1 && head.refused.is_empty() && head.notes.is_empty();
     // Count the pages before the scenes. The page numbers in the contents are placeholders here, because they do not
     // change the number of pages.
-    let first = if is_short {
-        0
-    } else {
-        print::head(head, &vec![999; scenes.len()]).len()
-    };
+    let first = if is_short { 0 } else { print::head(head, &vec![999; scenes.len()]).len() };
     // `starts` has the index of the first page of each scene, in the order of the scene numbers. The scenes may have
     // been sorted differently.
     let mut starts = vec![0; scenes.len()];
@@ -272,11 +240,7 @@ fn printed(head: &Head<'_>, scenes: Vec<Vec<print::Page>>) -> Result<Vec<u8>, Re
         next += pages.len();
     }
     let numbers: Vec<usize> = starts.iter().map(|page| page + 1).collect();
-    let mut pages = if is_short {
-        Vec::new()
-    } else {
-        print::head(head, &numbers)
-    };
+    let mut pages = if is_short { Vec::new() } else { print::head(head, &numbers) };
     pages.extend(scenes.into_iter().flatten());
     print::written(&mut pages, head.title, &head.summary, &starts)
 }

@@ -74,12 +74,9 @@ impl<'a> Frame<'a> {
 /// Writes an accuracy study as one JSON object that ends with a line feed. Times are in seconds, forces in newtons,
 /// and errors are relative.
 pub fn accuracy_json(study: &Study) -> String {
-    let page = Page {
-        drystone: env!("CARGO_PKG_VERSION"),
-        frames: study.cases.iter().map(Frame::new).collect(),
-    };
-    let mut text = serde_json::to_string_pretty(&page)
-        .expect("plain structures with text keys always serialise into memory");
+    let page = Page { drystone: env!("CARGO_PKG_VERSION"), frames: study.cases.iter().map(Frame::new).collect() };
+    let mut text =
+        serde_json::to_string_pretty(&page).expect("plain structures with text keys always serialise into memory");
     text.push('\n');
     json(&text)
 }

@@ -58,8 +58,7 @@ struct InterfaceForces {
 
 impl<'a> Capacity<'a> {
     pub(super) fn new(scene: &'a Scene, capacity: &Found) -> Capacity<'a> {
-        let motions =
-            |list: &[crate::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
+        let motions = |list: &[crate::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
         let edge = |edge: &CapacityEdge| Edge {
             from: edge.ends[0],
             to: edge.ends[1],
@@ -93,9 +92,6 @@ impl Balance {
             normal_forces: forces.normal.map(Number),
             friction_force: Number(forces.friction),
         });
-        Balance {
-            torque: Number(vertex.torque),
-            interfaces: pressed.collect(),
-        }
+        Balance { torque: Number(vertex.torque), interfaces: pressed.collect() }
     }
 }

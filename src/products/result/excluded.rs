@@ -67,15 +67,10 @@ impl<'a> Excluded<'a> {
             load_factor: of(&intervals.load_factor),
             robots: Named(robots.collect()),
         };
-        let has_parameter = [
-            &excluded.friction,
-            &excluded.tilt,
-            &excluded.horizontal_load,
-            &excluded.kernel,
-            &excluded.load_factor,
-        ]
-        .into_iter()
-        .any(Option::is_some);
+        let has_parameter =
+            [&excluded.friction, &excluded.tilt, &excluded.horizontal_load, &excluded.kernel, &excluded.load_factor]
+                .into_iter()
+                .any(Option::is_some);
         (has_parameter || !excluded.robots.is_empty()).then_some(excluded)
     }
 }
@@ -87,11 +82,7 @@ fn reasons<'a>(scene: &'a Scene, interval: &Interval) -> Reasons<'a> {
     let reason = |excluded: &Exclusion| Reason {
         from: excluded.from.map(Number),
         to: excluded.to.map(Number),
-        mechanism: excluded
-            .mechanism
-            .iter()
-            .map(|m| Motion::new(scene, m))
-            .collect(),
+        mechanism: excluded.mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
     };
     Some(excluded.iter().map(reason).collect())
 }

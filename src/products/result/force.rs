@@ -65,11 +65,7 @@ pub(super) struct Motion<'a> {
 
 impl<'a> Motion<'a> {
     pub(super) fn new(scene: &'a Scene, motion: &Moved) -> Motion<'a> {
-        Motion {
-            block: &scene.blocks[motion.block.0].id,
-            velocity: arrow(motion.velocity),
-            spin: Number(motion.spin),
-        }
+        Motion { block: &scene.blocks[motion.block.0].id, velocity: arrow(motion.velocity), spin: Number(motion.spin) }
     }
 }
 
@@ -85,10 +81,7 @@ impl<'a> Interface<'a> {
             mu: Number(interface.friction),
             normal_forces: contact.normal_forces.map(Number),
             friction_force: Number(contact.friction_force),
-            resultant: Resultant {
-                at: place(contact.resultant.at),
-                force: arrow(contact.resultant.force),
-            },
+            resultant: Resultant { at: place(contact.resultant.at), force: arrow(contact.resultant.force) },
             friction_used: Number(contact.friction_used),
         }
     }

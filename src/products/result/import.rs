@@ -40,11 +40,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
         scene: text,
         notes: &imported.notes,
         warnings: (imported.remarks.iter())
-            .map(|r| Warning {
-                element: &r.element,
-                message: &r.message,
-                help: &r.help,
-            })
+            .map(|r| Warning { element: &r.element, message: &r.message, help: &r.help })
             .collect(),
         snapped: (imported.snapped.iter())
             .map(|s| SnappedBody {
@@ -58,8 +54,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
     };
     let mut bytes = Vec::new();
     let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
-    done.serialize(&mut writer)
-        .expect("plain structures with text keys always serialise into memory");
+    done.serialize(&mut writer).expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
     text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
 }

@@ -23,20 +23,8 @@ pub struct Key {
     pub meaning: &'static str,
 }
 
-const fn key(
-    path: &'static str,
-    kind: Type,
-    unit: &'static str,
-    when: &'static str,
-    meaning: &'static str,
-) -> Key {
-    Key {
-        path,
-        kind,
-        unit,
-        when,
-        meaning,
-    }
+const fn key(path: &'static str, kind: Type, unit: &'static str, when: &'static str, meaning: &'static str) -> Key {
+    Key { path, kind, unit, when, meaning }
 }
 
 const IF_MARGINS_REQUESTED: &str = "with `--margins`";
@@ -302,10 +290,8 @@ pub fn schema() -> String {
     let mut refusal = object(REFUSAL_KEYS);
     let codes: Vec<&str> = Code::ALL.iter().map(|code| code.word()).collect();
     refusal["properties"]["problems"]["items"]["properties"]["code"]["examples"] = json!(codes);
-    let velocity = described(
-        Type::Pair,
-        "velocity of the centroid of the block, relative to the fastest point, whose speed is 1",
-    );
+    let velocity =
+        described(Type::Pair, "velocity of the centroid of the block, relative to the fastest point, whose speed is 1");
     let spin = described(Type::Number, "1/m, anticlockwise positive");
     let schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",

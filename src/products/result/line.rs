@@ -25,10 +25,7 @@ impl Origin {
     pub fn of_line(line: &[u8]) -> Option<Origin> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let line = value["line"].as_u64().and_then(|n| usize::try_from(n).ok());
-        Some(Origin {
-            file: value["file"].as_str().map(str::to_owned),
-            line,
-        })
+        Some(Origin { file: value["file"].as_str().map(str::to_owned), line })
     }
 }
 
@@ -57,9 +54,7 @@ pub struct Fields {
 impl Default for Fields {
     /// Selects the title and the worst verdict.
     fn default() -> Fields {
-        Fields {
-            chosen: vec![vec!["scene"], vec!["verdict"]],
-        }
+        Fields { chosen: vec![vec!["scene"], vec!["verdict"]] }
     }
 }
 
@@ -91,10 +86,7 @@ impl Fields {
         for typed in list.split(',').map(str::trim) {
             match name::find(typed) {
                 Some(path) => chosen.push(path),
-                None => unknown.push(UnknownField {
-                    typed: text::line(typed),
-                    near: name::nearest(typed),
-                }),
+                None => unknown.push(UnknownField { typed: text::line(typed), near: name::nearest(typed) }),
             }
         }
         match unknown.is_empty() {
@@ -176,12 +168,7 @@ pub enum PictureOutcome {
 /// assert_eq!(line, "{\"line\":7,\"scene\":\"A dart\",\"verdict\":\"unstable\"}\n");
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
-pub fn line_of(
-    origin: &Origin,
-    analysis: &Analysis,
-    picture: &PictureOutcome,
-    fields: &Fields,
-) -> String {
+pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, fields: &Fields) -> String {
     let mut out = line_start(origin);
     let verdict = word(analysis.verdict());
     let all = fields.are_all();

@@ -15,9 +15,7 @@ use serde::Serialize;
 use super::excluded::Excluded;
 use super::named::Named;
 use super::{Motion, Number};
-use crate::analysis::{
-    End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
-};
+use crate::analysis::{End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either};
 use crate::scene::Scene;
 use crate::text;
 
@@ -147,9 +145,7 @@ impl Sides<End> {
 impl<'a> Margins<'a> {
     pub(super) fn new(scene: &'a Scene, found: &'a Found) -> Margins<'a> {
         let motions = |margin: &Margin| match margin {
-            Margin::Value { mechanism, .. } => {
-                mechanism.iter().map(|m| Motion::new(scene, m)).collect()
-            }
+            Margin::Value { mechanism, .. } => mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
             _ => Vec::new(),
         };
         Margins {
@@ -179,11 +175,7 @@ impl<'a> Intervals<'a> {
     fn new(scene: &'a Scene, found: &Sets) -> Intervals<'a> {
         let of = |interval: &Option<Interval>| interval.as_ref().map(range);
         let robots = found.robots.iter().map(|robot| {
-            let limits = Limits {
-                fx: range(&robot.fx),
-                fy: range(&robot.fy),
-                torque: range(&robot.torque),
-            };
+            let limits = Limits { fx: range(&robot.fx), fy: range(&robot.fy), torque: range(&robot.torque) };
             (scene.robots[robot.robot.0].id.as_str(), limits)
         });
         Intervals {
@@ -200,9 +192,7 @@ impl<'a> Intervals<'a> {
 impl<'a> IntervalMechanisms<'a> {
     fn new(scene: &'a Scene, found: &Sets) -> IntervalMechanisms<'a> {
         let motions = |end: &Limit| match end {
-            Limit::At { mechanism, .. } => {
-                mechanism.iter().map(|m| Motion::new(scene, m)).collect()
-            }
+            Limit::At { mechanism, .. } => mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
             _ => Vec::new(),
         };
         let both = |interval: &Option<Interval>| {
@@ -233,32 +223,19 @@ fn range(interval: &Interval) -> Range {
 fn end(margin: &Margin) -> End {
     match margin {
         Margin::Value { at, .. } => End::At(Number(*at)),
-        Margin::None | Margin::NotApplicable | Margin::Undecided | Margin::Unconfirmed { .. } => {
-            End::None
-        }
+        Margin::None | Margin::NotApplicable | Margin::Undecided | Margin::Unconfirmed { .. } => End::None,
         Margin::NotAsked => End::NotAsked,
         Margin::Unbounded => End::Unbounded("unbounded"),
     }
 }
 
 fn sides<T>(of: &Either, described: impl Fn(&Margin) -> T) -> Sides<T> {
-    Sides {
-        left: described(&of.left),
-        right: described(&of.right),
-    }
+    Sides { left: described(&of.left), right: described(&of.right) }
 }
 
-fn robots<'a, T>(
-    scene: &'a Scene,
-    found: &Found,
-    described: impl Fn(&Margin) -> T,
-) -> Named<'a, Limits<T>> {
+fn robots<'a, T>(scene: &'a Scene, found: &Found, described: impl Fn(&Margin) -> T) -> Named<'a, Limits<T>> {
     let robots = found.robots.iter().map(|robot| {
-        let limits = Limits {
-            fx: described(&robot.fx),
-            fy: described(&robot.fy),
-            torque: described(&robot.torque),
-        };
+        let limits = Limits { fx: described(&robot.fx), fy: described(&robot.fy), torque: described(&robot.torque) };
         (scene.robots[robot.robot.0].id.as_str(), limits)
     });
     Named(robots.collect())

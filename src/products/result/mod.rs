@@ -115,12 +115,7 @@ pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layou
 
 /// Like [`to_json`], with the placed blocks of each frame under the key `frames[].blocks`. If `file` is given, the
 /// result also has the path of the scene file.
-pub fn to_json_with_blocks(
-    file: Option<&str>,
-    analysis: &Analysis,
-    timing: Timing,
-    layout: Layout,
-) -> String {
+pub fn to_json_with_blocks(file: Option<&str>, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let mut result = Result::new(analysis, timing).with_blocks(&analysis.scene);
     result.file = file;
     written(&result, layout)
@@ -129,10 +124,7 @@ pub fn to_json_with_blocks(
 fn written(result: &Result, layout: Layout) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
-        Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(
-            &mut bytes,
-            Lines::new(2),
-        )),
+        Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(2))),
         Layout::OneLine => serde_json::to_writer(&mut bytes, &result),
     };
     written.expect("plain structures with text keys always serialise into memory");
@@ -253,9 +245,7 @@ impl<'a> Result<'a> {
             scene: &scene.title,
             contact_tolerance: Tolerance::new(scene),
             notes: analysis.notes.iter().map(note::Entry::new).collect(),
-            frames: frames
-                .map(|(step, frame)| Frame::new(scene, &step.title, frame, timing))
-                .collect(),
+            frames: frames.map(|(step, frame)| Frame::new(scene, &step.title, frame, timing)).collect(),
         }
     }
 
@@ -292,12 +282,7 @@ impl Tolerance {
 }
 
 impl<'a> Frame<'a> {
-    fn new(
-        scene: &'a Scene,
-        title: &'a str,
-        frame: &'a FrameAnalysis,
-        timing: Timing,
-    ) -> Frame<'a> {
+    fn new(scene: &'a Scene, title: &'a str, frame: &'a FrameAnalysis, timing: Timing) -> Frame<'a> {
         let block = |id: BlockId| scene.blocks[id.0].id.as_str();
         Frame {
             title,
@@ -310,38 +295,20 @@ impl<'a> Frame<'a> {
             total_sticking: Number(frame.total_sticking),
             weight: Number(frame.weight),
             blocks: None,
-            interfaces: frame
-                .contacts
-                .iter()
-                .map(|c| Interface::new(scene, c))
-                .collect(),
+            interfaces: frame.contacts.iter().map(|c| Interface::new(scene, c)).collect(),
             robots: frame.robots.iter().map(|r| Robot::new(scene, r)).collect(),
-            failures: frame
-                .failures
-                .iter()
-                .map(|f| Missing::new(scene, f))
-                .collect(),
+            failures: frame.failures.iter().map(|f| Missing::new(scene, f)).collect(),
             unsupported: frame.unsupported.iter().map(|id| block(*id)).collect(),
-            mechanism: frame
-                .mechanism
-                .iter()
-                .map(|m| Motion::new(scene, m))
-                .collect(),
+            mechanism: frame.mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
-            only_by_wedging: is_simulated(frame, EffectName::Wedging)
-                .then_some(frame.only_by_wedging),
+            only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
             effects: frame
                 .effects
                 .iter()
-                .map(|e| Effect {
-                    effect: e.effect.word(),
-                    simulated: e.simulated,
-                    why: &e.why,
-                    unknowns: e.unknowns,
-                })
+                .map(|e| Effect { effect: e.effect.word(), simulated: e.simulated, why: &e.why, unknowns: e.unknowns })
                 .collect(),
             proof: ProofNumbers::new(frame.proof),
             solve: Solve::new(&frame.solve, timing),
@@ -352,10 +319,7 @@ impl<'a> Frame<'a> {
 
 /// True if the analysis simulated this effect in the frame.
 fn is_simulated(frame: &FrameAnalysis, effect: EffectName) -> bool {
-    frame
-        .effects
-        .iter()
-        .any(|e| e.effect == effect && e.simulated)
+    frame.effects.iter().any(|e| e.effect == effect && e.simulated)
 }
 
 #[cfg(test)]

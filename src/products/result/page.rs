@@ -34,8 +34,7 @@ pub fn quoted(words: &str) -> String {
 /// assert!(json.contains("\"stable\":1") && json.ends_with("\n]}\n"));
 /// ```
 pub fn report_json(counts: Counts, list: &str, objects: &[String]) -> String {
-    let summary =
-        serde_json::to_string(&counts).expect("plain structures always serialise into memory");
+    let summary = serde_json::to_string(&counts).expect("plain structures always serialise into memory");
     let objects: Vec<&str> = objects.iter().map(|o| o.trim_end()).collect();
     format!(
         "{{\"drystone\":{},\"summary\":{summary},{}:[\n{}\n]}}\n",

@@ -44,14 +44,7 @@ struct Entry<'a> {
 /// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"drystone","line":1,"#));
 /// ```
 pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
-    written(
-        &Refusal {
-            file: Some(file),
-            line: None,
-            problems: entries(problems, 0),
-        },
-        layout,
-    )
+    written(&Refusal { file: Some(file), line: None, problems: entries(problems, 0) }, layout)
 }
 
 /// Writes problems as one JSON list: the value of `problems` in [`refusal`], on one line without a line feed.
@@ -93,11 +86,7 @@ fn listed<T: Serialize>(entries: &[T]) -> String {
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
     written(
-        &Refusal {
-            file: origin.file.as_deref(),
-            line: origin.line,
-            problems: entries(problems, before),
-        },
+        &Refusal { file: origin.file.as_deref(), line: origin.line, problems: entries(problems, before) },
         Layout::OneLine,
     )
 }
@@ -121,10 +110,7 @@ fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
 fn written(refusal: &Refusal<'_>, layout: Layout) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
-        Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(
-            &mut bytes,
-            Lines::new(1),
-        )),
+        Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1))),
         Layout::OneLine => serde_json::to_writer(&mut bytes, refusal),
     };
     written.expect("plain structures with text keys always serialise into memory");

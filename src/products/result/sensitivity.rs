@@ -7,8 +7,7 @@ use serde::Serialize;
 
 use super::{Number, Pair, arrow, place};
 use crate::analysis::{
-    CornerMoves, CornerSlope, EndSensitivity, FrameAnalysis, NoSensitivity, Sensitivity as Found,
-    Slope,
+    CornerMoves, CornerSlope, EndSensitivity, FrameAnalysis, NoSensitivity, Sensitivity as Found, Slope,
 };
 use crate::geometry::Vector;
 use crate::scene::{BodyId, Scene};
@@ -121,26 +120,17 @@ impl<'a> Sensitivity<'a> {
         });
         Sensitivity {
             parameter: found.kind.word(),
-            ends: ends
-                .map(|(is_high, end)| End::new(scene, frame, is_high, end))
-                .collect(),
+            ends: ends.map(|(is_high, end)| End::new(scene, frame, is_high, end)).collect(),
             without_value: absent.collect(),
         }
     }
 }
 
 impl<'a> End<'a> {
-    fn new(
-        scene: &'a Scene,
-        frame: &'a FrameAnalysis,
-        is_high: bool,
-        found: &'a EndSensitivity,
-    ) -> End<'a> {
+    fn new(scene: &'a Scene, frame: &'a FrameAnalysis, is_high: bool, found: &'a EndSensitivity) -> End<'a> {
         let corners = found.corners.iter();
-        let weights = found.weights.iter().map(|(block, slope)| Weight {
-            block: &scene.blocks[block.0].id,
-            slope: one(*slope),
-        });
+        let weights =
+            found.weights.iter().map(|(block, slope)| Weight { block: &scene.blocks[block.0].id, slope: one(*slope) });
         let friction = found.friction.iter().filter_map(|(interface, slope)| {
             let contact = frame.contacts.get(*interface)?;
             Some(Friction {
@@ -151,12 +141,7 @@ impl<'a> End<'a> {
         });
         let loads = found.loads.iter().map(|(load, slopes)| {
             let given = &scene.loads[*load];
-            Load {
-                load: *load,
-                block: &scene.blocks[given.block.0].id,
-                at: place(given.at),
-                slope: two(*slopes),
-            }
+            Load { load: *load, block: &scene.blocks[given.block.0].id, at: place(given.at), slope: two(*slopes) }
         });
         End {
             end: if is_high { "high" } else { "low" },
@@ -174,16 +159,9 @@ impl<'a> Vertex<'a> {
     fn new(scene: &'a Scene, found: &CornerSlope) -> Vertex<'a> {
         let (moves, along, slope) = match found.moves {
             CornerMoves::Freely(slopes) => ("freely", None, two(slopes)),
-            CornerMoves::Along { direction, slope } => (
-                "along",
-                Some(arrow(direction)),
-                along_edge(direction, slope),
-            ),
+            CornerMoves::Along { direction, slope } => ("along", Some(arrow(direction)), along_edge(direction, slope)),
             _ => {
-                let none = Derivative {
-                    unique: false,
-                    slope: Value::None,
-                };
+                let none = Derivative { unique: false, slope: Value::None };
                 ("not", None, none)
             }
         };
@@ -213,10 +191,7 @@ fn two([x, y]: [Slope; 2]) -> VectorSlope {
 
 fn along_edge(direction: Vector, slope: Slope) -> VectorSlope {
     let pair = |slope: f64| arrow(direction * slope);
-    Derivative::new(
-        slope.unique().map(pair),
-        slope.both().map(|sides| sides.map(pair)),
-    )
+    Derivative::new(slope.unique().map(pair), slope.both().map(|sides| sides.map(pair)))
 }
 
 fn name(scene: &Scene, body: BodyId) -> &str {

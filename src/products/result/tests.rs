@@ -2,19 +2,15 @@
 
 use super::*;
 use crate::analysis::{
-    Contact, EffectName, EffectReport, Failure, Motion as Moved, Proof, Resultant as Sum,
-    RobotForce, SolveReport, UndecidedReason, Verdict,
+    Contact, EffectName, EffectReport, Failure, Motion as Moved, Proof, Resultant as Sum, RobotForce, SolveReport,
+    UndecidedReason, Verdict,
 };
 use crate::geometry::{Polygon, Tolerance as Closeness};
 use crate::interface::ContactKind;
 use crate::scene::{Block, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
 
 fn scene() -> Scene {
-    let corners = vec![
-        Point::new(0.0, 0.0),
-        Point::new(3.0, 0.0),
-        Point::new(0.0, 2.0),
-    ];
+    let corners = vec![Point::new(0.0, 0.0), Point::new(3.0, 0.0), Point::new(0.0, 2.0)];
     let body = Body {
         polygon: Polygon::new(corners, vec![]).expect("a valid polygon"),
         cells: None,
@@ -49,11 +45,7 @@ fn scene() -> Scene {
         penetrations: Vec::new(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],
-        robots: vec![Arm {
-            id: "r0".into(),
-            limits: Limits::default(),
-            holds: None,
-        }],
+        robots: vec![Arm { id: "r0".into(), limits: Limits::default(), holds: None }],
         loads: vec![],
         materials: vec![],
         friction_pairs: vec![],
@@ -73,11 +65,7 @@ fn scene() -> Scene {
 }
 
 fn frame() -> FrameAnalysis {
-    let (a, b, ground) = (
-        BodyId::Block(BlockId(0)),
-        BodyId::Block(BlockId(1)),
-        BodyId::Ground(4),
-    );
+    let (a, b, ground) = (BodyId::Block(BlockId(0)), BodyId::Block(BlockId(1)), BodyId::Ground(4));
     let (robot, block, at) = (RobotId(0), BlockId(1), Point::new(2.0, 1.5));
     let force = Vector::new(3.0, -4.0);
     FrameAnalysis {
@@ -100,66 +88,25 @@ fn frame() -> FrameAnalysis {
             application_points: [Point::new(0.3, 0.0), Point::new(2.7, 0.0)],
             normal_forces: [4.5, 1.5],
             friction_force: -0.75,
-            resultant: Sum {
-                on: a,
-                at: Point::new(0.9, 0.0),
-                force: Vector::new(0.75, 6.0),
-            },
+            resultant: Sum { on: a, at: Point::new(0.9, 0.0), force: Vector::new(0.75, 6.0) },
             friction_used: 0.25,
         }],
-        robots: vec![RobotForce {
-            robot,
-            block,
-            at,
-            force,
-            torque: 0.1,
-            limit_used: 1.0,
-        }],
+        robots: vec![RobotForce { robot, block, at, force, torque: 0.1, limit_used: 1.0 }],
         failures: vec![
-            Failure::Tension {
-                bodies: [b, a],
-                at,
-                force,
-            },
-            Failure::Friction {
-                bodies: [b, ground],
-                at,
-                force,
-            },
-            Failure::RobotForce {
-                robot,
-                block,
-                at,
-                force,
-            },
-            Failure::RobotTorque {
-                robot,
-                block,
-                at,
-                torque: -2.0,
-            },
+            Failure::Tension { bodies: [b, a], at, force },
+            Failure::Friction { bodies: [b, ground], at, force },
+            Failure::RobotForce { robot, block, at, force },
+            Failure::RobotTorque { robot, block, at, torque: -2.0 },
         ],
         unsupported: vec![],
-        mechanism: vec![Moved {
-            block,
-            velocity: Vector::new(0.5, -0.0),
-            spin: f64::NAN,
-        }],
+        mechanism: vec![Moved { block, velocity: Vector::new(0.5, -0.0), spin: f64::NAN }],
         margins: None,
         sensitivity: None,
         capacity: None,
         only_by_wedging: None,
         wedged: None,
-        effects: vec![EffectReport {
-            effect: EffectName::Friction,
-            simulated: true,
-            why: "two".into(),
-            unknowns: 8,
-        }],
-        proof: Proof::Mechanism {
-            power: 0.25,
-            worst_violation: 1e-12,
-        },
+        effects: vec![EffectReport { effect: EffectName::Friction, simulated: true, why: "two".into(), unknowns: 8 }],
+        proof: Proof::Mechanism { power: 0.25, worst_violation: 1e-12 },
         solve: SolveReport {
             method: crate::analysis::Method::LeastForce,
             iterations: 9,
@@ -219,11 +166,7 @@ const LINES: &str = r#"{
 #[test]
 fn the_names_and_the_order_of_the_keys_do_not_change() {
     let scene = scene();
-    let analysis = Analysis {
-        scene: scene.into(),
-        frames: vec![frame()],
-        notes: vec![],
-    };
+    let analysis = Analysis { scene: scene.into(), frames: vec![frame()], notes: vec![] };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
     assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
     let line = to_json(&analysis, Timing::Included, Layout::OneLine);
@@ -241,31 +184,13 @@ fn doubts_notices_and_weak_proofs_are_in_the_output() {
     frame.least_force = false;
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
-    frame.proof = Proof::Forces {
-        worst_imbalance: 1e-3,
-        worst_share: 0.5,
-        worst_pull: 0.0,
-        worst_slip: -0.0,
-    };
-    let json = to_json(
-        &Analysis {
-            scene: scene.into(),
-            frames: vec![frame],
-            notes: vec![],
-        },
-        Timing::LeftOut,
-        Layout::Lines,
-    );
-    assert!(
-        json.contains(r#""doubt": "the time limit was reached before it was decided""#),
-        "{json}"
-    );
+    frame.proof = Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.5, worst_pull: 0.0, worst_slip: -0.0 };
+    let json =
+        to_json(&Analysis { scene: scene.into(), frames: vec![frame], notes: vec![] }, Timing::LeftOut, Layout::Lines);
+    assert!(json.contains(r#""doubt": "the time limit was reached before it was decided""#), "{json}");
     assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
     assert!(json.contains(r#""total_force_least": false"#), "{json}");
-    assert!(
-        json.contains(r#""notices": ["a contact of 1e-9 m is left out"]"#),
-        "{json}"
-    );
+    assert!(json.contains(r#""notices": ["a contact of 1e-9 m is left out"]"#), "{json}");
     assert!(
         json.contains(r#"{"worst_imbalance": 0.001, "worst_share": 0.5, "worst_pull": 0.0, "worst_slip": 0.0}"#),
         "{json}"

@@ -67,11 +67,8 @@ struct Moving<'a> {
 
 impl Case {
     fn new(case: &RuledOut) -> Case {
-        let points = case.points.iter().map(|p| PointCase {
-            interface: p.interface,
-            point: p.point,
-            presses: p.presses,
-        });
+        let points =
+            case.points.iter().map(|p| PointCase { interface: p.interface, point: p.point, presses: p.presses });
         let faces = case.faces.iter().map(|f| FaceCase {
             interface: f.interface,
             slides: match f.slides {
@@ -80,10 +77,7 @@ impl Case {
                 Slide::Sticks => "sticks",
             },
         });
-        Case {
-            points: points.collect(),
-            faces: faces.collect(),
-        }
+        Case { points: points.collect(), faces: faces.collect() }
     }
 }
 
@@ -103,10 +97,7 @@ impl<'a> Wedging<'a> {
         };
         let faces = wedged.interfaces.iter().map(|number| Face {
             interface: *number,
-            bodies: frame.contacts[*number]
-                .interface
-                .bodies
-                .map(|b| scene.name(b)),
+            bodies: frame.contacts[*number].interface.bodies.map(|b| scene.name(b)),
         });
         let least = wedged.at_least.as_ref();
         Wedging {

@@ -78,11 +78,7 @@ macro_rules! assert_scenes {
 #[macro_export]
 macro_rules! assert_figure {
     ($name:expr, $drawing:expr $(,)?) => {
-        $crate::snapshot::assertion::figure(
-            env!("CARGO_MANIFEST_DIR").as_ref(),
-            $name.as_ref(),
-            $drawing,
-        )
+        $crate::snapshot::assertion::figure(env!("CARGO_MANIFEST_DIR").as_ref(), $name.as_ref(), $drawing)
     };
 }
 
@@ -130,15 +126,10 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let parts = parts(&base, &settings);
     let references: Vec<PathBuf> = parts
         .iter()
-        .filter(|p| {
-            p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]
-        })
+        .filter(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0])
         .map(|p| p.file.clone())
         .collect();
-    let parts: Vec<_> = parts
-        .into_iter()
-        .filter(|p| references.contains(&p.file))
-        .collect();
+    let parts: Vec<_> = parts.into_iter().filter(|p| references.contains(&p.file)).collect();
     if may_write() {
         // Ignore an error here: writing the files below then fails and reports it.
         let _ = std::fs::create_dir_all(&folder);
@@ -150,10 +141,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         references,
         findings: check::check_drawing(drawing, &parts, &settings),
     };
-    let report = CheckOutcome {
-        snapshots: vec![snapshot],
-        ..CheckOutcome::default()
-    };
+    let report = CheckOutcome { snapshots: vec![snapshot], ..CheckOutcome::default() };
     finish(report, &format!("the figure {}", name.display()));
     drop(lock);
 }
@@ -162,13 +150,10 @@ fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
     let Some(file) = setting::nearest(folder) else {
         return Ok(Settings::default());
     };
-    let text = std::fs::read_to_string(&file)
-        .map_err(|e| vec![format!("cannot read {}: {e}", file.display())])?;
+    let text = std::fs::read_to_string(&file).map_err(|e| vec![format!("cannot read {}: {e}", file.display())])?;
     Settings::read(&text).map_err(|problems| {
         let described = problems.into_iter();
-        described
-            .map(|p| format!("{}:{p}", file.display()))
-            .collect()
+        described.map(|p| format!("{}:{p}", file.display())).collect()
     })
 }
 
@@ -192,23 +177,14 @@ fn may_write() -> bool {
 }
 
 fn access() -> Access {
-    if store::update_requested() && may_write() {
-        Access::Write
-    } else {
-        Access::Read
-    }
+    if store::update_requested() && may_write() { Access::Write } else { Access::Read }
 }
 
 #[track_caller]
 fn scenes_at(places: &[PathBuf], what: &str) {
     let found = match discover(places, None) {
         Ok(found) => found,
-        Err(faults) => fail(
-            &faults
-                .iter()
-                .map(DiscoveryError::to_string)
-                .collect::<Vec<_>>(),
-        ),
+        Err(faults) => fail(&faults.iter().map(DiscoveryError::to_string).collect::<Vec<_>>()),
     };
     if found.jobs.is_empty() && found.faults.is_empty() {
         fail(&[format!("there is no scene file at {what}")]);
@@ -226,18 +202,11 @@ fn finish(mut report: CheckOutcome, what: &str) {
     if report.matches() && !may_write() {
         return;
     }
-    let failing: Vec<PathBuf> = report
-        .failing()
-        .flat_map(|s| s.findings.iter().map(|f| f.file.clone()))
-        .collect();
+    let failing: Vec<PathBuf> = report.failing().flat_map(|s| s.findings.iter().map(|f| f.file.clone())).collect();
     let mut lines = Vec::new();
     let mut unwritten = Vec::new();
     if may_write() {
-        let acceptance = if accepts {
-            Acceptance::Accept
-        } else {
-            Acceptance::Propose
-        };
+        let acceptance = if accepts { Acceptance::Accept } else { Acceptance::Propose };
         if let Err(failed) = report.store(acceptance) {
             unwritten = failed.iter().map(ToString::to_string).collect();
         }
@@ -245,10 +214,7 @@ fn finish(mut report: CheckOutcome, what: &str) {
     if report.matches() && unwritten.is_empty() {
         return;
     }
-    lines.push(format!(
-        "{what} differs from its references ({}).",
-        report.summary()
-    ));
+    lines.push(format!("{what} differs from its references ({}).", report.summary()));
     lines.extend(report.lines());
     lines.extend(unwritten);
     if !may_write() {
@@ -263,9 +229,7 @@ fn finish(mut report: CheckOutcome, what: &str) {
                 store::new_file(file).display(),
                 file.display()
             )),
-            (None, Some(file)) => {
-                lines.push(format!("Look at {}.", store::new_file(file).display()))
-            }
+            (None, Some(file)) => lines.push(format!("Look at {}.", store::new_file(file).display())),
             (None, None) => {}
         }
         lines.push("If the change is intended, run the test again with UPDATE_SNAPSHOTS=1.".into());
@@ -274,10 +238,7 @@ fn finish(mut report: CheckOutcome, what: &str) {
 }
 
 #[track_caller]
-#[allow(
-    clippy::panic,
-    reason = "an assertion that does not hold ends its test"
-)]
+#[allow(clippy::panic, reason = "an assertion that does not hold ends its test")]
 fn fail(lines: &[String]) -> ! {
     panic!("{}", lines.join("\n"))
 }

@@ -43,13 +43,8 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
             Err(fault) => Err((job.path.clone(), fault)),
         }
     };
-    let all: Vec<Result<Snapshot, (PathBuf, SceneError)>> =
-        found.jobs.par_iter().map(one).collect();
-    let mut outcome = CheckOutcome {
-        orphans: found.orphans,
-        faults: found.faults,
-        ..CheckOutcome::default()
-    };
+    let all: Vec<Result<Snapshot, (PathBuf, SceneError)>> = found.jobs.par_iter().map(one).collect();
+    let mut outcome = CheckOutcome { orphans: found.orphans, faults: found.faults, ..CheckOutcome::default() };
     for one in all {
         match one {
             Ok(snapshot) => outcome.snapshots.push(snapshot),
@@ -71,18 +66,10 @@ fn check_scene(job: &Job) -> Vec<Finding> {
             findings.extend(facts_finding(part, &facts));
             continue;
         }
-        let known = drawn
-            .take()
-            .filter(|(p, _)| p.kind == part.kind && p.theme == part.theme);
+        let known = drawn.take().filter(|(p, _)| p.kind == part.kind && p.theme == part.theme);
         let (_, text) = drawn.insert(known.unwrap_or_else(|| {
-            let options = Options {
-                theme: Theme::named(&part.theme).unwrap_or_default(),
-                ..Options::default()
-            };
-            (
-                part,
-                svg::write(&figure::draw(&analysis, part.kind, &options)),
-            )
+            let options = Options { theme: Theme::named(&part.theme).unwrap_or_default(), ..Options::default() };
+            (part, svg::write(&figure::draw(&analysis, part.kind, &options)))
         }));
         findings.extend(drawing_finding(part, text, &job.settings, Subject::Scene));
     }
@@ -90,16 +77,10 @@ fn check_scene(job: &Job) -> Vec<Finding> {
 }
 
 /// Compares a drawing with its SVG and PNG references.
-pub(super) fn check_drawing(
-    drawing: &Drawing,
-    parts: &[Part],
-    settings: &Settings,
-) -> Vec<Finding> {
+pub(super) fn check_drawing(drawing: &Drawing, parts: &[Part], settings: &Settings) -> Vec<Finding> {
     let text = svg::write(drawing);
     let findings = parts.iter().filter(|p| p.layer != Layer::Facts);
-    findings
-        .filter_map(|part| drawing_finding(part, &text, settings, Subject::Figure))
-        .collect()
+    findings.filter_map(|part| drawing_finding(part, &text, settings, Subject::Figure)).collect()
 }
 
 fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
@@ -119,10 +100,7 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
 fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
     match store::read(&part.file) {
         Ok(Some(bytes)) => Ok(bytes),
-        Ok(None) => Err((
-            State::Missing,
-            "this reference file does not exist yet".into(),
-        )),
+        Ok(None) => Err((State::Missing, "this reference file does not exist yet".into())),
         Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
 }
@@ -130,17 +108,13 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
     text_finding(part, facts.text(), |text| {
         // The numbers in the reference and in `facts` are rounded, so `changes` allows for a different last digit.
-        let changes = Facts::read(text)
-            .map_err(|error| error.to_string())?
-            .changes(facts);
+        let changes = Facts::read(text).map_err(|error| error.to_string())?.changes(facts);
         Ok(changes.into_iter().map(|change| change.words).collect())
     })
 }
 
 fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
-    text_finding(part, text.to_owned(), |expected| {
-        element::changes(expected, text).map_err(|error| error.to_string())
-    })
+    text_finding(part, text.to_owned(), |expected| element::changes(expected, text).map_err(|error| error.to_string()))
 }
 
 /// Compares the new text `fresh` with its reference. Returns `None` if there is no change. The function `changes` is
@@ -155,10 +129,7 @@ fn text_finding(
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
         Err((state, words)) => {
-            return Some(Finding {
-                fresh,
-                ..finding(part, state, vec![words])
-            });
+            return Some(Finding { fresh, ..finding(part, state, vec![words]) });
         }
     };
     if bytes == fresh {
@@ -168,31 +139,17 @@ fn text_finding(
         Ok(words) => (State::Changed, words),
         Err(error) => (State::Unreadable, vec![error]),
     };
-    (!words.is_empty()).then(|| Finding {
-        fresh,
-        expected: Some(bytes),
-        ..finding(part, state, words)
-    })
+    (!words.is_empty()).then(|| Finding { fresh, expected: Some(bytes), ..finding(part, state, words) })
 }
 
-fn drawing_finding(
-    part: &Part,
-    text: &str,
-    settings: &Settings,
-    subject: Subject,
-) -> Option<Finding> {
+fn drawing_finding(part: &Part, text: &str, settings: &Settings, subject: Subject) -> Option<Finding> {
     match part.layer {
         Layer::Pixels => pixels_finding(part, text, settings, subject),
         _ => svg_finding(part, text),
     }
 }
 
-fn pixels_finding(
-    part: &Part,
-    text: &str,
-    settings: &Settings,
-    subject: Subject,
-) -> Option<Finding> {
+fn pixels_finding(part: &Part, text: &str, settings: &Settings, subject: Subject) -> Option<Finding> {
     let size = part.width.map_or(png::Size::Natural, png::Size::Width);
     let found = match png::rgba(text, size) {
         Ok(raster) => Picture::new(raster.width, raster.height, raster.rgba),
@@ -203,10 +160,7 @@ fn pixels_finding(
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
         Err((state, words)) => {
-            return Some(Finding {
-                fresh: fresh(),
-                ..finding(part, state, vec![words])
-            });
+            return Some(Finding { fresh: fresh(), ..finding(part, state, vec![words]) });
         }
     };
     let expected = match Picture::decode(&bytes) {
@@ -222,10 +176,7 @@ fn pixels_finding(
     let difference = Difference::new(&expected, &found, settings.tolerance);
     if difference.is_none() {
         let panels = text.matches("class=\"frame\"").count().max(1) as u64;
-        let max = settings
-            .most_kilobytes
-            .unwrap_or(u64::MAX)
-            .saturating_mul(panels);
+        let max = settings.most_kilobytes.unwrap_or(u64::MAX).saturating_mul(panels);
         if bytes.len() as u64 <= max.saturating_mul(1000) {
             return None;
         }
@@ -237,7 +188,9 @@ fn pixels_finding(
     }
     let mut words = vec![difference.words()];
     if expected.has_lost_rounding_note() {
-        words.push("the reference has lost its note on rounded colours; another program may have compressed it again".into());
+        words.push(
+            "the reference has lost its note on rounded colours; another program may have compressed it again".into(),
+        );
     }
     Some(Finding {
         fresh: fresh(),

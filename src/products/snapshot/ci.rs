@@ -25,20 +25,12 @@ pub fn junit(report: &CheckOutcome) -> String {
 
 fn case(name: &str, lines: &[String]) -> String {
     let (folder, short) = name.rsplit_once('/').unwrap_or(("", name));
-    let head = format!(
-        "<testcase classname=\"{}\" name=\"{}\"",
-        xml(folder),
-        xml(short)
-    );
+    let head = format!("<testcase classname=\"{}\" name=\"{}\"", xml(folder), xml(short));
     let Some(first) = lines.first() else {
         return format!("{head}/>\n");
     };
     let all: Vec<String> = lines.iter().map(|line| xml(line)).collect();
-    format!(
-        "{head}>\n<failure message=\"{}\">{}</failure>\n</testcase>\n",
-        xml(first.trim()),
-        all.join("\n")
-    )
+    format!("{head}>\n<failure message=\"{}\">{}</failure>\n</testcase>\n", xml(first.trim()), all.join("\n"))
 }
 
 /// Returns the findings as GitHub annotations, such as `::error file=scenes/arch.json,title=…::…`. There is one
@@ -52,15 +44,8 @@ pub fn annotations(report: &CheckOutcome) -> Vec<String> {
 }
 
 fn annotation(snapshot: &Snapshot) -> String {
-    let file = snapshot
-        .scene
-        .as_deref()
-        .map_or_else(|| snapshot.name.clone(), shown);
-    error(
-        &file,
-        &format!("drystone snapshot {}", snapshot.name),
-        &snapshot.lines().join("\n"),
-    )
+    let file = snapshot.scene.as_deref().map_or_else(|| snapshot.name.clone(), shown);
+    error(&file, &format!("drystone snapshot {}", snapshot.name), &snapshot.lines().join("\n"))
 }
 
 fn error(file: &str, title: &str, words: &str) -> String {

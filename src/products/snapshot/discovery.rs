@@ -117,27 +117,15 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
             Err(fault) => faults.push((path, fault)),
             Ok(Err(problems)) => search.errors.push(DiscoveryError::Scene { path, problems }),
-            Ok(Ok(scene)) => jobs.push(Job {
-                path,
-                name,
-                scene: Arc::new(scene),
-                settings,
-                parts,
-            }),
+            Ok(Ok(scene)) => jobs.push(Job { path, name, scene: Arc::new(scene), settings, parts }),
         }
     }
     if !search.errors.is_empty() {
         return Err(search.errors);
     }
     let orphans = search.orphans(&expected);
-    let orphans = orphans
-        .into_iter()
-        .filter(|(path, _)| filter.selects(&shown(path)));
-    Ok(Discovered {
-        orphans: orphans.collect(),
-        jobs,
-        faults,
-    })
+    let orphans = orphans.into_iter().filter(|(path, _)| filter.selects(&shown(path)));
+    Ok(Discovered { orphans: orphans.collect(), jobs, faults })
 }
 
 /// Returns a path as text, with `/` between folders on every operating system and without `./` at the beginning.
@@ -172,10 +160,7 @@ impl SnapshotSearch {
     }
 
     fn report_unreadable(&mut self, path: &Path, error: &std::io::Error) {
-        self.errors.push(DiscoveryError::Unreadable {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        });
+        self.errors.push(DiscoveryError::Unreadable { path: path.to_owned(), reason: error.to_string() });
     }
 
     /// Collects the possible scenes and references of a folder and its subfolders. Skips hidden files, hidden folders,
@@ -195,18 +180,12 @@ impl SnapshotSearch {
             let name = entry.file_name().to_string_lossy().into_owned();
             // `file_type` does not follow symbolic links, which may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
-            match path
-                .extension()
-                .map(|e| e.to_string_lossy().to_ascii_lowercase())
-                .as_deref()
-            {
+            match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).as_deref() {
                 _ if name.starts_with('.') || name == "node_modules" => {}
                 _ if is_folder => self.add_folder(&path),
                 _ if name == SETTINGS_FILE => self.add_listed_scenes(folder),
                 Some("json") => self.add_scene(path.clone(), path.with_extension("")),
-                Some("txt" | "svg" | "png") if !store::is_result_file(&name) => {
-                    self.others.push(path)
-                }
+                Some("txt" | "svg" | "png") if !store::is_result_file(&name) => self.others.push(path),
                 _ => {}
             }
         }
@@ -245,11 +224,7 @@ impl SnapshotSearch {
     /// Returns the settings of the nearest settings file of a folder, or the defaults if there is none; `None` if the file
     /// cannot be read or is not valid. Adds the errors of this file to `errors`.
     fn settings_of(&mut self, folder: &Path) -> Option<Arc<Settings>> {
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let file = setting::nearest(folder);
         if let Some(known) = self.known.get(&file) {
             return known.clone();
@@ -263,13 +238,9 @@ impl SnapshotSearch {
                 }
                 Ok(text) => Settings::read(&text)
                     .map_err(|problems| {
-                        let described =
-                            problems
-                                .into_iter()
-                                .map(|problem| DiscoveryError::Settings {
-                                    path: path.clone(),
-                                    problem,
-                                });
+                        let described = problems
+                            .into_iter()
+                            .map(|problem| DiscoveryError::Settings { path: path.clone(), problem });
                         self.errors.extend(described);
                     })
                     .ok(),
@@ -298,23 +269,13 @@ impl SnapshotSearch {
 
     /// Returns the bytes of a scene file; `None` if the file is not a drystone scene, the settings ignore it, or it
     /// cannot be read. `base` is the path of its references without their extensions, and `parts` are these references.
-    fn scene_bytes(
-        &mut self,
-        path: &Path,
-        base: &Path,
-        settings: &Settings,
-        parts: &[Part],
-    ) -> Option<Vec<u8>> {
+    fn scene_bytes(&mut self, path: &Path, base: &Path, settings: &Settings, parts: &[Part]) -> Option<Vec<u8>> {
         let below = setting::nearest(base.parent().unwrap_or(Path::new("."))).and_then(|file| {
             let folder = file.parent()?.to_owned();
             let path = std::path::absolute(path).ok()?;
             Some(shown(path.strip_prefix(folder).ok()?))
         });
-        let ignored = |pattern: &String| {
-            below
-                .as_deref()
-                .is_some_and(|below| matches_pattern(pattern, below))
-        };
+        let ignored = |pattern: &String| below.as_deref().is_some_and(|below| matches_pattern(pattern, below));
         if settings.ignore.iter().any(ignored) {
             return None;
         }
@@ -340,11 +301,7 @@ impl SnapshotSearch {
         }
         // Facts and pictures contain a mark that identifies them as references; SVG files do not. A file with the same
         // name as a marked file, but another extension, counts as a reference too.
-        let marked: Vec<&PathBuf> = self
-            .others
-            .iter()
-            .filter(|p| has_reference_mark(p))
-            .collect();
+        let marked: Vec<&PathBuf> = self.others.iter().filter(|p| has_reference_mark(p)).collect();
         let mut orphans = Vec::new();
         for path in &self.others {
             if expected.contains_key(&fold(path)) {
@@ -353,12 +310,8 @@ impl SnapshotSearch {
             let stem = path.with_extension("");
             let same_stem = marked.iter().any(|t| t.with_extension("") == stem);
             let of_a_scene = stems.iter().any(|s| {
-                let (own, s) = (
-                    fold(&stem).to_string_lossy().into_owned(),
-                    s.to_string_lossy(),
-                );
-                own.strip_prefix(s.as_ref())
-                    .is_some_and(|rest| rest.starts_with('.'))
+                let (own, s) = (fold(&stem).to_string_lossy().into_owned(), s.to_string_lossy());
+                own.strip_prefix(s.as_ref()).is_some_and(|rest| rest.starts_with('.'))
             });
             if same_stem || of_a_scene {
                 let words = if of_a_scene {

@@ -20,12 +20,8 @@ pub(super) fn looks_like_scene(bytes: &[u8]) -> bool {
     if !is_meant && !is_empty && std::str::from_utf8(bytes).is_ok() {
         return false;
     }
-    let is_damage = |code| {
-        matches!(
-            code,
-            Code::NotUtf8 | Code::EmptyFile | Code::EndsEarly | Code::NotJson | Code::OtherFormat
-        )
-    };
+    let is_damage =
+        |code| matches!(code, Code::NotUtf8 | Code::EmptyFile | Code::EndsEarly | Code::NotJson | Code::OtherFormat);
     match isolate("a file", || Scene::from_slice(bytes)) {
         Ok(Err(problems)) => problems.list.iter().any(|problem| is_damage(problem.code)),
         _ => false,
@@ -38,6 +34,5 @@ pub(super) fn has_reference_mark(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
     let marks: [&[u8]; 2] = [b"drystone facts ", b"drystone-snapshot\0scene"];
-    read.is_ok()
-        && (head.starts_with(marks[0]) || head.windows(marks[1].len()).any(|w| w == marks[1]))
+    read.is_ok() && (head.starts_with(marks[0]) || head.windows(marks[1].len()).any(|w| w == marks[1]))
 }

@@ -18,10 +18,7 @@ impl<'f> Filter<'f> {
     /// Makes the filter for the text `only`; `None` selects all scenes. If the text equals one of the scene `names`,
     /// the filter selects only this scene. Otherwise a text with `*` is a pattern for names, and any other text must
     /// occur in a name.
-    pub(super) fn new(
-        only: Option<&'f str>,
-        mut names: impl Iterator<Item = String>,
-    ) -> Filter<'f> {
+    pub(super) fn new(only: Option<&'f str>, mut names: impl Iterator<Item = String>) -> Filter<'f> {
         match only {
             None => Filter::All,
             Some(filter) if names.any(|name| name == filter) => Filter::Exactly(filter),
@@ -35,9 +32,9 @@ impl<'f> Filter<'f> {
         match self {
             Filter::All => true,
             // The name may also be the name of a reference, which is the name of its scene, a dot and more.
-            Filter::Exactly(scene) => name
-                .strip_prefix(scene)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+            Filter::Exactly(scene) => {
+                name.strip_prefix(scene).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            }
             Filter::Pattern(pattern) => matches_pattern(pattern, name),
             Filter::Containing(part) => name.contains(part),
         }

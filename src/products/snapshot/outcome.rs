@@ -14,16 +14,8 @@ const MAX_LISTED_CHANGES: usize = 12;
 /// Returns the folders of the files, sorted and without duplicates.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
     let folders = files.into_iter().filter_map(|f| f.parent());
-    let mut folders: Vec<PathBuf> = folders
-        .map(|f| {
-            if f.as_os_str().is_empty() {
-                Path::new(".")
-            } else {
-                f
-            }
-        })
-        .map(Path::to_owned)
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        folders.map(|f| if f.as_os_str().is_empty() { Path::new(".") } else { f }).map(Path::to_owned).collect();
     folders.sort();
     folders.dedup();
     folders
@@ -123,17 +115,9 @@ impl Snapshot {
                 [one] => lines.push(format!("  {head}: {one}")),
                 several => {
                     lines.push(format!("  {head}:"));
-                    lines.extend(
-                        several
-                            .iter()
-                            .take(MAX_LISTED_CHANGES)
-                            .map(|w| format!("    {w}")),
-                    );
+                    lines.extend(several.iter().take(MAX_LISTED_CHANGES).map(|w| format!("    {w}")));
                     if several.len() > MAX_LISTED_CHANGES {
-                        lines.push(format!(
-                            "    … and {} more",
-                            several.len() - MAX_LISTED_CHANGES
-                        ));
+                        lines.push(format!("    … and {} more", several.len() - MAX_LISTED_CHANGES));
                     }
                 }
             }
@@ -166,10 +150,7 @@ impl Snapshot {
         }
         let kept = |path: &Path| beside.iter().any(|(b, _)| b == path);
         for reference in &self.references {
-            for stale in [
-                store::new_file(reference),
-                store::difference_file(reference),
-            ] {
+            for stale in [store::new_file(reference), store::difference_file(reference)] {
                 if !kept(&stale) {
                     store::remove(&stale);
                 }
@@ -231,9 +212,7 @@ impl CheckOutcome {
         let mut words = format!("{all} snapshot{plural}: {} match", all - failing);
         if failing > 0 {
             let is = |state| move |s: &&Snapshot| s.findings.iter().any(|f| f.state == state);
-            let new = self
-                .failing()
-                .filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
+            let new = self.failing().filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
             let new = new.count();
             let broken = self.failing().filter(is(State::Unreadable)).count();
             words.push_str(&format!(", {} changed, {new} new", failing - new));
@@ -261,10 +240,6 @@ impl CheckOutcome {
     pub fn store(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
         let stored = self.snapshots.iter_mut().map(|s| s.store(acceptance));
         let failed: Vec<WriteError> = stored.filter_map(Result::err).collect();
-        if failed.is_empty() {
-            Ok(())
-        } else {
-            Err(failed)
-        }
+        if failed.is_empty() { Ok(()) } else { Err(failed) }
     }
 }

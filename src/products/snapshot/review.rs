@@ -128,17 +128,11 @@ fn words(finding: &Finding) -> Markup {
 fn pictures(finding: &Finding) -> Markup {
     // Show the reference only if it can be read. In the state `Unreadable`, `expected` has bytes that are not a
     // picture.
-    let expected = finding
-        .expected
-        .as_deref()
-        .filter(|_| finding.state == State::Changed);
+    let expected = finding.expected.as_deref().filter(|_| finding.state == State::Changed);
     let shown = [
         ("Expected", expected),
         ("Difference", finding.difference.as_deref()),
-        (
-            "Found",
-            Some(finding.fresh.as_slice()).filter(|f| !f.is_empty()),
-        ),
+        ("Found", Some(finding.fresh.as_slice()).filter(|f| !f.is_empty())),
     ];
     html! {
         div.three {

@@ -98,11 +98,7 @@ impl Settings {
             });
             return Err(described.collect());
         }
-        let mut reading = SettingsReader {
-            text,
-            settings: Settings::default(),
-            problems: Vec::new(),
-        };
+        let mut reading = SettingsReader { text, settings: Settings::default(), problems: Vec::new() };
         for (key, value) in table.get_ref() {
             reading.key(key, value);
         }
@@ -112,9 +108,7 @@ impl Settings {
             return Ok(reading.settings);
         }
         let described = reading.problems.into_iter();
-        Err(described
-            .map(|(at, words)| format!("{}: {words}", place_in(text, at)))
-            .collect())
+        Err(described.map(|(at, words)| format!("{}: {words}", place_in(text, at))).collect())
     }
 }
 
@@ -145,10 +139,7 @@ impl SettingsReader<'_> {
     fn key<'v>(&mut self, key: &Spanned<std::borrow::Cow<'v, str>>, value: &SpannedValue<'v>) {
         let at = key.span().start;
         match key.get_ref().as_ref() {
-            "layers" => {
-                self.settings.layers =
-                    self.named("layers", value, &Layer::ALL.map(Layer::name), Layer::named)
-            }
+            "layers" => self.settings.layers = self.named("layers", value, &Layer::ALL.map(Layer::name), Layer::named),
             "kinds" => {
                 let names: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
                 self.settings.kinds = self.named("kinds", value, &names, Kind::from_name);
@@ -159,10 +150,8 @@ impl SettingsReader<'_> {
             }
             "widths" => {
                 let widths = self.list("widths", value);
-                let widths: Vec<u64> = widths
-                    .iter()
-                    .filter_map(|w| self.whole("widths", w, 16, u64::from(MAX_SIDE)))
-                    .collect();
+                let widths: Vec<u64> =
+                    widths.iter().filter_map(|w| self.whole("widths", w, 16, u64::from(MAX_SIDE))).collect();
                 self.settings.widths = widths.into_iter().map(|w| w as u32).collect();
                 self.report_duplicates("widths", value, self.settings.widths.clone());
             }
@@ -177,9 +166,7 @@ impl SettingsReader<'_> {
                 }
             }
             "perceptual_threshold" => self.threshold(value),
-            "most_kilobytes" => {
-                self.settings.most_kilobytes = self.whole("most_kilobytes", value, 1, 1_000_000)
-            }
+            "most_kilobytes" => self.settings.most_kilobytes = self.whole("most_kilobytes", value, 1, 1_000_000),
             "ignore" => self.settings.ignore = self.texts("ignore", value),
             "scenes" => {
                 let paths = self.texts("scenes", value);
@@ -187,19 +174,12 @@ impl SettingsReader<'_> {
             }
             other => {
                 let other = crate::text::heading(other, 40);
-                self.wrong(
-                    at,
-                    format!("there is no key {other}; there are {}", KEYS.join(", ")),
-                );
+                self.wrong(at, format!("there is no key {other}; there are {}", KEYS.join(", ")));
             }
         }
     }
 
-    fn list<'v, 'f>(
-        &mut self,
-        key: &str,
-        value: &'f SpannedValue<'v>,
-    ) -> Vec<&'f SpannedValue<'v>> {
+    fn list<'v, 'f>(&mut self, key: &str, value: &'f SpannedValue<'v>) -> Vec<&'f SpannedValue<'v>> {
         match value.get_ref() {
             DeValue::Array(list) => list.iter().collect(),
             other => {
@@ -222,9 +202,7 @@ impl SettingsReader<'_> {
                     let found = other.type_str();
                     self.wrong(
                         entry.span().start,
-                        format!(
-                            "{key} must contain strings in quotation marks, not a value of type {found}"
-                        ),
+                        format!("{key} must contain strings in quotation marks, not a value of type {found}"),
                     );
                 }
             }
@@ -252,30 +230,19 @@ impl SettingsReader<'_> {
                     let stated = crate::text::heading(stated, 40);
                     self.wrong(
                         entry.span().start,
-                        format!(
-                            "{key}: there is no {stated}; there are {}",
-                            names.join(", ")
-                        ),
+                        format!("{key}: there is no {stated}; there are {}", names.join(", ")),
                     );
                 }
             }
         }
         if found.is_empty() && self.problems.len() == before {
-            self.wrong(
-                value.span().start,
-                format!("{key} is empty; remove it to use the default"),
-            );
+            self.wrong(value.span().start, format!("{key} is empty; remove it to use the default"));
         }
         self.report_duplicates(key, value, found.clone());
         found
     }
 
-    fn report_duplicates<T: PartialEq>(
-        &mut self,
-        key: &str,
-        value: &SpannedValue<'_>,
-        list: Vec<T>,
-    ) {
+    fn report_duplicates<T: PartialEq>(&mut self, key: &str, value: &SpannedValue<'_>, list: Vec<T>) {
         let again = |i: usize| list[..i].contains(&list[i]);
         if (0..list.len()).any(again) {
             self.wrong(
@@ -294,10 +261,7 @@ impl SettingsReader<'_> {
         if number.is_none_or(|n| n < least || n > most) {
             let stated = self.text.get(value.span()).unwrap_or_default();
             let stated = crate::text::heading(stated, 40);
-            self.wrong(
-                value.span().start,
-                format!("{key}: {stated} is not a whole number from {least} to {most}"),
-            );
+            self.wrong(value.span().start, format!("{key}: {stated} is not a whole number from {least} to {most}"));
             return None;
         }
         number
@@ -313,9 +277,7 @@ impl SettingsReader<'_> {
                 let stated = crate::text::heading(stated, 40);
                 self.wrong(
                     value.span().start,
-                    format!(
-                        "perceptual_threshold: {stated} is not a number from 0 to 1; a usual value is 0.1"
-                    ),
+                    format!("perceptual_threshold: {stated} is not a number from 0 to 1; a usual value is 0.1"),
                 );
             }
         }

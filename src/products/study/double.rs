@@ -14,10 +14,7 @@ pub struct Double {
 
 impl Double {
     /// 0.
-    pub const ZERO: Double = Double {
-        high: 0.0,
-        low: 0.0,
-    };
+    pub const ZERO: Double = Double { high: 0.0, low: 0.0 };
 
     /// Returns the `f64` that is nearest to this number.
     pub fn near(self) -> f64 {
@@ -47,20 +44,14 @@ impl From<f64> for Double {
 impl Neg for Double {
     type Output = Double;
     fn neg(self) -> Double {
-        Double {
-            high: -self.high,
-            low: -self.low,
-        }
+        Double { high: -self.high, low: -self.low }
     }
 }
 
 impl Add for Double {
     type Output = Double;
     fn add(self, other: Double) -> Double {
-        let (s, t) = (
-            Double::sum(self.high, other.high),
-            Double::sum(self.low, other.low),
-        );
+        let (s, t) = (Double::sum(self.high, other.high), Double::sum(self.low, other.low));
         let s = Double::sum(s.high, s.low + t.high);
         Double::sum(s.high, s.low + t.low)
     }
@@ -99,11 +90,8 @@ mod tests {
 
     #[test]
     fn thirty_digits_are_kept() {
-        let (one, three, tiny) = (
-            Double::from(1.0),
-            Double::from(3.0),
-            Double::from(1.0 / 1024.0 / 1048576.0 / 1048576.0 / 1048576.0),
-        );
+        let (one, three, tiny) =
+            (Double::from(1.0), Double::from(3.0), Double::from(1.0 / 1024.0 / 1048576.0 / 1048576.0 / 1048576.0));
         assert_eq!((one + tiny - one).near(), tiny.near());
         let rest = one - one / three * three;
         assert!(rest.near().abs() < 1e-31, "{rest:?}");

@@ -36,11 +36,7 @@ struct Axis {
 
 /// Returns the largest resultant, at a contact or grip, of the optimal forces with the least sum of squares. It is in
 /// the scaled units of the program. Returns `None` if the forces cannot be certified, or if a robot is at its limit.
-pub(super) fn largest_of_unique(
-    program: &Program,
-    columns: &[Column],
-    optimum: &Optimum,
-) -> Option<f64> {
+pub(super) fn largest_of_unique(program: &Program, columns: &[Column], optimum: &Optimum) -> Option<f64> {
     if optimum.limited {
         return None;
     }
@@ -62,11 +58,7 @@ pub(super) fn largest_of_unique(
         // A column counts as used if its amount times this factor exceeds its multiplier. Several factors are tried,
         // because rounding errors can hide which columns are used.
         for factor in [1.0, 1e2, 1e-2, 1e4, 1e-4] {
-            let used = face
-                .iter()
-                .zip(&answer.x)
-                .zip(&multiplier)
-                .filter(|((_, x), z)| **x * factor > **z);
+            let used = face.iter().zip(&answer.x).zip(&multiplier).filter(|((_, x), z)| **x * factor > **z);
             let axes = axes(program, used.map(|((c, _), _)| c));
             if let Some(largest) = certified(program, &face, &axes, optimum.value) {
                 return Some(largest);
@@ -81,21 +73,12 @@ pub(super) fn largest_of_unique(
 fn place(program: &Program, column: &Column) -> (Place, [Double; 3]) {
     let mut vector = [Double::ZERO; 3];
     match column.force {
-        Force::Ray {
-            contact,
-            point,
-            normal,
-            friction,
-        } => {
+        Force::Ray { contact, point, normal, friction } => {
             vector[point] = normal.into();
             vector[2] = friction.into();
             (contact, vector)
         }
-        Force::Grip {
-            grip,
-            component,
-            sign,
-        } => {
+        Force::Grip { grip, component, sign } => {
             vector[component] = sign.into();
             (program.contacts.len() + grip, vector)
         }
@@ -130,12 +113,7 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
         // Leave out directions that depend on the earlier ones. Directions are rounded to 1e-16, so the remainder of
         // a dependent direction has about 1e-32 of its squared length. The threshold 1e-20 lies far above this.
         if square.near() > 1e-20 * whole {
-            axes.push(Axis {
-                place,
-                direction,
-                entries: rows.into_iter().collect(),
-                square,
-            });
+            axes.push(Axis { place, direction, entries: rows.into_iter().collect(), square });
         }
     }
     axes
@@ -146,18 +124,13 @@ fn axes<'a>(program: &Program, used: impl Iterator<Item = &'a Column>) -> Vec<Ax
 /// optimum of the sum of forces.
 fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -> Option<f64> {
     let one = Double::from(1.0);
-    let terms = axes
-        .iter()
-        .map(|axis| (one / axis.square, axis.entries.as_slice()));
+    let terms = axes.iter().map(|axis| (one / axis.square, axis.entries.as_slice()));
     let matrix = Skyline::new(program.loads.len(), terms);
     let loads: Vec<Double> = program.loads.iter().map(|v| Double::from(*v)).collect();
     let mut w = vec![Double::ZERO; loads.len()];
     let mut rest = loads.clone();
-    let amounts = |w: &[Double]| -> Vec<Double> {
-        axes.iter()
-            .map(|axis| product(&axis.entries, w) / axis.square)
-            .collect()
-    };
+    let amounts =
+        |w: &[Double]| -> Vec<Double> { axes.iter().map(|axis| product(&axis.entries, w) / axis.square).collect() };
     for _ in 0..4 {
         for (w, d) in w.iter_mut().zip(matrix.solve(&rest)) {
             *w = *w + d;
@@ -184,10 +157,7 @@ fn certified(program: &Program, face: &[Column], axes: &[Axis], total: Double) -
         let slip = (f[2].abs() - most).near();
         f[0].near().min(f[1].near()) >= -small && slip <= OPTIMALITY_TOL * size
     });
-    let sum = forces
-        .iter()
-        .flatten()
-        .fold(Double::ZERO, |s, v| s + v.abs());
+    let sum = forces.iter().flatten().fold(Double::ZERO, |s, v| s + v.abs());
     let optimal = (sum - total).abs().near() <= 10.0 * OPTIMALITY_TOL * size;
     let shortest = face.iter().all(|column| {
         let (place, direction) = place(program, column);

@@ -4,12 +4,9 @@
 use super::Task;
 use super::outcome::Outcome;
 use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
-use crate::program::{
-    Column, Program, Scale, adhesion_columns, columns, force_primal, vallat_program,
-};
+use crate::program::{Column, Program, Scale, adhesion_columns, columns, force_primal, vallat_program};
 use crate::solve::{
-    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual,
-    least_adhesion_in, solve,
+    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, least_adhesion_in, solve,
 };
 
 /// An adhesion up to this fraction of the largest adhesion is a rounding error of the solver and not a failure.
@@ -70,9 +67,7 @@ impl Method {
         let mut whole = Outcome::empty();
         for program in &task.programs {
             let one = match self {
-                Method::Source(exponent) => {
-                    as_posed(program, libm::exp10(f64::from(exponent)), tolerance)
-                }
+                Method::Source(exponent) => as_posed(program, libm::exp10(f64::from(exponent)), tolerance),
                 Method::ForceForm => force(program, tolerance),
                 Method::Kinematic => kinematic(program, tolerance),
                 _ => unique(program, tolerance),
@@ -91,10 +86,7 @@ fn min_counted_adhesion(tolerance: f64) -> f64 {
 }
 
 fn effort(iterations: usize) -> Effort {
-    Effort {
-        iterations,
-        programs: 1,
-    }
+    Effort { iterations, programs: 1 }
 }
 
 /// Returns the largest component of the unbalanced loads, if the columns have these amounts.
@@ -121,10 +113,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     let adhesion: f64 = answer.x[n..].iter().map(|v| v.max(0.0)).sum();
     if adhesion > min_counted_adhesion(tolerance) {
         let most = answer.x[n..].iter().fold(0.0, |m: f64, v| m.max(*v));
-        let points = answer.x[n..]
-            .iter()
-            .filter(|v| **v > MIN_FAILURE_SHARE * most)
-            .count();
+        let points = answer.x[n..].iter().filter(|v| **v > MIN_FAILURE_SHARE * most).count();
         return Outcome::falls(Some(adhesion), points, effort);
     }
     let mut amounts = Amounts::zero(program);
@@ -151,10 +140,7 @@ fn as_posed(program: &Program, beta: f64, tolerance: f64) -> Outcome {
     }
     let off = rest.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let sum = answer.x[..n].iter().sum();
-    Outcome {
-        total: Some(sum),
-        ..Outcome::stands(&amounts, off, effort)
-    }
+    Outcome { total: Some(sum), ..Outcome::stands(&amounts, off, effort) }
 }
 
 fn adhesion_cost(column: &Column) -> f64 {
@@ -167,22 +153,14 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let loads = &program.loads;
     let admissible = columns(program);
     let cost = |c: &Column| c.cost;
-    let hard = solve(
-        &force_primal(loads, &admissible, cost, None),
-        tolerance,
-        Conditioning::Full,
-    );
+    let hard = solve(&force_primal(loads, &admissible, cost, None), tolerance, Conditioning::Full);
     let mut iterations = hard.iterations;
     if hard.status == Status::Solved {
         return standing(program, &admissible, &hard.x, effort(iterations));
     }
     let mut all = admissible;
     all.extend(adhesion_columns(program));
-    let first = solve(
-        &force_primal(loads, &all, adhesion_cost, None),
-        tolerance,
-        Conditioning::Full,
-    );
+    let first = solve(&force_primal(loads, &all, adhesion_cost, None), tolerance, Conditioning::Full);
     iterations += first.iterations;
     let certain = hard.status == Status::Infeasible;
     match first.status {
@@ -194,25 +172,15 @@ fn force(program: &Program, tolerance: f64) -> Outcome {
     let sum = |x: &[f64]| -> f64 { all.iter().zip(x).map(|(c, x)| adhesion_cost(c) * x).sum() };
     let least = sum(&first.x);
     let most = least * (1.0 + tolerance) + tolerance;
-    let second = solve(
-        &force_primal(loads, &all, cost, Some((&adhesion_cost, most))),
-        tolerance,
-        Conditioning::Full,
-    );
+    let second = solve(&force_primal(loads, &all, cost, Some((&adhesion_cost, most))), tolerance, Conditioning::Full);
     iterations += second.iterations;
-    let x = if second.status == Status::Solved {
-        &second.x
-    } else {
-        &first.x
-    };
+    let x = if second.status == Status::Solved { &second.x } else { &first.x };
     if !certain && least <= min_counted_adhesion(tolerance) {
         return standing(program, &all, x, effort(iterations));
     }
     let adheres = || all.iter().zip(x).filter(|(c, _)| c.force.is_adhesion());
     let largest = adheres().map(|(_, x)| *x).fold(0.0, f64::max);
-    let points = adheres()
-        .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
-        .count();
+    let points = adheres().filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest).count();
     Outcome::falls(Some(least), points, effort(iterations))
 }
 
@@ -230,11 +198,7 @@ fn standing(program: &Program, columns: &[Column], x: &[f64], effort: Effort) ->
 }
 
 fn settings(tolerance: f64, choice: Choice) -> SolverSettings {
-    SolverSettings {
-        tolerance,
-        choice,
-        ..Conditioning::Plain.into()
-    }
+    SolverSettings { tolerance, choice, ..Conditioning::Plain.into() }
 }
 
 /// Solves dual programs, whose unknowns are velocities. The first program has no adhesion. If it has no solution, a
@@ -243,20 +207,14 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
     let admissible = columns(program);
-    let hard = dual(&program.loads, &admissible, settings, &mut effort, |c| {
-        c.cost
-    });
+    let hard = dual(&program.loads, &admissible, settings, &mut effort, |c| c.cost);
     if hard.status == Status::Solved {
         return standing(program, &admissible, &hard.amounts, effort);
     }
     let mut all = admissible;
     all.extend(adhesion_columns(program));
     let soft = dual(&program.loads, &all, settings, &mut effort, adhesion_cost);
-    let adheres = || {
-        all.iter()
-            .zip(&soft.amounts)
-            .filter(|(c, _)| c.force.is_adhesion())
-    };
+    let adheres = || all.iter().zip(&soft.amounts).filter(|(c, _)| c.force.is_adhesion());
     let least: f64 = adheres().map(|(_, x)| *x).sum();
     let certain = hard.status == Status::Unbounded;
     match soft.status {
@@ -265,9 +223,7 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
         }
         Status::Solved => {
             let largest = adheres().map(|(_, x)| *x).fold(0.0, f64::max);
-            let points = adheres()
-                .filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest)
-                .count();
+            let points = adheres().filter(|(_, x)| **x > MIN_FAILURE_SHARE * largest).count();
             Outcome::falls(Some(least), points, effort)
         }
         Status::Unbounded => Outcome::falls(None, 0, effort),
@@ -296,17 +252,10 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
         }
         let parts = || {
             let adhesion = &soft.adhesion;
-            adhesion
-                .normal
-                .iter()
-                .flatten()
-                .chain(&adhesion.friction)
-                .chain(adhesion.grip.iter().flatten())
+            adhesion.normal.iter().flatten().chain(&adhesion.friction).chain(adhesion.grip.iter().flatten())
         };
         let most = parts().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let points = parts()
-            .filter(|v| v.abs() > MIN_FAILURE_SHARE * most)
-            .count();
+        let points = parts().filter(|v| v.abs() > MIN_FAILURE_SHARE * most).count();
         return Outcome::falls(Some(least), points, effort);
     }
     match certain || soft.motion.is_some() {
@@ -317,11 +266,7 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
 
 /// Runs the complete analysis at an accuracy level. The measured time begins after the interfaces have been found.
 fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
-    let options = Options {
-        accuracy,
-        tolerance: Some(tolerance),
-        ..Options::default()
-    };
+    let options = Options { accuracy, tolerance: Some(tolerance), ..Options::default() };
     let analysis = Analysis::with(&task.scene, &options);
     let Some(frame) = analysis.frames.first() else {
         return Outcome::empty();
@@ -329,13 +274,8 @@ fn level(task: &Task, accuracy: Accuracy, tolerance: f64) -> Outcome {
     let contacts = frame.contacts.iter().map(|c| c.resultant.force.norm());
     let grips = frame.robots.iter().map(|r| r.force.norm());
     let (imbalance, violation) = match frame.proof {
-        Proof::Forces {
-            worst_imbalance, ..
-        } => (Some(worst_imbalance), None),
-        Proof::Mechanism {
-            power,
-            worst_violation,
-        } => (None, Some(worst_violation / power)),
+        Proof::Forces { worst_imbalance, .. } => (Some(worst_imbalance), None),
+        Proof::Mechanism { power, worst_violation } => (None, Some(worst_violation / power)),
     };
     Outcome {
         verdict: frame.verdict,

@@ -126,11 +126,7 @@ pub fn study(scenes: &[Scene], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -
 }
 
 fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
-    let title = if scene.title.is_empty() {
-        "untitled"
-    } else {
-        &scene.title
-    };
+    let title = if scene.title.is_empty() { "untitled" } else { &scene.title };
     match (scene.frames.len(), frame.title.as_str()) {
         (1, _) => title.to_owned(),
         (_, "") => format!("{title} · {}", number + 1),
@@ -146,11 +142,7 @@ impl Task {
         scene.frames = vec![frame.clone()];
         let found = Interfaces::new(&scene);
         let interfaces = found.in_frame(&scene, frame);
-        let (assembly, _) = effect::assemble(&FrameContext {
-            scene: &scene,
-            frame,
-            interfaces: &interfaces,
-        });
+        let (assembly, _) = effect::assemble(&FrameContext { scene: &scene, frame, interfaces: &interfaces });
         let programs = assembly
             .components()
             .iter()
@@ -164,33 +156,17 @@ impl Task {
 /// Computes the reference solution of each independent part of a frame, and combines these solutions to one for the
 /// frame.
 fn truth(programs: &[Program]) -> FrameReference {
-    let references: Vec<(&Program, Reference)> =
-        programs.iter().map(|p| (p, Reference::new(p))).collect();
-    let verdict = references
-        .iter()
-        .map(|r| r.1.verdict)
-        .max()
-        .unwrap_or(Verdict::Stable);
+    let references: Vec<(&Program, Reference)> = programs.iter().map(|p| (p, Reference::new(p))).collect();
+    let verdict = references.iter().map(|r| r.1.verdict).max().unwrap_or(Verdict::Stable);
     let decided = references.iter().all(|r| r.1.verdict != Verdict::Undecided);
     let described = || references.iter().filter(|r| r.1.verdict == verdict);
     let newtons = |p: &Program, v: Option<f64>| v.map(|v| v * p.scale.force);
-    let total = described()
-        .map(|(p, r)| newtons(p, r.total))
-        .try_fold(0.0, |sum, v| v.map(|v| sum + v));
-    let largest = described()
-        .map(|(p, r)| newtons(p, r.largest))
-        .try_fold(0.0, |most: f64, v| v.map(|v| most.max(v)));
+    let total = described().map(|(p, r)| newtons(p, r.total)).try_fold(0.0, |sum, v| v.map(|v| sum + v));
+    let largest = described().map(|(p, r)| newtons(p, r.largest)).try_fold(0.0, |most: f64, v| v.map(|v| most.max(v)));
     let falls = verdict == Verdict::Unstable;
-    let barely = |r: &Reference| {
-        r.total
-            .is_some_and(|t| t <= MAX_NEGLIGIBLE_ADHESION * Scale::HEAVIEST)
-    };
+    let barely = |r: &Reference| r.total.is_some_and(|t| t <= MAX_NEGLIGIBLE_ADHESION * Scale::HEAVIEST);
     FrameReference {
-        verdict: if decided || falls {
-            verdict
-        } else {
-            Verdict::Undecided
-        },
+        verdict: if decided || falls { verdict } else { Verdict::Undecided },
         total: if decided { total } else { None },
         largest: if decided && !falls { largest } else { None },
         gap: references.iter().map(|r| r.1.gap).fold(0.0, f64::max),
@@ -206,12 +182,7 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
             runs.push(run(method, *tolerance, task, &truth));
         }
     }
-    Case {
-        name,
-        blocks,
-        truth,
-        runs,
-    }
+    Case { name, blocks, truth, runs }
 }
 
 /// Runs a method at least three times, and up to nine times as long as the total time is below 0.02 s. The time of the

@@ -53,18 +53,10 @@ const LIMIT_TOL: f64 = 1e-6;
 const MIN_WEIGHT: f64 = 1e-12;
 
 /// Returns the certified optimum of a linear program; `None` if no guess at the optimal face passes the checks.
-pub(super) fn optimum(
-    loads: &[f64],
-    columns: &[Column],
-    cost: impl Fn(&Column) -> f64 + Copy,
-) -> Option<Optimum> {
+pub(super) fn optimum(loads: &[f64], columns: &[Column], cost: impl Fn(&Column) -> f64 + Copy) -> Option<Optimum> {
     let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
     for tolerance in GUESS_TOLERANCES {
-        let settings = SolverSettings {
-            tolerance,
-            choice: Choice::Any,
-            ..Conditioning::Full.into()
-        };
+        let settings = SolverSettings { tolerance, choice: Choice::Any, ..Conditioning::Full.into() };
         let solved = dual(loads, columns, settings, &mut Effort::default(), cost);
         if solved.status != Status::Solved {
             continue;
@@ -128,29 +120,19 @@ impl Guess<'_> {
     /// amounts change by W Aᵀ w with A W Aᵀ w = rest, the velocities by d with A W Aᵀ d = A W · (reduced costs). The
     /// weights are the amounts, so that a small amount changes little and stays positive.
     fn refined(&self) -> Refined {
-        let at_limit = |j: usize| {
-            self.columns[j].limit.is_finite()
-                && self.amounts[j] > self.columns[j].limit * (1.0 - LIMIT_TOL)
-        };
+        let at_limit =
+            |j: usize| self.columns[j].limit.is_finite() && self.amounts[j] > self.columns[j].limit * (1.0 - LIMIT_TOL);
         let all = 0..self.columns.len();
         let limited: Vec<usize> = all.clone().filter(|j| at_limit(*j)).collect();
         let face: Vec<usize> = all.filter(|j| self.active[*j] && !at_limit(*j)).collect();
         let loads = self.loads_with(&limited);
         let heaviest = self.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let largest = self.amounts.iter().fold(heaviest, |m, v| m.max(*v));
-        let weights: Vec<Double> = face
-            .iter()
-            .map(|j| Double::from((self.amounts[*j] / largest).max(MIN_WEIGHT)))
-            .collect();
-        let terms = weights
-            .iter()
-            .zip(&face)
-            .map(|(w, j)| (*w, self.sparse[*j].as_slice()));
+        let weights: Vec<Double> =
+            face.iter().map(|j| Double::from((self.amounts[*j] / largest).max(MIN_WEIGHT))).collect();
+        let terms = weights.iter().zip(&face).map(|(w, j)| (*w, self.sparse[*j].as_slice()));
         let matrix = Skyline::new(loads.len(), terms);
-        let mut x: Vec<Double> = face
-            .iter()
-            .map(|j| Double::from(self.amounts[*j]))
-            .collect();
+        let mut x: Vec<Double> = face.iter().map(|j| Double::from(self.amounts[*j])).collect();
         let mut y: Vec<Double> = self.y.iter().map(|v| Double::from(*v)).collect();
         let mut rest = loads.clone();
         for _ in 0..REFINEMENT_STEPS {
@@ -164,24 +146,13 @@ impl Guess<'_> {
             }
             let mut right = vec![Double::ZERO; loads.len()];
             for (j, weight) in face.iter().zip(&weights) {
-                add(
-                    &mut right,
-                    &self.sparse[*j],
-                    *weight * self.reduced_cost(*j, &y),
-                );
+                add(&mut right, &self.sparse[*j], *weight * self.reduced_cost(*j, &y));
             }
             for (y, d) in y.iter_mut().zip(matrix.solve(&right)) {
                 *y = *y + d;
             }
         }
-        Refined {
-            limited,
-            face,
-            x,
-            y,
-            rest,
-            largest,
-        }
+        Refined { limited, face, x, y, rest, largest }
     }
 
     /// Returns the loads minus the forces of the columns at their limit. These forces are known, so they act like
@@ -200,19 +171,10 @@ impl Guess<'_> {
     /// Checks a refined solution for primal and dual feasibility and for its duality gap. Returns `None` if a check
     /// fails.
     fn checked(&self, refined: Refined) -> Option<Optimum> {
-        let Refined {
-            limited,
-            face,
-            x,
-            y,
-            rest,
-            largest,
-        } = refined;
+        let Refined { limited, face, x, y, rest, largest } = refined;
         // Compute the primal objective value, Σ cost·amount, and the dual objective value: the power of the loads plus
         // Σ limit·(reduced cost) over the columns at their limit.
-        let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| {
-            sum + Double::from(self.costs[*j]) * *x
-        });
+        let mut forces = face.iter().zip(&x).fold(Double::ZERO, |sum, (j, x)| sum + Double::from(self.costs[*j]) * *x);
         let mut bound = power(self.loads, &y);
         let speed = y.iter().fold(1.0, |m: f64, v| m.max(v.abs().near()));
         for j in &limited {
@@ -225,9 +187,7 @@ impl Guess<'_> {
             }
         }
         // Check primal feasibility: the loads balance, and amounts lie between 0 and their limits.
-        let balanced = rest
-            .iter()
-            .all(|r| r.abs().near() <= OPTIMALITY_TOL * largest);
+        let balanced = rest.iter().all(|r| r.abs().near() <= OPTIMALITY_TOL * largest);
         let presses = face.iter().zip(&x).all(|(j, x)| {
             (x.near() >= -OPTIMALITY_TOL * largest || self.may_be_negative(*j, &face))
                 && x.near() <= self.columns[*j].limit
@@ -235,22 +195,12 @@ impl Guess<'_> {
         // Check dual feasibility: no column below its limit has a negative reduced cost.
         let free = || (0..self.columns.len()).filter(|j| !limited.contains(j));
         let bounded = free().all(|j| self.reduced_cost(j, &y).near() >= -OPTIMALITY_TOL * speed);
-        let scale = forces
-            .near()
-            .abs()
-            .max(bound.near().abs())
-            .max(OPTIMALITY_TOL * largest * speed);
+        let scale = forces.near().abs().max(bound.near().abs()).max(OPTIMALITY_TOL * largest * speed);
         // Bound the error by weak duality: it is at most the difference of both objective values, plus the largest
         // dual violation times the sum of all amounts, plus the unbalanced forces times the velocities.
-        let violation = free()
-            .map(|j| -self.reduced_cost(j, &y).near())
-            .fold(0.0, f64::max);
+        let violation = free().map(|j| -self.reduced_cost(j, &y).near()).fold(0.0, f64::max);
         let total: f64 = x.iter().map(|x| x.abs().near()).sum();
-        let unbalanced: f64 = rest
-            .iter()
-            .zip(&y)
-            .map(|(r, y)| (*r * *y).abs().near())
-            .sum();
+        let unbalanced: f64 = rest.iter().zip(&y).map(|(r, y)| (*r * *y).abs().near()).sum();
         let gap = ((forces - bound).abs().near() + violation * total + unbalanced) / scale;
         let agree = gap * scale <= 10.0 * OPTIMALITY_TOL * scale.max(largest);
         (balanced && presses && bounded && agree).then_some(Optimum {
@@ -273,10 +223,7 @@ impl Guess<'_> {
         let partner = |k: &usize| {
             grip(*k)
                 && self.columns[*k].limit.is_infinite()
-                && self.sparse[*k]
-                    .iter()
-                    .zip(&self.sparse[j])
-                    .all(|(a, b)| a.0 == b.0 && a.1 == -b.1)
+                && self.sparse[*k].iter().zip(&self.sparse[j]).all(|(a, b)| a.0 == b.0 && a.1 == -b.1)
         };
         grip(j) && self.costs[j] == 0.0 && face.iter().any(partner)
     }
@@ -284,17 +231,12 @@ impl Guess<'_> {
 
 /// Returns the nonzero entries of a column as pairs of row and value, in extended precision.
 pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
-    column
-        .entries()
-        .map(|(row, value)| (row, Double::from(value)))
-        .collect()
+    column.entries().map(|(row, value)| (row, Double::from(value))).collect()
 }
 
 /// Returns the dot product of a sparse column and a vector.
 pub(super) fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
-    entries
-        .iter()
-        .fold(Double::ZERO, |sum, (row, value)| sum + *value * y[*row])
+    entries.iter().fold(Double::ZERO, |sum, (row, value)| sum + *value * y[*row])
 }
 
 /// Adds a multiple of a sparse column to a vector.
@@ -306,8 +248,5 @@ pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Doubl
 
 /// Returns the power of the loads at the velocities `y`: their dot product.
 pub(super) fn power(loads: &[f64], y: &[Double]) -> Double {
-    loads
-        .iter()
-        .zip(y)
-        .fold(Double::ZERO, |sum, (n, y)| sum + Double::from(*n) * *y)
+    loads.iter().zip(y).fold(Double::ZERO, |sum, (n, y)| sum + Double::from(*n) * *y)
 }

@@ -57,12 +57,7 @@ impl Outcome {
     /// Returns the outcome for a part of a frame that falls. Adhesion of `total` at `points` failures would hold it.
     /// `total` is in the scaled units of the program; `None` if it is not known.
     pub(super) fn falls(total: Option<f64>, points: usize, effort: Effort) -> Outcome {
-        Outcome {
-            verdict: Verdict::Unstable,
-            total,
-            points,
-            ..Outcome::undecided(effort)
-        }
+        Outcome { verdict: Verdict::Unstable, total, points, ..Outcome::undecided(effort) }
     }
 
     /// Returns the outcome for a part of a frame that stands: the forces `amounts` balance the loads. `imbalance` is
@@ -79,20 +74,14 @@ impl Outcome {
 
     /// Converts the forces from the scaled units of a program to newtons.
     pub(super) fn in_newtons(self, scale: Scale) -> Outcome {
-        Outcome {
-            total: self.total.map(|v| v * scale.force),
-            largest: self.largest.map(|v| v * scale.force),
-            ..self
-        }
+        Outcome { total: self.total.map(|v| v * scale.force), largest: self.largest.map(|v| v * scale.force), ..self }
     }
 
     /// Combines the outcomes of two independent parts of a frame. If their verdicts are equal, sums are added, and the
     /// larger of two largest values is kept. If their verdicts differ, the combined outcome is that of the worse part,
     /// with the iterations of both parts.
     pub(super) fn and(self, other: Outcome) -> Outcome {
-        let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| {
-            a.zip(b).map(|(a, b)| join(a, b))
-        };
+        let both = |a: Option<f64>, b: Option<f64>, join: fn(f64, f64) -> f64| a.zip(b).map(|(a, b)| join(a, b));
         let iterations = self.iterations + other.iterations;
         if self.verdict == other.verdict {
             Outcome {
@@ -104,26 +93,15 @@ impl Outcome {
                 ..self
             }
         } else {
-            let worse = if self.verdict > other.verdict {
-                self
-            } else {
-                other
-            };
-            Outcome {
-                iterations,
-                ..worse
-            }
+            let worse = if self.verdict > other.verdict { self } else { other };
+            Outcome { iterations, ..worse }
         }
     }
 }
 
 /// Returns the magnitude of the largest resultant at a contact or grip, in the scaled units of the program.
 fn largest(amounts: &Amounts) -> f64 {
-    let contacts = amounts
-        .normal
-        .iter()
-        .zip(&amounts.friction)
-        .map(|(n, t)| libm::hypot(n[0] + n[1], *t));
+    let contacts = amounts.normal.iter().zip(&amounts.friction).map(|(n, t)| libm::hypot(n[0] + n[1], *t));
     let grips = amounts.grip.iter().map(|g| libm::hypot(g[0], g[1]));
     contacts.chain(grips).fold(0.0, f64::max)
 }

@@ -44,12 +44,7 @@ impl Reference {
     /// Computes the true verdict, the total force and the largest force of a program, with a bound on the error of the
     /// total force.
     pub fn new(program: &Program) -> Reference {
-        let unknown = Reference {
-            verdict: Verdict::Undecided,
-            total: None,
-            largest: None,
-            gap: 0.0,
-        };
+        let unknown = Reference { verdict: Verdict::Undecided, total: None, largest: None, gap: 0.0 };
         let admissible = columns(program);
         if let Some(optimum) = optimum(&program.loads, &admissible, |c| c.cost) {
             let value = optimum.value;
@@ -79,10 +74,7 @@ impl Reference {
                 true => unknown,
                 // No adhesion is needed, but the program without adhesion has no certified optimum: the structure
                 // stands exactly at its limit.
-                false => Reference {
-                    verdict: Verdict::Stable,
-                    ..unknown
-                },
+                false => Reference { verdict: Verdict::Stable, ..unknown },
             };
         }
         Reference {
@@ -98,19 +90,10 @@ impl Reference {
 /// True if the solver finds a motion along which the loads have power, and which not even adhesion resists.
 fn falls_despite_adhesion(loads: &[f64], all: &[Column]) -> bool {
     let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
-    let solved = dual(
-        loads,
-        all,
-        Conditioning::Full,
-        &mut Effort::default(),
-        adheres,
-    );
+    let solved = dual(loads, all, Conditioning::Full, &mut Effort::default(), adheres);
     let y: Vec<Double> = solved.y.iter().map(|v| Double::from(*v)).collect();
     let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs().near()));
-    let violation = all
-        .iter()
-        .map(|c| product(&entries(c), &y).near())
-        .fold(0.0, f64::max);
+    let violation = all.iter().map(|c| product(&entries(c), &y).near()).fold(0.0, f64::max);
     let power = power(loads, &y).near();
     let largest = loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     solved.status == Status::Unbounded

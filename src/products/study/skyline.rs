@@ -35,9 +35,7 @@ impl Skyline {
                 first[*row] = first[*row].min(least);
             }
         }
-        let mut rows: Vec<Vec<Double>> = (0..size)
-            .map(|row| vec![Double::ZERO; row - first[row] + 1])
-            .collect();
+        let mut rows: Vec<Vec<Double>> = (0..size).map(|row| vec![Double::ZERO; row - first[row] + 1]).collect();
         for (weight, entries) in terms {
             for (i, a) in entries {
                 for (j, b) in entries.iter().filter(|e| e.0 <= *i) {
@@ -46,11 +44,7 @@ impl Skyline {
                 }
             }
         }
-        let mut skyline = Skyline {
-            first,
-            rows,
-            pivots: Vec::with_capacity(size),
-        };
+        let mut skyline = Skyline { first, rows, pivots: Vec::with_capacity(size) };
         skyline.factor();
         skyline
     }
@@ -69,11 +63,7 @@ impl Skyline {
                 for k in from..j {
                     sum = sum - row[k - start] * above[j][k - self.first[j]];
                 }
-                row[j - start] = if self.pivots[j].is_some() {
-                    sum
-                } else {
-                    Double::ZERO
-                };
+                row[j - start] = if self.pivots[j].is_some() { sum } else { Double::ZERO };
             }
             let mut pivot = row[i - start];
             for j in start..i {
@@ -94,8 +84,7 @@ impl Skyline {
         let mut w = right.to_vec();
         for i in 0..w.len() {
             let start = self.first[i];
-            let known =
-                (start..i).fold(Double::ZERO, |sum, k| sum + self.rows[i][k - start] * w[k]);
+            let known = (start..i).fold(Double::ZERO, |sum, k| sum + self.rows[i][k - start] * w[k]);
             w[i] = match self.pivots[i] {
                 Some(_) => w[i] - known,
                 None => Double::ZERO,

@@ -51,15 +51,9 @@ pub fn summary(study: &Study) -> Vec<Summary> {
         .cases
         .iter()
         .map(|case| {
-            let standard = case
-                .runs
-                .iter()
-                .filter(|r| r.method == Method::Level(Accuracy::Standard));
+            let standard = case.runs.iter().filter(|r| r.method == Method::Level(Accuracy::Standard));
             let far = |r: &&Run| libm::log10(r.tolerance / TOLERANCE).abs();
-            standard
-                .min_by(|a, b| far(a).total_cmp(&far(b)))
-                .map_or(1.0, |r| r.seconds)
-                .max(1e-9)
+            standard.min_by(|a, b| far(a).total_cmp(&far(b))).map_or(1.0, |r| r.seconds).max(1e-9)
         })
         .collect();
     let mut lines: Vec<Summary> = (0..first.runs.len())
@@ -84,17 +78,12 @@ pub fn summary(study: &Study) -> Vec<Summary> {
             }
         })
         .collect();
-    let without_errors: Vec<(f64, f64)> = lines
-        .iter()
-        .filter(|l| l.wrong == 0)
-        .filter_map(|l| l.total_error.map(|e| (l.time, e)))
-        .collect();
+    let without_errors: Vec<(f64, f64)> =
+        lines.iter().filter(|l| l.wrong == 0).filter_map(|l| l.total_error.map(|e| (l.time, e))).collect();
     for line in &mut lines {
         line.best = line.wrong == 0
             && line.total_error.is_some_and(|error| {
-                !without_errors.iter().any(|(t, e)| {
-                    (*t < line.time && *e <= error) || (*t <= line.time && *e < error)
-                })
+                !without_errors.iter().any(|(t, e)| (*t < line.time && *e <= error) || (*t <= line.time && *e < error))
             });
     }
     lines

@@ -40,9 +40,7 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
             let ranges = ranges(scene, capacity);
             match capacity.cases {
                 1 => format!("without a force {place} it falls; it stands with {ranges}{some}"),
-                _ => format!(
-                    "without a force {place} it does not stand{for_all}; it does with {ranges}{some}"
-                ),
+                _ => format!("without a force {place} it does not stand{for_all}; it does with {ranges}{some}"),
             }
         }
     }
@@ -74,12 +72,8 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
 }
 
 /// The four directions that a sentence names, as unit vectors.
-const NAMED_DIRECTIONS: [([f64; 2], &str); 4] = [
-    ([-1.0, 0.0], "to the left"),
-    ([1.0, 0.0], "to the right"),
-    ([0.0, 1.0], "up"),
-    ([0.0, -1.0], "down"),
-];
+const NAMED_DIRECTIONS: [([f64; 2], &str); 4] =
+    [([-1.0, 0.0], "to the left"), ([1.0, 0.0], "to the right"), ([0.0, 1.0], "up"), ([0.0, -1.0], "down")];
 
 /// Lists the largest force to the left, to the right, up and down: `at most 2 N to the left, …, and any force down`.
 /// Returns `None` if the frame falls without this force.
@@ -109,9 +103,7 @@ pub fn sides(scene: &Scene, capacity: &LoadCapacity) -> Option<String> {
 pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
     let range = |name: &str, direction: [f64; 2]| {
         let most = capacity.most(direction).map(|v| rounded(v, capacity));
-        let least = capacity
-            .most(direction.map(|v| -v))
-            .map(|v| rounded(-v, capacity));
+        let least = capacity.most(direction.map(|v| -v)).map(|v| rounded(-v, capacity));
         let newtons = |v: f64| quantity(v, scene.units.force());
         match (least, most) {
             (None, None) => format!("any {name}"),
@@ -125,11 +117,7 @@ pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
             }
         }
     };
-    format!(
-        "{} and {}",
-        range("Fx", [1.0, 0.0]),
-        range("Fy", [0.0, 1.0])
-    )
+    format!("{} and {}", range("Fx", [1.0, 0.0]), range("Fy", [0.0, 1.0]))
 }
 
 /// Returns `force`, or 0 if it is so small relative to the largest force of the capacity that it may be a rounding

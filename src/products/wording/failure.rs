@@ -12,9 +12,9 @@ const MAX_LISTED_BLOCKS: usize = 6;
 /// Returns the magnitude of the force (N) or torque (N·m) that is missing at a failure.
 pub fn amount(failure: &Failure) -> f64 {
     match failure {
-        Failure::Tension { force, .. }
-        | Failure::Friction { force, .. }
-        | Failure::RobotForce { force, .. } => force.norm(),
+        Failure::Tension { force, .. } | Failure::Friction { force, .. } | Failure::RobotForce { force, .. } => {
+            force.norm()
+        }
         Failure::RobotTorque { torque, .. } => torque.abs(),
     }
 }
@@ -49,34 +49,21 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     let units = scene.units;
     let newtons = |value: f64| number::amount(value, units.force());
     match *failure {
-        Failure::Tension {
-            bodies: [a, b],
-            at,
-            force,
-        } => format!(
+        Failure::Tension { bodies: [a, b], at, force } => format!(
             "{} comes off {} at {}: holding them together would need a pull of {}",
             scene.name(a),
             scene.name(b),
             place(at, units),
             newtons(force.norm())
         ),
-        Failure::Friction {
-            bodies: [a, b],
-            at,
-            force,
-        } => format!(
+        Failure::Friction { bodies: [a, b], at, force } => format!(
             "{} slides along {} at {}: stopping it would need {} more than friction can give",
             scene.name(a),
             scene.name(b),
             place(at, units),
             newtons(force.norm())
         ),
-        Failure::RobotForce {
-            robot,
-            block,
-            force,
-            ..
-        } => format!(
+        Failure::RobotForce { robot, block, force, .. } => format!(
             "robot {} cannot hold {}: it would need an additional force of ({}, {}) {} beyond its limits",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
@@ -84,20 +71,11 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             digits(units.force().value_from_si(force.y)),
             units.force().symbol()
         ),
-        Failure::RobotTorque {
-            robot,
-            block,
-            torque,
-            ..
-        } => format!(
+        Failure::RobotTorque { robot, block, torque, .. } => format!(
             "robot {} cannot hold {}: it would need an additional {} torque of {} beyond its limit",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            if torque < 0.0 {
-                "clockwise"
-            } else {
-                "anticlockwise"
-            },
+            if torque < 0.0 { "clockwise" } else { "anticlockwise" },
             number::amount(torque.abs(), units.torque())
         ),
     }
@@ -106,16 +84,12 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
 /// Describes the missing force of a failure as a noun phrase, for a list: `a pull of 8 N between a and b`.
 pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     match failure {
-        Failure::Tension { bodies, force, .. } => format!(
-            "a pull of {} between {}",
-            unbroken(force.norm(), scene.units.force()),
-            pair(scene, *bodies)
-        ),
-        Failure::Friction { bodies, force, .. } => format!(
-            "friction of {} between {}",
-            unbroken(force.norm(), scene.units.force()),
-            pair(scene, *bodies)
-        ),
+        Failure::Tension { bodies, force, .. } => {
+            format!("a pull of {} between {}", unbroken(force.norm(), scene.units.force()), pair(scene, *bodies))
+        }
+        Failure::Friction { bodies, force, .. } => {
+            format!("friction of {} between {}", unbroken(force.norm(), scene.units.force()), pair(scene, *bodies))
+        }
         Failure::RobotForce { robot, force, .. } => format!(
             "a force of {} from robot{NO_BREAK}{}",
             unbroken(force.norm(), scene.units.force()),
@@ -131,28 +105,16 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
 
 /// Describes the missing force of a failure as a clause: `block a would have to stick to block b with 8 N`. `write`
 /// formats a value with its unit.
-pub fn missing_sentence(
-    scene: &Scene,
-    failure: &Failure,
-    write: &dyn Fn(f64, Unit) -> String,
-) -> String {
+pub fn missing_sentence(scene: &Scene, failure: &Failure, write: &dyn Fn(f64, Unit) -> String) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
-        Failure::Tension {
-            bodies: [a, b],
-            force,
-            ..
-        } => format!(
+        Failure::Tension { bodies: [a, b], force, .. } => format!(
             "{} would have to stick to {} with {}",
             named(a),
             named(b),
             write(force.norm(), scene.units.force())
         ),
-        Failure::Friction {
-            bodies: [a, b],
-            force,
-            ..
-        } => format!(
+        Failure::Friction { bodies: [a, b], force, .. } => format!(
             "{} slides along {}, and friction would have to give {} more",
             named(a),
             named(b),
@@ -177,31 +139,18 @@ pub fn unsupported_phrase(scene: &Scene, frame_analysis: &FrameAnalysis) -> Opti
     let blocks = frame_analysis.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
     let what = if names.len() == 1 { "block" } else { "blocks" };
-    (!names.is_empty()).then(|| {
-        format!(
-            "nothing carries {what} {}",
-            listed(&shortened(names, MAX_LISTED_BLOCKS))
-        )
-    })
+    (!names.is_empty()).then(|| format!("nothing carries {what} {}", listed(&shortened(names, MAX_LISTED_BLOCKS))))
 }
 
 /// Explains why blocks are unsupported: one sentence for each reason, each with the names of at most `max` blocks.
 /// Returns an empty list if all blocks are supported.
 pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) -> Vec<String> {
     let reached = reached(frame_analysis);
-    let (touching, apart): (Vec<BlockId>, Vec<BlockId>) = frame_analysis
-        .unsupported
-        .iter()
-        .partition(|id| reached.contains(id));
+    let (touching, apart): (Vec<BlockId>, Vec<BlockId>) =
+        frame_analysis.unsupported.iter().partition(|id| reached.contains(id));
     let reasons = [
-        (
-            apart,
-            "no chain of contacts leads to the ground or to a robot",
-        ),
-        (
-            touching,
-            "even if all contacts could stick and no robot had limits, no forces would balance the loads",
-        ),
+        (apart, "no chain of contacts leads to the ground or to a robot"),
+        (touching, "even if all contacts could stick and no robot had limits, no forces would balance the loads"),
     ];
     let mut sentences = Vec::new();
     for (blocks, reason) in reasons {
@@ -223,19 +172,14 @@ pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) ->
 /// search in the graph of contacts.
 fn reached(frame_analysis: &FrameAnalysis) -> BTreeSet<BlockId> {
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
-    let mut next: Vec<BlockId> = frame_analysis
-        .robots
-        .iter()
-        .map(|robot| robot.block)
-        .collect();
+    let mut next: Vec<BlockId> = frame_analysis.robots.iter().map(|robot| robot.block).collect();
     for contact in &frame_analysis.contacts {
         match contact.interface.bodies {
             [BodyId::Block(a), BodyId::Block(b)] => {
                 neighbours.entry(a).or_default().push(b);
                 neighbours.entry(b).or_default().push(a);
             }
-            [BodyId::Block(block), BodyId::Ground(_)]
-            | [BodyId::Ground(_), BodyId::Block(block)] => next.push(block),
+            [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => next.push(block),
             [BodyId::Ground(_), BodyId::Ground(_)] => {}
         }
     }

@@ -33,10 +33,7 @@ fn load_factor_phrase(margin: &StatedMargin<'_>, load: &str) -> String {
         }
         None => match low {
             Some(low) if low > 0.0 => {
-                format!(
-                    "It carries {} times its {load} and any larger multiple",
-                    three_up(low)
-                )
+                format!("It carries {} times its {load} and any larger multiple", three_up(low))
             }
             _ => format!("It carries any multiple of its {load}"),
         },
@@ -64,22 +61,14 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         return format!("It stands; {}: {}", margin.name, margin.stands());
     }
     let nearest = || {
-        let ends = [
-            (margin.interval.low(), "left"),
-            (margin.interval.high(), "right"),
-        ];
-        let known = ends
-            .into_iter()
-            .filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side, at_least(end?))));
+        let ends = [(margin.interval.low(), "left"), (margin.interval.high(), "right")];
+        let known = ends.into_iter().filter_map(|(end, side)| Some((confirmed(end?)?.abs(), side, at_least(end?))));
         known.min_by(|a, b| a.0.total_cmp(&b.0))
     };
     match margin.parameter {
         Parameter::Tilt => match nearest() {
             Some((angle, side, at_least)) => {
-                format!(
-                    "It stands {at_least}until gravity turns {}° to the {side}",
-                    three_down(angle)
-                )
+                format!("It stands {at_least}until gravity turns {}° to the {side}", three_down(angle))
             }
             None => "It stands however far gravity turns".to_owned(),
         },
@@ -92,11 +81,7 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
         },
         Parameter::Friction => match margin.interval.low().map(|end| (confirmed(end), end)) {
             Some((Some(least), end)) if least > 0.0 => {
-                format!(
-                    "It stands {}down to a friction coefficient of {}",
-                    at_least(end),
-                    three_up(least)
-                )
+                format!("It stands {}down to a friction coefficient of {}", at_least(end), three_up(least))
             }
             _ => "It stands even without friction".to_owned(),
         },
@@ -119,10 +104,9 @@ fn at_least(end: &End) -> &'static str {
 fn falls(margin: &StatedMargin<'_>) -> String {
     let low = margin.interval.low().and_then(confirmed);
     match (margin.parameter, low) {
-        (Parameter::Friction, Some(least)) if least > 0.0 => format!(
-            "It falls: it would stand with a friction coefficient of {}",
-            three_up(least)
-        ),
+        (Parameter::Friction, Some(least)) if least > 0.0 => {
+            format!("It falls: it would stand with a friction coefficient of {}", three_up(least))
+        }
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
             "It falls whatever the friction coefficient".to_owned()
         }
@@ -138,12 +122,7 @@ mod tests {
     /// An undecided interval is unknown. It must not be described as an interval without end.
     #[test]
     fn the_headline_of_an_undecided_margin_states_neither_a_limit_nor_that_there_is_none() {
-        let parameters = [
-            Parameter::Tilt,
-            Parameter::HorizontalLoad,
-            Parameter::Friction,
-            Parameter::Kernel,
-        ];
+        let parameters = [Parameter::Tilt, Parameter::HorizontalLoad, Parameter::Friction, Parameter::Kernel];
         for parameter in parameters {
             let margin = StatedMargin {
                 parameter,

@@ -40,11 +40,7 @@ fn in_chosen_unit(value: f64, unit: &str) -> String {
 /// `unlimited`.
 fn with_prefix(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 {
-            format!("0 {unit}")
-        } else {
-            format!("unlimited {unit}")
-        };
+        return if value == 0.0 { format!("0 {unit}") } else { format!("unlimited {unit}") };
     }
     // Round in decimal before choosing the prefix, so that 999.7 N becomes 1 kN and not 1000 N. Two equal forces can
     // differ by a rounding error of the solver (relative error below 1e-9). If one is just below 4.125 and the other
@@ -128,11 +124,7 @@ pub const FULL_UTILISATION: f64 = 1.0 - 1e-6;
 
 /// Writes a count and its noun in the singular or plural: `1 hinge`, `2 hinges`.
 pub fn counted(count: usize, what: &str) -> String {
-    if count == 1 {
-        format!("1 {what}")
-    } else {
-        format!("{count} {what}s")
-    }
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 /// Returns the largest number that is 1, 2 or 5 times a power of ten and not larger than `value`. Returns 0 if
@@ -196,11 +188,7 @@ pub fn digits(x: f64) -> String {
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
     let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').into()
-    } else {
-        text
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
 }
 
 /// Writes a number with three significant digits, with trailing zeros: `2.40`, `0.334`, `12.0`.
@@ -254,11 +242,7 @@ pub fn prefixed(largest: f64, unit: &str) -> (String, f64) {
 
 /// Writes a number with one significant digit, to show its order of magnitude: `3e-12`.
 pub fn rough(x: f64) -> String {
-    if x == 0.0 {
-        "0".into()
-    } else {
-        format!("{x:.0e}")
-    }
+    if x == 0.0 { "0".into() } else { format!("{x:.0e}") }
 }
 
 /// Writes a ratio in percent with at most one decimal: `66.7 %`.
@@ -268,11 +252,7 @@ pub fn tenths(share: f64) -> String {
 
 /// Writes a time, given in seconds, in ms or s with four significant digits.
 pub fn duration(seconds: f64) -> String {
-    if seconds < 1.0 {
-        format!("{} ms", digits(seconds * 1e3))
-    } else {
-        format!("{} s", digits(seconds))
-    }
+    if seconds < 1.0 { format!("{} ms", digits(seconds * 1e3)) } else { format!("{} s", digits(seconds)) }
 }
 
 /// Writes the coordinates of a point in the length unit of the scene: `(2, 1.5) m`.

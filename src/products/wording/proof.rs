@@ -6,16 +6,8 @@ use crate::analysis::Proof;
 /// Describes a proof in a few words, for one line of a table: `forces balance to 3e-12`.
 pub fn short(proof: Proof) -> String {
     match proof {
-        Proof::Forces {
-            worst_imbalance,
-            worst_pull,
-            worst_slip,
-            ..
-        } => {
-            format!(
-                "forces balance to {}",
-                rough(worst_imbalance.max(worst_pull).max(worst_slip))
-            )
+        Proof::Forces { worst_imbalance, worst_pull, worst_slip, .. } => {
+            format!("forces balance to {}", rough(worst_imbalance.max(worst_pull).max(worst_slip)))
         }
         Proof::Mechanism { power, .. } => {
             let ruled_out = match proof.excluded_force_sum() {
@@ -30,29 +22,12 @@ pub fn short(proof: Proof) -> String {
 /// Returns the numbers that characterize a proof, each with a label that says what it measures.
 pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
     match proof {
-        Proof::Forces {
-            worst_imbalance,
-            worst_pull,
-            worst_slip,
-            ..
-        } => vec![
-            (
-                "worst imbalance of a block, relative to the forces on it",
-                rough(worst_imbalance),
-            ),
-            (
-                "worst pull at a contact, relative to the forces at this contact",
-                rough(worst_pull),
-            ),
-            (
-                "worst excess over a friction limit or robot limit, relative to the force there",
-                rough(worst_slip),
-            ),
+        Proof::Forces { worst_imbalance, worst_pull, worst_slip, .. } => vec![
+            ("worst imbalance of a block, relative to the forces on it", rough(worst_imbalance)),
+            ("worst pull at a contact, relative to the forces at this contact", rough(worst_pull)),
+            ("worst excess over a friction limit or robot limit, relative to the force there", rough(worst_slip)),
         ],
-        Proof::Mechanism {
-            power,
-            worst_violation,
-        } => vec![
+        Proof::Mechanism { power, worst_violation } => vec![
             (
                 "power of the loads along the motion, less what robots can absorb, relative to the loads of the moving blocks",
                 digits(power),
@@ -75,12 +50,7 @@ pub fn numbers(proof: Proof) -> Vec<(&'static str, String)> {
 /// Explains in one or more sentences what a proof shows, for readers who do not know the method.
 pub fn sentence(proof: Proof) -> String {
     match proof {
-        Proof::Forces {
-            worst_imbalance,
-            worst_pull,
-            worst_slip,
-            ..
-        } => {
+        Proof::Forces { worst_imbalance, worst_pull, worst_slip, .. } => {
             let worst = worst_imbalance.max(worst_pull).max(worst_slip);
             let band = rough(Proof::IMBALANCE_TOL);
             if proof.holds() {

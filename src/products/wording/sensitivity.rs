@@ -2,9 +2,7 @@
 
 use super::failure::{named, pair};
 use super::number::{amount, digits, round_below_in, three};
-use crate::analysis::{
-    CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope,
-};
+use crate::analysis::{CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope};
 use crate::geometry::Vector;
 use crate::scene::{BlockId, Scene};
 
@@ -67,10 +65,7 @@ pub fn most_effective(
 /// Returns the length, in metres, by which a described change moves a corner or a load. In the length unit of the
 /// scene, this length is 1, 2 or 5 times a power of ten.
 pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
-    round_below_in(
-        LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9),
-        scene.units.length(),
-    )
+    round_below_in(LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9), scene.units.length())
 }
 
 /// Writes a length in the unit of the scene. If the scene gives no unit, writes a length below 1 m in millimetres,
@@ -110,9 +105,7 @@ pub fn corner_moves(
 ) -> Vec<(usize, Option<(Vector, f64)>)> {
     let mut list: Vec<(usize, Option<(Vector, f64)>)> = Vec::new();
     for (number, corner) in end.corners.iter().enumerate() {
-        let is_here = |other: usize| {
-            (end.corners[other].at - corner.at).norm() < 1e-6 * frame_analysis.length
-        };
+        let is_here = |other: usize| (end.corners[other].at - corner.at).norm() < 1e-6 * frame_analysis.length;
         if !corner.with.is_empty() && list.iter().any(|known| is_here(known.0)) {
             continue;
         }
@@ -130,12 +123,7 @@ pub fn corner_moves(
 
 /// Returns the best move of each corner as a change that is described in words. Of corners that move together and lie
 /// at the same point, only the first is listed.
-fn corners(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    end: &EndSensitivity,
-    outward: f64,
-) -> Vec<EffectiveChange> {
+fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
     let step = step_length(scene, frame_analysis);
     let mut list = Vec::new();
     for (number, best) in corner_moves(frame_analysis, end, outward) {
@@ -165,20 +153,10 @@ fn corners(
 }
 
 /// Returns the changes of weights, friction coefficients and load positions that enlarge the interval.
-fn others(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    end: &EndSensitivity,
-    outward: f64,
-) -> Vec<EffectiveChange> {
+fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
     let mut list = Vec::new();
     let mut add = |target: Target, words: String, amount: f64, rate: f64| {
-        list.push(EffectiveChange {
-            target,
-            words,
-            amount,
-            after: end.value + outward * rate * amount,
-        });
+        list.push(EffectiveChange { target, words, amount, after: end.value + outward * rate * amount });
     };
     for (block, slope) in &end.weights {
         let amount = WEIGHT_STEP_SHARE * scene.blocks[block.0].weight;
@@ -200,9 +178,8 @@ fn others(
         let what = format!("between {}", pair(scene, bodies));
         friction_change(*slope, what, Target::Friction(*interface))
     });
-    let whole = end
-        .friction_of_all
-        .and_then(|slope| friction_change(slope, "of every joint".into(), Target::AllFriction));
+    let whole =
+        end.friction_of_all.and_then(|slope| friction_change(slope, "of every joint".into(), Target::AllFriction));
     for (target, words, amount, rate) in all.chain(whole) {
         add(target, words, amount, rate);
     }
@@ -307,11 +284,7 @@ pub fn end_name(kind: MarginKind, is_high: bool) -> &'static str {
 }
 
 /// Returns lines of text that describe, for each end of a margin, the most effective changes.
-pub fn lines(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    sensitivity: &Sensitivity,
-) -> Vec<String> {
+pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
     let kind = sensitivity.kind;
     let mut lines = Vec::new();
     if let Some(reason) = sensitivity.reason() {
@@ -333,10 +306,7 @@ pub fn lines(
         });
         for change in &changes {
             let after = value(kind, change.after);
-            lines.push(format!(
-                "  {}: {name} {before} → about {after}",
-                change.words
-            ));
+            lines.push(format!("  {}: {name} {before} → about {after}", change.words));
         }
         let kinks = kinks(end);
         if kinks > 0 {
@@ -364,16 +334,12 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
             format!("no sensitivity of the {name}: the frame stands at every larger value")
         }
         NoSensitivity::RangeEnds => {
-            format!(
-                "no sensitivity of the {name}: the frame stands up to the end of the possible range"
-            )
+            format!("no sensitivity of the {name}: the frame stands up to the end of the possible range")
         }
         NoSensitivity::Unconfirmed => {
             format!("no sensitivity of the {name}: its value is not confirmed by a verdict")
         }
-        _ => format!(
-            "no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"
-        ),
+        _ => format!("no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"),
     }
 }
 

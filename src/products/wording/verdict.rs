@@ -52,15 +52,10 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     if !frame_analysis.failures.is_empty() {
         let failures = by_amount(frame_analysis).into_iter();
         let parts = failures.map(|f| missing_phrase(scene, f)).collect();
-        sentences.push(format!(
-            "missing: {}",
-            listed(&shortened(parts, MAX_FAILURES_BELOW_FIGURE))
-        ));
+        sentences.push(format!("missing: {}", listed(&shortened(parts, MAX_FAILURES_BELOW_FIGURE))));
     }
     if frame_analysis.only_by_wedging == Some(true) {
-        sentences.push(
-            "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
-        );
+        sentences.push("only by wedging: its loads alone do not build up the forces that hold it".to_owned());
     }
     sentences.join("; ")
 }
@@ -71,22 +66,14 @@ pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     reasons_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
 }
 
-fn reasons_with(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    write: &dyn Fn(f64, Unit) -> String,
-) -> String {
+fn reasons_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn Fn(f64, Unit) -> String) -> String {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, frame_analysis));
     let failures = by_amount(frame_analysis).into_iter();
-    let failures: Vec<String> = failures
-        .map(|f| missing_sentence(scene, f, write))
-        .collect();
+    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f, write)).collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if frame_analysis.only_by_wedging == Some(true) {
-        parts.push(
-            "only by wedging: its loads alone do not build up the forces that hold it".to_owned(),
-        );
+        parts.push("only by wedging: its loads alone do not build up the forces that hold it".to_owned());
     }
     if frame_analysis.verdict == Verdict::Undecided {
         parts.push(frame_analysis.doubt());
@@ -102,11 +89,7 @@ pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 
 /// Writes the same sentence as [`sentence`], but formats each quantity with `write`. This function gets the value in SI
 /// units, and the unit in which the scene writes it.
-pub fn sentence_with(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    write: &dyn Fn(f64, Unit) -> String,
-) -> String {
+pub fn sentence_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn Fn(f64, Unit) -> String) -> String {
     match frame_analysis.verdict {
         Verdict::Stable if frame_analysis.only_by_wedging == Some(true) => {
             "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
@@ -121,8 +104,7 @@ pub fn sentence_with(
         }
         Verdict::Unstable => match reasons_with(scene, frame_analysis, write) {
             reasons if reasons.is_empty() => {
-                "It falls: no forces that contacts and robots can give would hold every block at rest."
-                    .into()
+                "It falls: no forces that contacts and robots can give would hold every block at rest.".into()
             }
             reasons => format!("It falls: {reasons}."),
         },

@@ -26,10 +26,7 @@ impl Affine {
     /// Returns the composition: `inner` is applied first, then this map.
     pub(super) fn after(&self, inner: &Affine) -> Affine {
         let [a, b, c, d, e, f] = inner.0;
-        let (x, y) = (
-            self.vector(Vector::new(a, b)),
-            self.vector(Vector::new(c, d)),
-        );
+        let (x, y) = (self.vector(Vector::new(a, b)), self.vector(Vector::new(c, d)));
         let at = self.point(Point::new(e, f));
         Affine([x.x, x.y, y.x, y.y, at.x, at.y])
     }

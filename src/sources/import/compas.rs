@@ -47,13 +47,7 @@ pub(super) fn is_assembly(text: &str) -> bool {
 /// prisms perpendicular to one coordinate plane, or if they differ in thickness and `options` has no thickness.
 pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let refuse = |message: String, help: &str| {
-        Err(vec![Remark {
-            element: String::new(),
-            message,
-            help: help.into(),
-        }])
-    };
+    let refuse = |message: String, help: &str| Err(vec![Remark { element: String::new(), message, help: help.into() }]);
     let value: Value = match serde_json::from_str(text) {
         Ok(value) => value,
         Err(error) => return refuse(error.to_string(), "correct the JSON text"),
@@ -63,22 +57,14 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         return refuse("it has no nodes with blocks".into(), help);
     };
     let metres = options.scale.unwrap_or(1.0) * options.ratio.unwrap_or(1.0);
-    let solids: Vec<AssemblyBlock> = nodes
-        .iter()
-        .filter_map(|(name, node)| solid(name, node))
-        .collect();
+    let solids: Vec<AssemblyBlock> = nodes.iter().filter_map(|(name, node)| solid(name, node)).collect();
     if !solids.iter().any(|s| !s.is_support) {
         let help = "blocks whose node has is_support become ground";
         return refuse("it has no block that is not a support".into(), help);
     }
-    let Some((plane, axes)) = PLANES
-        .into_iter()
-        .find(|plane| solids.iter().all(|s| prism(s, plane.1).is_some()))
+    let Some((plane, axes)) = PLANES.into_iter().find(|plane| solids.iter().all(|s| prism(s, plane.1).is_some()))
     else {
-        return refuse(
-            not_prismatic(&solids),
-            "turn the assembly, or cut a plane section of it first",
-        );
+        return refuse(not_prismatic(&solids), "turn the assembly, or cut a plane section of it first");
     };
     let prisms = solids.iter().filter_map(|s| Some((s, prism(s, axes)?)));
     let mut scene = options.scene.clone();
@@ -91,22 +77,16 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
             false => scene.blocks.push(BlockEntry::from(corners).id(&solid.name)),
         }
     }
-    let (thin, thick) = depths
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(*d), b.max(*d)));
+    let (thin, thick) = depths.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(*d), b.max(*d)));
     if scene.thickness.is_none() {
         if thick - thin > EQUAL_COORDINATE_TOL * thick {
-            let message = format!(
-                "its blocks are {thin} to {thick} m thick, and a plane scene has one thickness"
-            );
+            let message = format!("its blocks are {thin} to {thick} m thick, and a plane scene has one thickness");
             return refuse(message, "give the thickness with --thickness");
         }
         scene.thickness = Some(thick);
     }
     let notes = vec![
-        format!(
-            "the blocks are imported as sections in the plane {plane}; a unit of length is {metres} m"
-        ),
+        format!("the blocks are imported as sections in the plane {plane}; a unit of length is {metres} m"),
         format!("the blocks are {thick} m thick perpendicular to the plane"),
     ];
     Ok((scene, notes))
@@ -115,9 +95,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
 /// Returns a message that names the first block that is not a prism perpendicular to one of the coordinate planes. If
 /// there is no such block, the message says that the blocks are prisms perpendicular to different planes.
 fn not_prismatic(solids: &[AssemblyBlock]) -> String {
-    let odd = solids
-        .iter()
-        .find(|s| PLANES.iter().all(|plane| prism(s, plane.1).is_none()));
+    let odd = solids.iter().find(|s| PLANES.iter().all(|plane| prism(s, plane.1).is_none()));
     match odd {
         Some(solid) => format!(
             "block {} is not a prism perpendicular to one of the planes xz, yz and xy: exactly two of its faces must be \
@@ -148,9 +126,7 @@ fn mesh(block: &Value) -> Option<&Map<String, Value>> {
     if object.get("vertex").is_some_and(Value::is_object) && object.contains_key("face") {
         return Some(object);
     }
-    ["data", "value"]
-        .iter()
-        .find_map(|key| mesh(object.get(*key)?))
+    ["data", "value"].iter().find_map(|key| mesh(object.get(*key)?))
 }
 
 fn solid(name: &str, node: &Value) -> Option<AssemblyBlock> {
@@ -168,17 +144,13 @@ fn solid(name: &str, node: &Value) -> Option<AssemblyBlock> {
         Value::String(key) => vertices.get(key.as_str()).copied(),
         other => vertices.get(other.to_string().as_str()).copied(),
     };
-    let faces: Vec<Vec<[f64; 3]>> = mesh["face"]
-        .as_object()?
-        .values()
-        .filter_map(|face| face.as_array()?.iter().map(corner).collect())
-        .collect();
+    let faces: Vec<Vec<[f64; 3]>> =
+        mesh["face"].as_object()?.values().filter_map(|face| face.as_array()?.iter().map(corner).collect()).collect();
     let is_true = |value: &Value| value.as_bool() == Some(true);
     let attributes = mesh.get("attributes");
     Some(AssemblyBlock {
         name: name.trim_matches('\'').to_owned(),
-        is_support: is_true(&node["is_support"])
-            || attributes.is_some_and(|a| is_true(&a["is_support"])),
+        is_support: is_true(&node["is_support"]) || attributes.is_some_and(|a| is_true(&a["is_support"])),
         faces,
     })
 }
@@ -186,35 +158,19 @@ fn solid(name: &str, node: &Value) -> Option<AssemblyBlock> {
 /// Returns the section of a block in the plane of the axes `right` and `up`, and its thickness along the axis `across`.
 /// `None` if the block is not a prism along the axis `across`.
 fn prism(solid: &AssemblyBlock, [right, up, across]: [usize; 3]) -> Option<(Vec<Pair>, f64)> {
-    let size = solid
-        .faces
-        .iter()
-        .flatten()
-        .flatten()
-        .fold(0.0_f64, |m, x| m.max(x.abs()));
+    let size = solid.faces.iter().flatten().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
     let mut ends = solid.faces.iter().filter_map(|face| {
         let depths = face.iter().map(|c| c[across]);
-        let (low, high) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
-            (a.min(d), b.max(d))
-        });
+        let (low, high) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
         let is_end = face.len() >= 3 && high - low < 1e-9 + EQUAL_COORDINATE_TOL * size;
-        is_end.then(|| {
-            (
-                0.5 * (low + high),
-                face.iter()
-                    .map(|c| [c[right], c[up]])
-                    .collect::<Vec<Pair>>(),
-            )
-        })
+        is_end.then(|| (0.5 * (low + high), face.iter().map(|c| [c[right], c[up]]).collect::<Vec<Pair>>()))
     });
     let (Some(one), Some(other), None) = (ends.next(), ends.next(), ends.next()) else {
         return None;
     };
     let corners = |outline: &[Pair]| {
-        let mut rounded: Vec<[i64; 2]> = outline
-            .iter()
-            .map(|c| c.map(|x| (x * STEPS_PER_UNIT).round() as i64))
-            .collect();
+        let mut rounded: Vec<[i64; 2]> =
+            outline.iter().map(|c| c.map(|x| (x * STEPS_PER_UNIT).round() as i64)).collect();
         rounded.sort_unstable();
         rounded
     };
@@ -245,24 +201,17 @@ mod tests {
 
     #[test]
     fn prisms_are_imported_as_their_sections() {
-        let (scene, _) =
-            read(&assembly(block(0.25, 1.0, 0.0)), &Options::default()).expect("prisms");
+        let (scene, _) = read(&assembly(block(0.25, 1.0, 0.0)), &Options::default()).expect("prisms");
         assert_eq!((scene.blocks.len(), scene.ground.len()), (1, 1));
         assert_eq!(scene.thickness, Some(0.5));
         let corners = scene.blocks[0].polygon.clone().expect("an outline");
-        assert!(
-            corners.contains(&[0.25, 1.0]) && corners.contains(&[1.25, 2.0]),
-            "{corners:?}"
-        );
+        assert!(corners.contains(&[0.25, 1.0]) && corners.contains(&[1.25, 2.0]), "{corners:?}");
     }
 
     #[test]
     fn a_block_that_is_not_a_prism_is_reported_by_name() {
-        let problems = read(&assembly(block(0.0, 1.0, 0.3)), &Options::default())
-            .expect_err("a block that is not a prism");
-        assert!(
-            problems[0].message.contains("block 1 is not a prism"),
-            "{problems:?}"
-        );
+        let problems =
+            read(&assembly(block(0.0, 1.0, 0.3)), &Options::default()).expect_err("a block that is not a prism");
+        assert!(problems[0].message.contains("block 1 is not a prism"), "{problems:?}");
     }
 }

@@ -49,31 +49,19 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         match row.numbers[..] {
             [x, y, mass] => {
                 let id = (scene.blocks.len() + 1).to_string();
-                let block = BlockEntry::new(id)
-                    .centre([x * metres, y * metres])
-                    .mass(mass);
+                let block = BlockEntry::new(id).centre([x * metres, y * metres]).mass(mass);
                 scene.blocks.push(block);
             }
             [i, j, x, y, normal, friction] => {
                 let names = [i, j].map(|number| name(number, bodies));
                 let [Some(first), Some(second)] = names else {
-                    let message =
-                        format!("it names the bodies {i} and {j}, but there are {bodies}");
-                    problems.push(problem(
-                        &row.place,
-                        message,
-                        "bodies count from 1; 0 is the ground",
-                    ));
+                    let message = format!("it names the bodies {i} and {j}, but there are {bodies}");
+                    problems.push(problem(&row.place, message, "bodies count from 1; 0 is the ground"));
                     continue;
                 };
                 if normal.abs() > MAX_DIRECTION {
-                    let message =
-                        format!("the direction {normal} of its normal is more than a full turn");
-                    problems.push(problem(
-                        &row.place,
-                        message,
-                        "give directions in radians: π/2 points up",
-                    ));
+                    let message = format!("the direction {normal} of its normal is more than a full turn");
+                    problems.push(problem(&row.place, message, "give directions in radians: π/2 points up"));
                     continue;
                 }
                 let at = [x * metres, y * metres];
@@ -104,11 +92,7 @@ const ROW_FORM_HELP: &str = "a body has three numbers: x, y, mass; a contact has
     normal in radians, friction";
 
 fn problem(element: &str, message: String, help: &str) -> Remark {
-    Remark {
-        element: element.into(),
-        message,
-        help: help.into(),
-    }
+    Remark { element: element.into(), message, help: help.into() }
 }
 
 /// Returns the name of the body with this number; 0 is the ground. `None` if there is no such body.
@@ -151,11 +135,7 @@ fn written_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
         let place = format!("line {}", number + 1);
         match numbers.into_iter().collect() {
             Some(numbers) => rows.push(Row { place, numbers }),
-            None => problems.push(problem(
-                &place,
-                "it has words between numbers".into(),
-                ROW_FORM_HELP,
-            )),
+            None => problems.push(problem(&place, "it has words between numbers".into(), ROW_FORM_HELP)),
         }
     }
     (rows, problems)
@@ -192,11 +172,7 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
         }
     };
     let (mut rows, mut problems) = (Vec::new(), Vec::new());
-    let body: &[&[&str]] = &[
-        &["x", "centre.0", "center.0"],
-        &["y", "centre.1", "center.1"],
-        &["mass", "m"],
-    ];
+    let body: &[&[&str]] = &[&["x", "centre.0", "center.0"], &["y", "centre.1", "center.1"], &["mass", "m"]];
     let contact: &[&[&str]] = &[
         &["i", "bodies.0"],
         &["j", "bodies.1"],
@@ -214,11 +190,7 @@ fn json_rows(text: &str) -> (Vec<Row>, Vec<Remark>) {
             };
             match numbers.filter(|numbers| numbers.len() == names.len()) {
                 Some(numbers) => rows.push(Row { place, numbers }),
-                None => problems.push(problem(
-                    &place,
-                    "its numbers cannot be read".into(),
-                    ROW_FORM_HELP,
-                )),
+                None => problems.push(problem(&place, "its numbers cannot be read".into(), ROW_FORM_HELP)),
             }
         }
     }

@@ -17,16 +17,12 @@ const MAX_DEPTH: usize = 50;
 pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let remedy = "drystone needs lengths: draw the structure in its own plane, or project it first, for example with \
         ogr2ogr -t_srs EPSG:25832 metres.geojson degrees.geojson; if the numbers are lengths, give --unit m";
-    let system = object
-        .get("crs")
-        .and_then(|crs| crs.get("properties")?.get("name")?.as_str());
-    if let Some(system) = system
-        .filter(|name| name.contains("CRS84") || name.ends_with(":4326") || name.contains("WGS84"))
+    let system = object.get("crs").and_then(|crs| crs.get("properties")?.get("name")?.as_str());
+    if let Some(system) =
+        system.filter(|name| name.contains("CRS84") || name.ends_with(":4326") || name.contains("WGS84"))
     {
         let system = crate::text::heading(system, 60);
-        return Some(format!(
-            "its coordinates are longitudes and latitudes in degrees ({system}); {remedy}"
-        ));
+        return Some(format!("its coordinates are longitudes and latitudes in degrees ({system}); {remedy}"));
     }
     let mut points = Vec::new();
     collect(object, 0, &mut points);
@@ -34,9 +30,7 @@ pub(super) fn problem(object: &Map<String, Value>) -> Option<String> {
     let extent = (b.max.x - b.min.x).max(b.max.y - b.min.y);
     let on_globe = b.min.x >= -180.0 && b.max.x <= 180.0 && b.min.y >= -90.0 && b.max.y <= 90.0;
     let distance = b.min.coords.norm().min(b.max.coords.norm());
-    let is_far = extent > 0.0
-        && extent <= MAX_EXTENT_DEGREES
-        && distance > MIN_ORIGIN_DISTANCE_RATIO * extent;
+    let is_far = extent > 0.0 && extent <= MAX_EXTENT_DEGREES && distance > MIN_ORIGIN_DISTANCE_RATIO * extent;
     (on_globe && is_far && system.is_none()).then(|| {
         format!(
             "its coordinates look like longitude and latitude in degrees: {} to {} and {} to {}; {remedy}",
@@ -90,20 +84,14 @@ mod tests {
     fn degrees_are_recognised_and_lengths_are_not() {
         let munich = "[11.5801, 48.1301], [11.5809, 48.1301], [11.5809, 48.1306]";
         let why = says(munich, "").expect("a message about degrees");
-        assert!(
-            why.contains("11.5801 to 11.5809") && why.contains("--unit m"),
-            "{why}"
-        );
+        assert!(why.contains("11.5801 to 11.5809") && why.contains("--unit m"), "{why}");
         let named = r#""crs": { "properties": { "name": "urn:ogc:def:crs:OGC:1.3:CRS84" } },"#;
         assert!(says("[0, 0], [4, 0], [4, 3]", named).is_some());
         let projected = r#""crs": { "properties": { "name": "urn:ogc:def:crs:EPSG::25832" } },"#;
         for (coordinates, crs) in [
             ("[0, 0], [0.5, 0], [0.5, 0.4]", ""),
             ("[100, 50], [112, 50], [112, 57]", ""),
-            (
-                "[691000.1, 5334000.1], [691000.9, 5334000.1], [691000.9, 5334000.4]",
-                "",
-            ),
+            ("[691000.1, 5334000.1], [691000.9, 5334000.1], [691000.9, 5334000.4]", ""),
             (munich, projected),
         ] {
             assert_eq!(says(coordinates, crs), None, "{coordinates}");

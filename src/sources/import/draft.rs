@@ -76,10 +76,7 @@ impl Role {
     /// Returns the role of an element from the beginning of its name, in upper or lower case. `None` if no role
     /// follows from the name.
     pub(super) fn from_name(name: &str) -> Option<Role> {
-        let begins = |with: &str| {
-            name.get(..with.len())
-                .is_some_and(|start| start.eq_ignore_ascii_case(with))
-        };
+        let begins = |with: &str| name.get(..with.len()).is_some_and(|start| start.eq_ignore_ascii_case(with));
         if begins("ground") {
             Some(Role::Ground)
         } else if begins("robot") {
@@ -93,17 +90,8 @@ impl Role {
 }
 
 impl Draft {
-    pub(super) fn remark(
-        &mut self,
-        element: impl Into<String>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
-        self.remarks.push(Remark {
-            element: element.into(),
-            message: message.into(),
-            help: help.into(),
-        });
+    pub(super) fn remark(&mut self, element: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+        self.remarks.push(Remark { element: element.into(), message: message.into(), help: help.into() });
     }
 }
 

@@ -13,12 +13,7 @@ use crate::geometry::Point;
 ///
 /// # Errors
 /// Returns the reason why the text cannot be read as GeoJSON.
-pub(super) fn read(
-    text: &str,
-    scale: f64,
-    is_scale_given: bool,
-    naming: &Naming<'_>,
-) -> Result<Draft, String> {
+pub(super) fn read(text: &str, scale: f64, is_scale_given: bool, naming: &Naming<'_>) -> Result<Draft, String> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
     let Value::Object(object) = &value else {
@@ -30,11 +25,7 @@ pub(super) fn read(
     if !is_scale_given && let Some(why) = degrees::problem(object) {
         return Err(why);
     }
-    let mut reader = Reader {
-        draft: Draft::default(),
-        scale,
-        naming,
-    };
+    let mut reader = Reader { draft: Draft::default(), scale, naming };
     reader.object(object, "", &Properties::default());
     Ok(reader.draft)
 }
@@ -63,10 +54,8 @@ impl Reader<'_> {
             "Feature" => {
                 let about = self.properties(object, at);
                 if about.kind == Some(Role::Ignored) {
-                    let note = format!(
-                        "{} is left out: its name begins with ignore or guide",
-                        labelled(at, &about.name)
-                    );
+                    let note =
+                        format!("{} is left out: its name begins with ignore or guide", labelled(at, &about.name));
                     self.draft.notes.push(note);
                     return;
                 }
@@ -93,21 +82,15 @@ impl Reader<'_> {
                 }
                 None => self.unreadable(at, about),
             },
-            "Point" if about.kind == Some(Role::Robot) => {
-                match object.get("coordinates").and_then(|c| self.point(c)) {
-                    Some(spot) => self.part(PartGeometry::Point(spot), at, about),
-                    None => self.unreadable(at, about),
-                }
-            }
+            "Point" if about.kind == Some(Role::Robot) => match object.get("coordinates").and_then(|c| self.point(c)) {
+                Some(spot) => self.part(PartGeometry::Point(spot), at, about),
+                None => self.unreadable(at, about),
+            },
             "Point" | "MultiPoint" | "LineString" | "MultiLineString" => {
                 self.remark(at, about, &format!("a {kind} encloses no area; left out"));
             }
             "" => self.remark(at, about, "it has no type; left out"),
-            _ => self.remark(
-                at,
-                about,
-                &format!("{kind} is not a type of GeoJSON; left out"),
-            ),
+            _ => self.remark(at, about, &format!("{kind} is not a type of GeoJSON; left out")),
         }
     }
 
@@ -130,10 +113,7 @@ impl Reader<'_> {
     /// name or from the properties `kind` and `ground`.
     fn properties(&mut self, feature: &Map<String, Value>, at: &str) -> Properties {
         let none = Map::new();
-        let properties = feature
-            .get("properties")
-            .and_then(Value::as_object)
-            .unwrap_or(&none);
+        let properties = feature.get("properties").and_then(Value::as_object).unwrap_or(&none);
         let text = |value: Option<&Value>| match value {
             Some(Value::String(text)) if !text.trim().is_empty() => Some(text.trim().to_owned()),
             Some(Value::Number(number)) => Some(number.to_string()),
@@ -143,20 +123,14 @@ impl Reader<'_> {
             .or_else(|| text(properties.get("name")))
             .or_else(|| text(feature.get("id")))
             .unwrap_or_default();
-        let mut about = Properties {
-            kind: self.naming.role(&name),
-            name,
-            ..Properties::default()
-        };
+        let mut about = Properties { kind: self.naming.role(&name), name, ..Properties::default() };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
             Some("block") => about.kind = Some(Role::Block),
             Some(word) => match self.naming.role(word) {
                 Some(kind) => about.kind = Some(kind),
                 None => {
-                    let why = format!(
-                        "its kind `{word}` is not block, ground, robot or ignore; it is ignored"
-                    );
+                    let why = format!("its kind `{word}` is not block, ground, robot or ignore; it is ignored");
                     self.remark(at, &about, &why);
                 }
             },
@@ -181,21 +155,11 @@ impl Reader<'_> {
 
     /// Reads a physical value of a feature; `None` if it is missing or not a number. A value that is not a number is
     /// reported.
-    fn number(
-        &mut self,
-        properties: &Map<String, Value>,
-        key: &str,
-        at: &str,
-        about: &Properties,
-    ) -> Option<f64> {
+    fn number(&mut self, properties: &Map<String, Value>, key: &str, at: &str, about: &Properties) -> Option<f64> {
         let value = properties.get(key).filter(|v| !v.is_null())?;
         let number = value.as_f64();
         if number.is_none() {
-            self.remark(
-                at,
-                about,
-                &format!("its {key} is not a number; it is ignored"),
-            );
+            self.remark(at, about, &format!("its {key} is not a number; it is ignored"));
         }
         number
     }
@@ -216,11 +180,7 @@ impl Reader<'_> {
 
     fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &Properties) {
         let subpaths = rings.iter().filter_map(|r| Subpath::closed(r)).collect();
-        self.part(
-            PartGeometry::Subpaths(subpaths, FillRule::EvenOdd),
-            at,
-            about,
-        );
+        self.part(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd), at, about);
     }
 
     fn part(&mut self, form: PartGeometry, at: &str, about: &Properties) {
@@ -235,11 +195,7 @@ impl Reader<'_> {
     }
 
     fn unreadable(&mut self, at: &str, about: &Properties) {
-        self.remark(
-            at,
-            about,
-            "its coordinates do not have the form that its type needs; left out",
-        );
+        self.remark(at, about, "its coordinates do not have the form that its type needs; left out");
     }
 
     fn remark(&mut self, at: &str, about: &Properties, message: &str) {
@@ -248,11 +204,7 @@ impl Reader<'_> {
 }
 
 fn below(at: &str, key: &str) -> String {
-    if at.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{at}.{key}")
-    }
+    if at.is_empty() { key.to_owned() } else { format!("{at}.{key}") }
 }
 
 fn labelled(at: &str, name: &str) -> String {
@@ -290,8 +242,7 @@ mod tests {
         assert!(remarks[1].contains("its kind `cloud` is not block, ground, robot or ignore"));
         assert_eq!(draft.remarks[0].element, "features[1] \"12\"");
         assert!(
-            read("[1]", 1.0, true, &Naming::default()).is_err()
-                && read("{", 1.0, true, &Naming::default()).is_err()
+            read("[1]", 1.0, true, &Naming::default()).is_err() && read("{", 1.0, true, &Naming::default()).is_err()
         );
     }
 }

@@ -40,20 +40,15 @@ pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
 pub(super) fn too_many(count: usize) -> Remark {
     Remark {
         element: String::new(),
-        message: format!(
-            "the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"
-        ),
-        help: "import a part of it, or give layers without blocks names that begin with ignore"
-            .into(),
+        message: format!("the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"),
+        help: "import a part of it, or give layers without blocks names that begin with ignore".into(),
     }
 }
 
 /// True if the search for the holes of one path would need too many comparisons.
 pub(super) fn has_too_many_pairs(rings: &[Vec<Corner>]) -> bool {
-    let mut boxes: Vec<(Bounds, usize)> = rings
-        .iter()
-        .filter_map(|r| Some((Bounds::from_points(r.iter().map(|c| c.at))?, r.len())))
-        .collect();
+    let mut boxes: Vec<(Bounds, usize)> =
+        rings.iter().filter_map(|r| Some((Bounds::from_points(r.iter().map(|c| c.at))?, r.len()))).collect();
     boxes.sort_by(|a, b| a.0.min.x.total_cmp(&b.0.min.x));
     let mut work = 0_usize;
     for (i, (a, corners)) in boxes.iter().enumerate() {
@@ -97,10 +92,7 @@ mod tests {
     use crate::geometry::Point;
 
     fn square(x: f64, y: f64) -> Bounds {
-        Bounds {
-            min: Point::new(x, y),
-            max: Point::new(x + 1.0, y + 1.0),
-        }
+        Bounds { min: Point::new(x, y), max: Point::new(x + 1.0, y + 1.0) }
     }
 
     #[test]
@@ -115,12 +107,7 @@ mod tests {
     #[test]
     fn a_path_with_many_outlines_in_one_place_is_refused() {
         let ring = |x: f64| -> Vec<Corner> {
-            [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)]
-                .map(|(x, y)| Corner {
-                    at: Point::new(x, y),
-                    curved: false,
-                })
-                .to_vec()
+            [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)].map(|(x, y)| Corner { at: Point::new(x, y), curved: false }).to_vec()
         };
         assert!(has_too_many_pairs(&vec![ring(0.0); 7000]));
         assert!(!has_too_many_pairs(&vec![ring(0.0); 1000]));

@@ -189,23 +189,14 @@ pub struct DrawingProblems {
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
     let problems = option_problems(options);
     if !problems.is_empty() {
-        return Err(DrawingProblems {
-            problems,
-            remarks: Vec::new(),
-        });
+        return Err(DrawingProblems { problems, remarks: Vec::new() });
     }
     let refused = |why: String| DrawingProblems {
-        problems: vec![Remark {
-            element: String::new(),
-            message: why,
-            help: String::new(),
-        }],
+        problems: vec![Remark { element: String::new(), message: why, help: String::new() }],
         remarks: Vec::new(),
     };
     if format != Format::Svg && options.frame.is_some() {
-        return Err(refused(
-            "--frame needs a figure by drystone; this drawing has no frames".into(),
-        ));
+        return Err(refused("--frame needs a figure by drystone; this drawing has no frames".into()));
     }
     match format {
         Format::Contacts => complete(contact_list::read(text, options)),
@@ -219,13 +210,8 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
 
 /// Checks the scene of a contact list or of an assembly. Returns the problems of the list or assembly, or else of the
 /// scene, as an error.
-fn complete(
-    read: Result<(SceneFile, Vec<String>), Vec<Remark>>,
-) -> Result<Imported, DrawingProblems> {
-    let refused = |problems: Vec<Remark>| DrawingProblems {
-        problems,
-        remarks: Vec::new(),
-    };
+fn complete(read: Result<(SceneFile, Vec<String>), Vec<Remark>>) -> Result<Imported, DrawingProblems> {
+    let refused = |problems: Vec<Remark>| DrawingProblems { problems, remarks: Vec::new() };
     let (scene, notes) = read.map_err(refused)?;
     if let Err(problems) = Scene::from_json(&scene.to_json()) {
         let remark = |p: &crate::scene::Problem| Remark {
@@ -235,12 +221,7 @@ fn complete(
         };
         return Err(refused(problems.list.iter().map(remark).collect()));
     }
-    Ok(Imported {
-        scene,
-        notes,
-        remarks: Vec::new(),
-        snapped: Vec::new(),
-    })
+    Ok(Imported { scene, notes, remarks: Vec::new(), snapped: Vec::new() })
 }
 
 /// Reads the drawing. If no element is ground, reads the drawing again with the rule that names such as "abutment" also
@@ -283,26 +264,14 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
                 listed(&names)
             ),
         };
-        draft.remark(
-            "",
-            "no part of the drawing is ground, so nothing supports the blocks",
-            help,
-        );
+        draft.remark("", "no part of the drawing is ground, so nothing supports the blocks", help);
     }
     Ok(draft)
 }
 
 /// Reads the drawing into a draft, with the rules `naming` for names (step 1).
-fn read_draft(
-    text: &str,
-    format: Format,
-    options: &Options,
-    naming: &Naming<'_>,
-) -> Result<Draft, String> {
-    let scale = Scale {
-        metres: options.scale,
-        ratio: options.ratio,
-    };
+fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>) -> Result<Draft, String> {
+    let scale = Scale { metres: options.scale, ratio: options.ratio };
     let scaled = |read: &dyn Fn(f64) -> Result<Draft, String>| {
         let (metres, note) = scale.of(None, "the drawing states no unit")?;
         let mut draft = read(metres)?;
@@ -339,12 +308,7 @@ fn option_problems(options: &Options) -> Vec<Remark> {
             problems.push(Remark {
                 element: format!("--{name}"),
                 message: format!("{value} is not a valid value"),
-                help: if zero {
-                    "give 0 or more"
-                } else {
-                    "give more than 0"
-                }
-                .into(),
+                help: if zero { "give 0 or more" } else { "give more than 0" }.into(),
             });
         }
     };
@@ -361,7 +325,9 @@ fn structure_problem(outlines: &Outlines) -> Option<Remark> {
         return Some(Remark {
             element: String::new(),
             message: "nothing in the drawing becomes a block".into(),
-            help: "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide".into(),
+            help:
+                "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide"
+                    .into(),
         });
     }
     limit::problem([Role::Block, Role::Ground].map(|kind| outlines.boxes(kind)))
@@ -372,31 +338,22 @@ fn structure_problem(outlines: &Outlines) -> Option<Remark> {
 fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
-    let close = options
-        .gap
-        .unwrap_or(LENGTH_TOL * size)
-        .min(LENGTH_TOL * size);
+    let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
     if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
         draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scene_file::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
     if let Some(problem) = structure_problem(&outlines) {
-        return Err(DrawingProblems {
-            problems: vec![problem],
-            remarks: draft.remarks,
-        });
+        return Err(DrawingProblems { problems: vec![problem], remarks: draft.remarks });
     }
-    let gap = options
-        .gap
-        .unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
+    let gap = options.gap.unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
     let names = name::unique_names(&outlines);
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
-        draft.notes.push(format!(
-            "edges within {} m of each other are moved so that they touch",
-            scene_file::short(gap)
-        ));
+        draft
+            .notes
+            .push(format!("edges within {} m of each other are moved so that they touch", scene_file::short(gap)));
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     let text = scene.to_json();
@@ -407,12 +364,7 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
         false => Scene::from_json_within(&text, Some(read.tolerance.gap)),
     });
     match read {
-        Ok(_) => Ok(Imported {
-            scene,
-            notes: draft.notes,
-            remarks: draft.remarks,
-            snapped,
-        }),
+        Ok(_) => Ok(Imported { scene, notes: draft.notes, remarks: draft.remarks, snapped }),
         Err(problems) => Err(DrawingProblems {
             problems: problems.list.iter().map(|p| outlines.located(p)).collect(),
             remarks: draft.remarks,

@@ -52,10 +52,7 @@ struct TakenNames {
 
 impl TakenNames {
     fn with(name: &str) -> TakenNames {
-        TakenNames {
-            names: BTreeSet::from([name.to_owned()]),
-            ..TakenNames::default()
-        }
+        TakenNames { names: BTreeSet::from([name.to_owned()]), ..TakenNames::default() }
     }
 
     /// Returns `stem` with the first number, from `from` on, that makes a free name. A name is free if it is neither

@@ -46,11 +46,7 @@ pub(super) struct Naming<'o> {
 
 impl<'o> Naming<'o> {
     pub(super) fn new(ground: &'o [String], guess: bool) -> Naming<'o> {
-        Naming {
-            ground,
-            guess,
-            ..Naming::default()
-        }
+        Naming { ground, guess, ..Naming::default() }
     }
 
     /// Returns the role of an element with this name. `None` if no role follows from the name.
@@ -97,10 +93,7 @@ fn same(a: &str, b: &str) -> bool {
 /// True if a name is a word for the ground, perhaps followed by a number or other words: `Abutments`, `support_2`.
 fn is_ground_word(name: &str) -> bool {
     let name = name.to_lowercase();
-    GROUND_WORDS.iter().any(|word| {
-        name.strip_prefix(word)
-            .is_some_and(|rest| !rest.starts_with(char::is_alphabetic))
-    })
+    GROUND_WORDS.iter().any(|word| name.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphabetic)))
 }
 
 #[cfg(test)]

@@ -47,10 +47,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
     for part in std::mem::take(&mut draft.parts) {
         let hull = hull(&part);
         // A coordinate that is NaN fails this test too.
-        if hull
-            .iter()
-            .all(|p| p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE)
-        {
+        if hull.iter().all(|p| p.x.abs() <= MAX_COORDINATE && p.y.abs() <= MAX_COORDINATE) {
             if part.kind == Role::Block {
                 let own = Bounds::from_points(hull);
                 around = around.into_iter().chain(own).reduce(Bounds::union);
@@ -72,24 +69,15 @@ impl Outlines {
     /// Flattens the parts of a draft and splits them into regions. `flatten` is the largest distance of a chord from
     /// its curve. `close` is the largest gap between the ends of an outline that counts as closed. Both are in metres.
     pub(super) fn new(draft: &mut Draft, flatten: f64, close: f64) -> Outlines {
-        let mut outlines = Outlines {
-            bodies: Vec::new(),
-            robots: Vec::new(),
-        };
+        let mut outlines = Outlines { bodies: Vec::new(), robots: Vec::new() };
         for part in std::mem::take(&mut draft.parts) {
             match part.form {
-                PartGeometry::Point(at) => outlines.robots.push(Robot {
-                    name: part.name,
-                    element: part.element,
-                    at,
-                }),
+                PartGeometry::Point(at) => outlines.robots.push(Robot { name: part.name, element: part.element, at }),
                 PartGeometry::Subpaths(ref subpaths, rule) => {
                     let rings = closed_rings(draft, &part, subpaths, flatten, close);
                     if limit::has_too_many_pairs(&rings) {
-                        let message = format!(
-                            "its {} outlines are too many to find the holes among them; left out",
-                            rings.len()
-                        );
+                        let message =
+                            format!("its {} outlines are too many to find the holes among them; left out", rings.len());
                         draft.remark(&part.element, message, "break it apart into several paths");
                         continue;
                     }
@@ -112,11 +100,7 @@ impl Outlines {
             }
         };
         if part.kind == Role::Robot {
-            self.robots.push(Robot {
-                name: part.name.clone(),
-                element: part.element.clone(),
-                at: polygon.centroid(),
-            });
+            self.robots.push(Robot { name: part.name.clone(), element: part.element.clone(), at: polygon.centroid() });
         } else {
             self.bodies.push(Body {
                 kind: part.kind,
@@ -144,17 +128,12 @@ impl Outlines {
     /// Returns the bounding boxes of all bodies with the role `kind`: of the blocks, or of the parts of the ground.
     pub(super) fn boxes(&self, kind: Role) -> Vec<Bounds> {
         let bodies = self.bodies.iter().filter(|b| b.kind == kind);
-        bodies
-            .filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at)))
-            .collect()
+        bodies.filter_map(|b| Bounds::from_points(b.rings.iter().flatten().map(|c| c.at))).collect()
     }
 
     /// Returns the number of parts of the ground.
     pub(super) fn ground(&self) -> usize {
-        self.bodies
-            .iter()
-            .filter(|b| b.kind == Role::Ground)
-            .count()
+        self.bodies.iter().filter(|b| b.kind == Role::Ground).count()
     }
 
     /// Converts a problem of the scene to a remark about the element of the drawing.
@@ -169,11 +148,7 @@ impl Outlines {
             .or_else(|| number("ground"))
             .and_then(|i| self.bodies.get(i))
             .map(|b| b.element.clone());
-        let robot = || {
-            number("robots")
-                .and_then(|i| self.robots.get(i))
-                .map(|r| r.element.clone())
-        };
+        let robot = || number("robots").and_then(|i| self.robots.get(i)).map(|r| r.element.clone());
         // The user does not know the numbers of the ground's parts, so replace `ground[2]` by the name of its
         // element.
         let mut message = String::new();
@@ -196,13 +171,7 @@ impl Outlines {
 }
 
 /// Returns the flattened closed outlines of a part. Open outlines are reported and left out.
-fn closed_rings(
-    draft: &mut Draft,
-    part: &Part,
-    subpaths: &[Subpath],
-    flatten: f64,
-    close: f64,
-) -> Vec<Vec<Corner>> {
+fn closed_rings(draft: &mut Draft, part: &Part, subpaths: &[Subpath], flatten: f64, close: f64) -> Vec<Vec<Corner>> {
     let mut rings = Vec::new();
     let mut open = 0;
     for subpath in subpaths {
@@ -217,8 +186,7 @@ fn closed_rings(
             (open, all) if open == all => format!("all {open} of its outlines are open; left out"),
             (open, all) => format!("{open} of its {all} outlines are open; these are left out"),
         };
-        let help =
-            "close it; if it is not a block, give it or its layer a name that begins with ignore";
+        let help = "close it; if it is not a block, give it or its layer a name that begins with ignore";
         draft.remark(&part.element, message, help);
     } else if rings.is_empty() {
         draft.remark(&part.element, "it has no outline; left out", "");
@@ -235,10 +203,7 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
                 n => format!(", and in {} more places", n - 1),
             };
             (
-                format!(
-                    "its outline crosses or touches itself at {}{more}; left out",
-                    point(at)
-                ),
+                format!("its outline crosses or touches itself at {}{more}; left out", point(at)),
                 "draw it without crossings, or in parts",
             )
         }
@@ -246,10 +211,7 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
             "its holes overlap or lie outside it; left out".into(),
             "draw the holes inside the outline and apart from each other",
         ),
-        _ => (
-            "it encloses no area; left out".into(),
-            "draw it as an outline with an area",
-        ),
+        _ => ("it encloses no area; left out".into(), "draw it as an outline with an area"),
     };
     draft.remark(&part.element, message, help);
 }

@@ -18,10 +18,7 @@ pub(super) fn regions(rings: Vec<Vec<Corner>>, rule: FillRule) -> Vec<Rings> {
         FillRule::EvenOdd => winding % 2 != 0,
     };
     let areas: Vec<f64> = rings.iter().map(|r| area(r)).collect();
-    let boxes: Vec<Option<Bounds>> = rings
-        .iter()
-        .map(|r| Bounds::from_points(r.iter().map(|c| c.at)))
-        .collect();
+    let boxes: Vec<Option<Bounds>> = rings.iter().map(|r| Bounds::from_points(r.iter().map(|c| c.at))).collect();
     let mut order: Vec<usize> = (0..rings.len()).collect();
     order.sort_by(|a, b| areas[*b].abs().total_cmp(&areas[*a].abs()));
     let mut kept: Vec<Rings> = Vec::new();
@@ -83,10 +80,7 @@ mod tests {
     fn square(x: f64, size: f64, clockwise: bool) -> Vec<Corner> {
         let mut ring: Vec<Corner> = [(x, x), (x + size, x), (x + size, x + size), (x, x + size)]
             .iter()
-            .map(|p| Corner {
-                at: Point::new(p.0, p.1),
-                curved: false,
-            })
+            .map(|p| Corner { at: Point::new(p.0, p.1), curved: false })
             .collect();
         if clockwise {
             ring.reverse();
@@ -96,13 +90,8 @@ mod tests {
 
     #[test]
     fn the_fill_rule_decides_what_is_a_hole() {
-        let nested = |inner_clockwise| {
-            vec![
-                square(0.0, 9.0, false),
-                square(1.0, 6.0, inner_clockwise),
-                square(2.0, 1.0, false),
-            ]
-        };
+        let nested =
+            |inner_clockwise| vec![square(0.0, 9.0, false), square(1.0, 6.0, inner_clockwise), square(2.0, 1.0, false)];
         // A hole with an island in it.
         let island = regions(nested(true), FillRule::NonZero);
         assert_eq!(island.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
@@ -110,13 +99,6 @@ mod tests {
         // All rings in the same direction: the inner rings bound nothing.
         let whole = regions(nested(false), FillRule::NonZero);
         assert_eq!(whole.iter().map(Vec::len).collect::<Vec<_>>(), [1]);
-        assert_eq!(
-            regions(
-                vec![square(0.0, 1.0, true), square(4.0, 2.0, false)],
-                FillRule::EvenOdd
-            )
-            .len(),
-            2
-        );
+        assert_eq!(regions(vec![square(0.0, 1.0, true), square(4.0, 2.0, false)], FillRule::EvenOdd).len(), 2);
     }
 }

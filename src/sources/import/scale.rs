@@ -17,15 +17,10 @@ impl Scale {
     ///
     /// # Errors
     /// Returns a message if the options have only a ratio and the drawing states no unit.
-    pub(super) fn of(
-        self,
-        stated: Option<(f64, String)>,
-        silent: &str,
-    ) -> Result<(f64, String), String> {
+    pub(super) fn of(self, stated: Option<(f64, String)>, silent: &str) -> Result<(f64, String), String> {
         let ratio = self.ratio.unwrap_or(1.0);
-        let drawn_at = self.ratio.map_or(String::new(), |ratio| {
-            format!(" and the drawing is at 1:{}", six_digits(ratio))
-        });
+        let drawn_at =
+            self.ratio.map_or(String::new(), |ratio| format!(" and the drawing is at 1:{}", six_digits(ratio)));
         let unit = |metres: f64| format!("a unit of the drawing is {} m", six_digits(metres));
         match (self.metres, stated) {
             (Some(metres), _) => {
@@ -34,10 +29,7 @@ impl Scale {
             }
             (None, Some((metres, reason))) => {
                 let metres = metres * ratio;
-                Ok((
-                    metres,
-                    format!("{}, because {reason}{drawn_at}", unit(metres)),
-                ))
+                Ok((metres, format!("{}, because {reason}{drawn_at}", unit(metres))))
             }
             (None, None) if self.ratio.is_some() => Err(format!(
                 "a scale of 1:{} needs the unit of the drawing, because {silent}; add --unit mm, cm, m, in or ft",
@@ -45,9 +37,7 @@ impl Scale {
             )),
             (None, None) => Ok((
                 1.0,
-                format!(
-                    "a unit of the drawing is 1 m, because {silent}; --unit or --scale sets another unit"
-                ),
+                format!("a unit of the drawing is 1 m, because {silent}; --unit or --scale sets another unit"),
             )),
         }
     }

@@ -6,9 +6,7 @@ use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use crate::geometry::{Bounds, Point, Polygon};
-use crate::scene::format::{
-    BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
-};
+use crate::scene::format::{BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile};
 
 /// The step to which coordinates are rounded, as a fraction of the size of the drawing. The contact tolerance of a
 /// scene is about a thousand times larger, so rounding does not separate bodies that touch.
@@ -26,32 +24,18 @@ pub(super) fn scene(
 ) -> SceneFile {
     let round = Rounding::new(COORDINATE_STEP * size);
     let ground = outlines.ground();
-    let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..]
-        .iter()
-        .filter_map(|b| b.fill)
-        .collect();
+    let fills: BTreeSet<[u8; 3]> = outlines.bodies[ground..].iter().filter_map(|b| b.fill).collect();
     let bodies = outlines.bodies.iter().zip(&names.bodies);
-    let blocks = bodies
-        .skip(ground)
-        .map(|(body, name)| block_entry(body, name, &round));
+    let blocks = bodies.skip(ground).map(|(body, name)| block_entry(body, name, &round));
     let blocks = blocks.collect();
     let ground_entries = outlines.bodies[..ground].iter();
-    let ground_entries = ground_entries
-        .map(|body| ground_entry(body, &round))
-        .collect();
+    let ground_entries = ground_entries.map(|body| ground_entry(body, &round)).collect();
     let materials = fills.into_iter().map(|fill| {
-        let entry = MaterialEntry {
-            fill: Some(hex(fill)),
-            ..MaterialEntry::default()
-        };
+        let entry = MaterialEntry { fill: Some(hex(fill)), ..MaterialEntry::default() };
         (material(fill), entry)
     });
     SceneFile {
-        title: given
-            .title
-            .clone()
-            .or(Some(title))
-            .filter(|t| !t.is_empty()),
+        title: given.title.clone().or(Some(title)).filter(|t| !t.is_empty()),
         gravity: given.gravity,
         friction: given.friction,
         kernel: given.kernel,
@@ -90,12 +74,7 @@ fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
 
 /// Returns the robots, each with the block that it holds: the block that contains its centre. A robot without such a
 /// block is reported.
-fn robots(
-    outlines: &Outlines,
-    names: &Names,
-    draft: &mut Draft,
-    round: &Rounding,
-) -> Vec<RobotEntry> {
+fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Rounding) -> Vec<RobotEntry> {
     let polygons: Vec<(usize, Bounds, Polygon)> = outlines
         .bodies
         .iter()
@@ -107,10 +86,7 @@ fn robots(
     let mut entries = Vec::new();
     for (robot, name) in outlines.robots.iter().zip(&names.robots) {
         let held = polygons.iter().find(|(_, bounds, p)| {
-            let at = Bounds {
-                min: robot.at,
-                max: robot.at,
-            };
+            let at = Bounds { min: robot.at, max: robot.at };
             bounds.intersects(at) && p.contains(robot.at)
         });
         if held.is_none() {
@@ -119,11 +95,7 @@ fn robots(
                 short(robot.at.x),
                 short(robot.at.y)
             );
-            draft.remark(
-                &robot.element,
-                message,
-                "move its centre into the block that it grips",
-            );
+            draft.remark(&robot.element, message, "move its centre into the block that it grips");
         }
         entries.push(RobotEntry {
             id: Some(name.clone()),
@@ -169,22 +141,14 @@ impl Rounding {
         let power = -libm::floor(libm::log10(step));
         // Round only with factors from 1 to 10^15. Larger factors would change nothing, because f64 has 16 digits.
         // Smaller factors would round to 10 m or more.
-        let factor = if (0.0..=15.0).contains(&power) {
-            libm::pow(10.0, power)
-        } else {
-            0.0
-        };
+        let factor = if (0.0..=15.0).contains(&power) { libm::pow(10.0, power) } else { 0.0 };
         Rounding { factor }
     }
 
     fn number(&self, x: f64) -> f64 {
         let rounded = (x * self.factor).round() / self.factor;
         // Adding 0 turns −0 into 0.
-        if self.factor > 0.0 {
-            rounded + 0.0
-        } else {
-            x + 0.0
-        }
+        if self.factor > 0.0 { rounded + 0.0 } else { x + 0.0 }
     }
 
     fn pair(&self, p: Point) -> Pair {

@@ -18,12 +18,7 @@ impl Outlines {
         }
         let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
         let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
-        let outcome = snap::snapped(
-            &rings,
-            snap::Gaps::new(&gaps),
-            &fixed,
-            0.5 * self.tolerance() / gap,
-        );
+        let outcome = snap::snapped(&rings, snap::Gaps::new(&gaps), &fixed, 0.5 * self.tolerance() / gap);
         self.remark_kept(draft, &outcome.kept);
         let described = |moved: &snap::Moved| Snapped {
             body: names.bodies[moved.body].clone(),

@@ -47,38 +47,21 @@ pub(super) struct Arc {
 impl Subpath {
     pub(super) fn closed(corners: &[Point]) -> Option<Subpath> {
         let (start, rest) = corners.split_first()?;
-        Some(Subpath {
-            start: *start,
-            segments: rest.iter().map(|p| Segment::Line(*p)).collect(),
-            closed: true,
-        })
+        Some(Subpath { start: *start, segments: rest.iter().map(|p| Segment::Line(*p)).collect(), closed: true })
     }
 
     /// Returns an ellipse with half axes `rx` and `ry` along x and y. It starts at `centre` + (`rx`, 0) and turns from
     /// x towards y.
     pub(super) fn ellipse(centre: Point, rx: f64, ry: f64) -> Subpath {
         let start = centre + Vector::new(rx, 0.0);
-        let arc = Arc {
-            centre,
-            u: Vector::new(rx, 0.0),
-            v: Vector::new(0.0, ry),
-            from: 0.0,
-            sweep: TAU,
-            to: start,
-        };
-        Subpath {
-            start,
-            segments: vec![Segment::Arc(arc)],
-            closed: true,
-        }
+        let arc = Arc { centre, u: Vector::new(rx, 0.0), v: Vector::new(0.0, ry), from: 0.0, sweep: TAU, to: start };
+        Subpath { start, segments: vec![Segment::Arc(arc)], closed: true }
     }
 
     pub(super) fn mapped(&self, map: &Affine) -> Subpath {
         let segment = |segment: &Segment| match segment {
             Segment::Line(to) => Segment::Line(map.point(*to)),
-            Segment::Cubic(a, b, to) => {
-                Segment::Cubic(map.point(*a), map.point(*b), map.point(*to))
-            }
+            Segment::Cubic(a, b, to) => Segment::Cubic(map.point(*a), map.point(*b), map.point(*to)),
             Segment::Arc(arc) => Segment::Arc(Arc {
                 centre: map.point(arc.centre),
                 u: map.vector(arc.u),
@@ -101,12 +84,9 @@ impl Subpath {
         let back = |(i, segment): (usize, &Segment)| match segment {
             Segment::Line(_) => Segment::Line(ends[i]),
             Segment::Cubic(a, b, _) => Segment::Cubic(*b, *a, ends[i]),
-            Segment::Arc(arc) => Segment::Arc(Arc {
-                from: arc.from + arc.sweep,
-                sweep: -arc.sweep,
-                to: ends[i],
-                ..*arc
-            }),
+            Segment::Arc(arc) => {
+                Segment::Arc(Arc { from: arc.from + arc.sweep, sweep: -arc.sweep, to: ends[i], ..*arc })
+            }
         };
         Subpath {
             start: ends[ends.len() - 1],
@@ -129,8 +109,7 @@ impl Subpath {
                 Segment::Line(to) => points.push(*to),
                 Segment::Cubic(a, b, to) => points.extend([*a, *b, *to]),
                 Segment::Arc(arc) => {
-                    let reach =
-                        Vector::new(libm::hypot(arc.u.x, arc.v.x), libm::hypot(arc.u.y, arc.v.y));
+                    let reach = Vector::new(libm::hypot(arc.u.x, arc.v.x), libm::hypot(arc.u.y, arc.v.y));
                     points.extend([arc.centre - reach, arc.centre + reach]);
                 }
             }
@@ -142,20 +121,14 @@ impl Subpath {
     /// at most `close` from the first, it is left out. Returns `None` if the subpath is open and its ends are
     /// farther apart than `close`.
     pub(super) fn flattened(&self, tolerance: f64, close: f64) -> Option<Vec<Corner>> {
-        let mut corners = vec![Corner {
-            at: self.start,
-            curved: false,
-        }];
+        let mut corners = vec![Corner { at: self.start, curved: false }];
         for segment in &self.segments {
             let from = corners[corners.len() - 1].at;
             let inner = segment.inner(from, tolerance);
             let last = corners.len() - 1;
             corners[last].curved = !inner.is_empty();
             corners.extend(inner.into_iter().map(|at| Corner { at, curved: true }));
-            corners.push(Corner {
-                at: segment.end(),
-                curved: false,
-            });
+            corners.push(Corner { at: segment.end(), curved: false });
         }
         let (first, last) = (corners[0].at, corners[corners.len() - 1].at);
         if corners.len() > 1 && (last - first).norm() <= close {
@@ -199,11 +172,7 @@ impl Segment {
             }
             Segment::Arc(arc) => {
                 let radius = largest_radius(arc.u, arc.v);
-                let half = if tolerance < radius {
-                    libm::acos(1.0 - tolerance / radius)
-                } else {
-                    FRAC_PI_2
-                };
+                let half = if tolerance < radius { libm::acos(1.0 - tolerance / radius) } else { FRAC_PI_2 };
                 // A chord spans at most 45°, so that a circle has at least 8 corners at any tolerance.
                 let widest = (2.0 * half).min(TAU / 8.0);
                 let n = steps((arc.sweep.abs() / widest) * (1.0 - 1e-9));
@@ -219,11 +188,7 @@ impl Segment {
 
 fn steps(count: f64) -> f64 {
     // The comparison is false if `count` is NaN; the result is then one step.
-    if count > 1.0 {
-        count.ceil().min(MAX_CHORDS)
-    } else {
-        1.0
-    }
+    if count > 1.0 { count.ceil().min(MAX_CHORDS) } else { 1.0 }
 }
 
 fn inner_steps(n: f64) -> impl Iterator<Item = f64> {
@@ -292,10 +257,9 @@ mod tests {
 
     #[test]
     fn an_open_subpath_is_an_outline_only_if_its_ends_nearly_meet() {
-        let mut subpath = Subpath::closed(
-            &[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)),
-        )
-        .expect("corners");
+        let mut subpath =
+            Subpath::closed(&[(0.0, 0.0), (3.0, 0.0), (0.0, 2.0), (0.0, 0.001)].map(|p| Point::new(p.0, p.1)))
+                .expect("corners");
         assert_eq!(subpath.flattened(0.1, 1e-6).map(|c| c.len()), Some(4));
         subpath.closed = false;
         assert_eq!(subpath.flattened(0.1, 1e-6), None);

@@ -17,12 +17,7 @@ fn taken(body: &str) -> Imported {
 }
 
 fn ids(imported: &Imported) -> Vec<&str> {
-    imported
-        .scene
-        .blocks
-        .iter()
-        .filter_map(|b| b.id.as_deref())
-        .collect()
+    imported.scene.blocks.iter().filter_map(|b| b.id.as_deref()).collect()
 }
 
 fn bounds(imported: &Imported, block: usize) -> [f64; 4] {
@@ -47,22 +42,12 @@ fn the_role_of_an_element_follows_from_its_layer_and_name() {
     let (file, robot) = (&imported.scene, &imported.scene.robots[0]);
     assert_eq!(file.ground[0].fill.as_deref(), Some("#777777"));
     assert_eq!(robot.id.as_deref(), Some("robot-a"));
-    assert_eq!(
-        (robot.holds.as_deref(), robot.at),
-        (Some("left"), Some([2.0, 2.0]))
-    );
+    assert_eq!((robot.holds.as_deref(), robot.at), (Some("left"), Some([2.0, 2.0])));
     let materials: Vec<&str> = file.materials.0.iter().map(|m| m.0.as_str()).collect();
     assert_eq!(materials, ["fill-0000ff", "fill-8b6b3d"]);
     assert_eq!(file.blocks[2].material.as_deref(), Some("fill-0000ff"));
     assert_eq!(imported.remarks, []);
-    assert!(
-        imported
-            .notes
-            .iter()
-            .any(|n| n.contains("g \"guides\" is left out")),
-        "{:?}",
-        imported.notes
-    );
+    assert!(imported.notes.iter().any(|n| n.contains("g \"guides\" is left out")), "{:?}", imported.notes);
 }
 
 #[test]
@@ -96,52 +81,31 @@ fn everything_that_cannot_be_imported_is_reported_at_once() {
     let described: Vec<(&str, &str)> = imported
         .remarks
         .iter()
-        .map(|r| {
-            (
-                r.element.as_str(),
-                r.message.split([';', ':']).next().unwrap_or(""),
-            )
-        })
+        .map(|r| (r.element.as_str(), r.message.split([';', ':']).next().unwrap_or("")))
         .collect();
     let expected = [
         ("rect \"good\"", "clip paths are not supported"),
         ("rect \"good\"", "masks are not supported"),
-        (
-            "rect \"good\"",
-            "a gradient or pattern cannot become a material",
-        ),
-        (
-            "<path> in line 3",
-            "its path data cannot be read (unexpected end of stream)",
-        ),
+        ("rect \"good\"", "a gradient or pattern cannot become a material"),
+        ("<path> in line 3", "its path data cannot be read (unexpected end of stream)"),
         ("text \"words\"", "a text cannot become a block"),
         ("image \"photo\"", "an image has no outlines"),
         ("rect \"none\"", "its width is 0"),
         ("use \"lost\"", "it copies #nowhere, which does not exist"),
         ("<use> in line 7", "it copies itself"),
-        (
-            "",
-            "no part of the drawing is ground, so nothing supports the blocks",
-        ),
+        ("", "no part of the drawing is ground, so nothing supports the blocks"),
         ("path \"open\"", "it is open"),
-        (
-            "polygon \"bow\"",
-            "its outline crosses or touches itself at (11.0000, 8.0000) m",
-        ),
+        ("polygon \"bow\"", "its outline crosses or touches itself at (11.0000, 8.0000) m"),
         ("polygon \"flat\"", "it encloses no area"),
-        (
-            "circle \"robot\"",
-            "its centre (19, 1) m is in no block, so the robot holds nothing",
-        ),
+        ("circle \"robot\"", "its centre (19, 1) m is in no block, so the robot holds nothing"),
     ];
     assert_eq!(described, expected);
 }
 
 #[test]
 fn holes_and_islands_come_from_the_fill_rule() {
-    let imported = taken(
-        "<path id='ring' fill-rule='evenodd' d='M1 1h6v6h-6z m1 1h4v4h-4z m1 1h1v1h-1z M10 1h2v2h-2z'/>",
-    );
+    let imported =
+        taken("<path id='ring' fill-rule='evenodd' d='M1 1h6v6h-6z m1 1h4v4h-4z m1 1h1v1h-1z M10 1h2v2h-2z'/>");
     assert_eq!(ids(&imported), ["ring", "ring-2", "ring-3"]);
     assert_eq!(imported.scene.blocks[0].holes.len(), 1);
 }
@@ -158,9 +122,9 @@ fn overlapping_blocks_are_refused_with_their_elements() {
     assert_eq!(refusal.problems.len(), 1);
     assert_eq!(refusal.problems[0].element, "rect \"a\"");
     assert!(
-        refusal.problems[0].message.contains(
-            "block `a` and the ground's rect \"ground\" overlap by 1 m, with a common area of 3 m²"
-        ),
+        refusal.problems[0]
+            .message
+            .contains("block `a` and the ground's rect \"ground\" overlap by 1 m, with a common area of 3 m²"),
         "{}",
         refusal.problems[0].message
     );
@@ -169,41 +133,21 @@ fn overlapping_blocks_are_refused_with_their_elements() {
 
 #[test]
 fn an_empty_drawing_and_wrong_options_are_refused() {
-    let empty = import(
-        &svg("<g id='ground'><rect width='3' height='3'/></g>"),
-        Format::Svg,
-        &Options::default(),
-    );
-    assert!(
-        empty.expect_err("no block").problems[0]
-            .message
-            .contains("nothing in the drawing becomes a block")
-    );
-    let options = Options {
-        scale: Some(0.0),
-        flatten: Some(f64::NAN),
-        gap: Some(-1.0),
-        ..Options::default()
-    };
-    assert_eq!(
-        import("", Format::Wkt, &options)
-            .expect_err("invalid options")
-            .problems
-            .len(),
-        3
-    );
+    let empty = import(&svg("<g id='ground'><rect width='3' height='3'/></g>"), Format::Svg, &Options::default());
+    assert!(empty.expect_err("no block").problems[0].message.contains("nothing in the drawing becomes a block"));
+    let options = Options { scale: Some(0.0), flatten: Some(f64::NAN), gap: Some(-1.0), ..Options::default() };
+    assert_eq!(import("", Format::Wkt, &options).expect_err("invalid options").problems.len(), 3);
     for text in ["", "<svg", "<html/>"] {
-        assert!(
-            import(text, Format::Svg, &Options::default()).is_err(),
-            "{text}"
-        );
+        assert!(import(text, Format::Svg, &Options::default()).is_err(), "{text}");
     }
 }
 
 #[test]
 fn elements_with_huge_coordinates_are_left_out() {
-    let imported = taken("<rect id='a' width='3' height='3'/><rect id='b' x='1e200' width='3' height='3'/>
-        <g transform='scale(1e300)'><g transform='scale(1e300)'><rect id='c' width='3' height='3'/></g></g>");
+    let imported = taken(
+        "<rect id='a' width='3' height='3'/><rect id='b' x='1e200' width='3' height='3'/>
+        <g transform='scale(1e300)'><g transform='scale(1e300)'><rect id='c' width='3' height='3'/></g></g>",
+    );
     assert_eq!(ids(&imported), ["a"]);
     // The third remark states that nothing is ground.
     assert_eq!(imported.remarks.len(), 3, "{:?}", imported.remarks);
@@ -218,14 +162,9 @@ fn too_many_copies_and_too_many_levels_are_refused() {
     }
     body += "</defs><path d='M0 0 1 1'/><use href='#g11' x='5'/>";
     let document = svg(&body);
-    let refused =
-        svg::read(&document, Scale::default(), None, &Naming::default()).expect_err("too many");
+    let refused = svg::read(&document, Scale::default(), None, &Naming::default()).expect_err("too many");
     assert!(refused.contains("copies included"), "{refused}");
-    let deep = format!(
-        "{}<rect width='3' height='3'/>{}",
-        "<g>".repeat(5000),
-        "</g>".repeat(5000)
-    );
+    let deep = format!("{}<rect width='3' height='3'/>{}", "<g>".repeat(5000), "</g>".repeat(5000));
     let draft = svg::read(&svg(&deep), Scale::default(), None, &Naming::default()).expect("XML");
     assert!(draft.parts.is_empty() && draft.remarks[0].message.contains("levels deep"));
 }
@@ -240,10 +179,7 @@ fn the_common_curve_of_two_neighbours_has_no_gaps() {
     );
     let scene = Scene::from_json(&imported.scene.to_json()).expect("a valid scene");
     let area: f64 = scene.blocks.iter().map(|b| b.body.polygon.area()).sum();
-    assert!(
-        (area - 50.0).abs() < 1e-6,
-        "together they fill a box: {area}"
-    );
+    assert!((area - 50.0).abs() < 1e-6, "together they fill a box: {area}");
     let bowl = scene.blocks[1].body.polygon.bounds();
     assert!((bowl.min - Point::new(4.0, 2.0)).norm() < 0.02, "{bowl:?}");
 }

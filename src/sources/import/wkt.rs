@@ -25,45 +25,28 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
         }
         let kind = naming.role(name);
         if kind == Some(Role::Ignored) {
-            draft.notes.push(format!(
-                "{element} is left out: its name begins with ignore or guide"
-            ));
+            draft.notes.push(format!("{element} is left out: its name begins with ignore or guide"));
             continue;
         }
-        let mut reader = Reader {
-            rest,
-            scale,
-            robot: kind == Some(Role::Robot),
-            geometries: Vec::new(),
-        };
+        let mut reader = Reader { rest, scale, robot: kind == Some(Role::Robot), geometries: Vec::new() };
         let read = reader.geometry(0).and_then(|()| {
-            if reader.rest.trim().is_empty() {
-                Ok(())
-            } else {
-                Err(reader.expected_error("the end of the line"))
-            }
+            if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.expected_error("the end of the line")) }
         });
         if let Err(why) = read {
-            draft.remark(
-                element,
-                format!("{why}; left out"),
-                "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))",
-            );
+            draft.remark(element, format!("{why}; left out"), "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
             continue;
         }
         if reader.geometries.is_empty() {
             draft.remark(&element, "it is empty; left out", "");
         }
-        draft
-            .parts
-            .extend(reader.geometries.into_iter().map(|form| Part {
-                kind: kind.unwrap_or(Role::Block),
-                name: name.to_owned(),
-                element: element.clone(),
-                form,
-                fill: None,
-                values: Values::default(),
-            }));
+        draft.parts.extend(reader.geometries.into_iter().map(|form| Part {
+            kind: kind.unwrap_or(Role::Block),
+            name: name.to_owned(),
+            element: element.clone(),
+            form,
+            fill: None,
+            values: Values::default(),
+        }));
     }
     draft
 }
@@ -75,17 +58,8 @@ fn named(line: &str) -> (&str, &str) {
     match line[..geometry].rfind([';', '\t']) {
         Some(end) => {
             let name = line[..end].trim_matches(|c: char| c.is_whitespace() || c == ';');
-            let is_system = name
-                .get(..5)
-                .is_some_and(|s| s.eq_ignore_ascii_case("srid="));
-            (
-                if is_system {
-                    ""
-                } else {
-                    name.trim_matches('"')
-                },
-                &line[end + 1..],
-            )
+            let is_system = name.get(..5).is_some_and(|s| s.eq_ignore_ascii_case("srid="));
+            (if is_system { "" } else { name.trim_matches('"') }, &line[end + 1..])
         }
         None => ("", line),
     }
@@ -102,9 +76,7 @@ struct Reader<'t> {
 impl Reader<'_> {
     fn geometry(&mut self, depth: usize) -> Result<(), String> {
         if depth > MAX_DEPTH {
-            return Err(format!(
-                "collections are nested more than {MAX_DEPTH} levels deep"
-            ));
+            return Err(format!("collections are nested more than {MAX_DEPTH} levels deep"));
         }
         let mut word = self.word();
         if word.is_empty() {
@@ -114,10 +86,7 @@ impl Reader<'_> {
             self.word();
         }
         for ending in ["ZM", "Z", "M"] {
-            if let Some(plain) = word
-                .strip_suffix(ending)
-                .filter(|p| p.ends_with(['N', 'T']))
-            {
+            if let Some(plain) = word.strip_suffix(ending).filter(|p| p.ends_with(['N', 'T'])) {
                 word = plain.to_owned();
             }
         }
@@ -135,9 +104,7 @@ impl Reader<'_> {
                 self.expect(')')
             }
             "GEOMETRYCOLLECTION" => self.list(|reader| reader.geometry(depth + 1)),
-            "POINT" | "LINESTRING" | "MULTIPOINT" | "MULTILINESTRING" => {
-                Err(format!("a {word} encloses no area"))
-            }
+            "POINT" | "LINESTRING" | "MULTIPOINT" | "MULTILINESTRING" => Err(format!("a {word} encloses no area")),
             _ => Err(format!("{word} is not a known geometry")),
         }
     }
@@ -153,15 +120,11 @@ impl Reader<'_> {
             subpaths.extend(Subpath::closed(&points));
             Ok(())
         })?;
-        self.geometries
-            .push(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd));
+        self.geometries.push(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd));
         Ok(())
     }
 
-    fn list(
-        &mut self,
-        mut entry: impl FnMut(&mut Self) -> Result<(), String>,
-    ) -> Result<(), String> {
+    fn list(&mut self, mut entry: impl FnMut(&mut Self) -> Result<(), String>) -> Result<(), String> {
         self.expect('(')?;
         loop {
             entry(self)?;
@@ -205,10 +168,7 @@ impl Reader<'_> {
 
     fn peek_word(&self) -> String {
         let letters = self.rest.trim_start().chars();
-        letters
-            .take_while(char::is_ascii_alphabetic)
-            .map(|c| c.to_ascii_uppercase())
-            .collect()
+        letters.take_while(char::is_ascii_alphabetic).map(|c| c.to_ascii_uppercase()).collect()
     }
 
     fn accept(&mut self, mark: char) -> bool {
@@ -222,11 +182,7 @@ impl Reader<'_> {
     }
 
     fn expect(&mut self, mark: char) -> Result<(), String> {
-        if self.accept(mark) {
-            Ok(())
-        } else {
-            Err(self.expected_error(&format!("`{mark}`")))
-        }
+        if self.accept(mark) { Ok(()) } else { Err(self.expected_error(&format!("`{mark}`"))) }
     }
 
     fn expected_error(&self, wanted: &str) -> String {
@@ -251,11 +207,7 @@ mod tests {
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
         let draft = read(text, 1.0, &Naming::default());
-        let parts: Vec<(&str, Role)> = draft
-            .parts
-            .iter()
-            .map(|p| (p.name.as_str(), p.kind))
-            .collect();
+        let parts: Vec<(&str, Role)> = draft.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
         assert_eq!(
             parts,
             [
@@ -267,17 +219,12 @@ mod tests {
                 ("", Role::Block)
             ]
         );
-        assert!(
-            matches!(&draft.parts[2].form, PartGeometry::Subpaths(subpaths, _) if subpaths.len() == 2)
-        );
+        assert!(matches!(&draft.parts[2].form, PartGeometry::Subpaths(subpaths, _) if subpaths.len() == 2));
         assert!(matches!(draft.parts[4].form, PartGeometry::Point(p) if p == Point::new(0.2, 0.3)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
         assert_eq!(remarks.len(), 5, "{remarks:?}");
         assert_eq!(remarks[0], "a LINESTRING encloses no area; left out");
-        assert_eq!(
-            remarks[1],
-            "there is `x))` where a number should be; left out"
-        );
+        assert_eq!(remarks[1], "there is `x))` where a number should be; left out");
         assert_eq!(draft.remarks[0].element, "line 9 \"b\"");
         assert_eq!(draft.notes.len(), 1);
     }

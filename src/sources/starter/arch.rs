@@ -32,12 +32,7 @@ impl Default for Arch {
     /// Returns an arch of 13 voussoirs with a clear width of 4 m, 0.4 m thick, with a friction coefficient of 0.7. It
     /// stands.
     fn default() -> Arch {
-        Arch {
-            voussoirs: 13,
-            span: 4.0,
-            thickness: 0.4,
-            friction: 0.7,
-        }
+        Arch { voussoirs: 13, span: 4.0, thickness: 0.4, friction: 0.7 }
     }
 }
 
@@ -57,12 +52,7 @@ impl Arch {
             [rounded(radius * cos, least), rounded(radius * sin, least)]
         };
         let voussoir = |i: usize| {
-            let corners = vec![
-                joint(i, inner),
-                joint(i, outer),
-                joint(i + 1, outer),
-                joint(i + 1, inner),
-            ];
+            let corners = vec![joint(i, inner), joint(i, outer), joint(i + 1, outer), joint(i + 1, inner)];
             block((i + 1).to_string(), corners)
         };
         let aside = rounded(outer + self.thickness, least);

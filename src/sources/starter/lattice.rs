@@ -1,9 +1,7 @@
 //! [`LatticePile`]: a pile of triangles on the triangular lattice.
 
 use super::STONE_DENSITY;
-use crate::scene::format::{
-    BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile,
-};
+use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile};
 
 /// A pile of triangular cells that point up and down alternately. Each row has one upward triangle fewer than the row
 /// below.
@@ -22,11 +20,7 @@ pub struct LatticePile {
 impl Default for LatticePile {
     /// Returns a pile of 3 rows of triangles with edges of 1 m and a friction coefficient of 0.7. It stands.
     fn default() -> LatticePile {
-        LatticePile {
-            rows: 3,
-            side: 1.0,
-            friction: 0.7,
-        }
+        LatticePile { rows: 3, side: 1.0, friction: 0.7 }
     }
 }
 
@@ -48,14 +42,9 @@ impl LatticePile {
         let mut blocks = Vec::new();
         for row in 0..self.rows {
             let (count, y) = (self.rows - row, row as f64);
-            let cells = (0..count)
-                .map(|x| up(x, y))
-                .chain((1..count).map(|x| down(x - 1, y + 1.0)));
+            let cells = (0..count).map(|x| up(x, y)).chain((1..count).map(|x| down(x - 1, y + 1.0)));
             for cell in cells {
-                blocks.push(BlockEntry {
-                    cells: Some(vec![cell]),
-                    ..BlockEntry::default()
-                });
+                blocks.push(BlockEntry { cells: Some(vec![cell]), ..BlockEntry::default() });
             }
         }
         // The ground is a strip of cells below y = 0. On the right it extends one side length beyond the pile.
@@ -64,14 +53,8 @@ impl LatticePile {
             title: Some(format!("A pile of triangles in {} rows", self.rows)),
             friction: Some(self.friction),
             density: Some(STONE_DENSITY),
-            grid: Some(GridEntry {
-                kind: GridKind::Triangular,
-                side: Some(self.side),
-            }),
-            ground: vec![GroundEntry {
-                cells: Some(strip.collect()),
-                ..GroundEntry::default()
-            }],
+            grid: Some(GridEntry { kind: GridKind::Triangular, side: Some(self.side) }),
+            ground: vec![GroundEntry { cells: Some(strip.collect()), ..GroundEntry::default() }],
             blocks,
             ..SceneFile::default()
         }

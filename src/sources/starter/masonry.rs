@@ -21,13 +21,7 @@ pub struct Wall {
 impl Default for Wall {
     /// Returns a wall of 6 courses of 5 bricks, 0.25 m by 0.08 m each, with a friction coefficient of 0.7. It stands.
     fn default() -> Wall {
-        Wall {
-            courses: 6,
-            bricks: 5,
-            length: 0.25,
-            height: 0.08,
-            friction: 0.7,
-        }
+        Wall { courses: 6, bricks: 5, length: 0.25, height: 0.08, friction: 0.7 }
     }
 }
 
@@ -53,9 +47,7 @@ impl Wall {
                 (0..=self.bricks).map(|i| 2 * i).collect()
             } else {
                 let inner = (0..self.bricks).map(|i| 2 * i + 1);
-                (std::iter::once(0).chain(inner))
-                    .chain([2 * self.bricks])
-                    .collect()
+                (std::iter::once(0).chain(inner)).chain([2 * self.bricks]).collect()
             };
             for (i, pair) in joints.windows(2).enumerate() {
                 let corners = rectangle([x(pair[0]), y(course)], [x(pair[1]), y(course + 1)]);
@@ -63,10 +55,7 @@ impl Wall {
             }
         }
         SceneFile {
-            title: Some(format!(
-                "A wall of {} courses of {} bricks",
-                self.courses, self.bricks
-            )),
+            title: Some(format!("A wall of {} courses of {} bricks", self.courses, self.bricks)),
             friction: Some(self.friction),
             density: Some(STONE_DENSITY),
             ground: vec![floor(-x(2), x(2 * self.bricks + 2), y(2))],
@@ -96,13 +85,7 @@ impl Default for Tower {
     /// Returns a tower of 8 blocks of 1 m by 0.5 m, each 0.1 m to the right of the block below. It stands, and would
     /// stand with shifts of up to 0.125 m.
     fn default() -> Tower {
-        Tower {
-            blocks: 8,
-            width: 1.0,
-            height: 0.5,
-            lean: 0.1,
-            friction: 0.7,
-        }
+        Tower { blocks: 8, width: 1.0, height: 0.5, lean: 0.1, friction: 0.7 }
     }
 }
 
@@ -122,10 +105,7 @@ impl Tower {
         let round = |x: f64| rounded(x, least);
         let storey = |i: usize| {
             let (x, y) = (self.lean * i as f64, self.height * i as f64);
-            let corners = rectangle(
-                [round(x), round(y)],
-                [round(x + self.width), round(y + self.height)],
-            );
+            let corners = rectangle([round(x), round(y)], [round(x + self.width), round(y + self.height)]);
             block((i + 1).to_string(), corners)
         };
         SceneFile {
@@ -135,11 +115,7 @@ impl Tower {
             )),
             friction: Some(self.friction),
             density: Some(STONE_DENSITY),
-            ground: vec![floor(
-                round(-self.width),
-                round(2.0 * self.width),
-                round(self.height),
-            )],
+            ground: vec![floor(round(-self.width), round(2.0 * self.width), round(self.height))],
             blocks: (0..self.blocks).map(storey).collect(),
             ..SceneFile::default()
         }
@@ -167,14 +143,7 @@ pub struct Doorway {
 impl Default for Doorway {
     /// Returns a doorway 1 m wide and 2 m high. Each jamb has 4 blocks. The structure stands after every step.
     fn default() -> Doorway {
-        Doorway {
-            courses: 4,
-            width: 1.0,
-            height: 2.0,
-            jamb: 0.4,
-            lintel: 0.3,
-            friction: 0.7,
-        }
+        Doorway { courses: 4, width: 1.0, height: 2.0, jamb: 0.4, lintel: 0.3, friction: 0.7 }
     }
 }
 
@@ -191,13 +160,8 @@ impl Doorway {
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
     pub fn scene(&self) -> SceneFile {
-        let least = [
-            self.jamb,
-            self.lintel,
-            self.height / self.courses.max(1) as f64,
-        ]
-        .into_iter()
-        .fold(self.width, f64::min);
+        let least =
+            [self.jamb, self.lintel, self.height / self.courses.max(1) as f64].into_iter().fold(self.width, f64::min);
         let round = |x: f64| rounded(x, least);
         let top = round(self.height);
         let (left, right) = (round(self.jamb), round(self.jamb + self.width));
@@ -214,28 +178,15 @@ impl Doorway {
         blocks.push(block("lintel".into(), lintel));
         let grip = GripEntry {
             block: "lintel".into(),
-            at: Some([
-                round(end - 0.5 * self.jamb),
-                round(self.height + 0.5 * self.lintel),
-            ]),
+            at: Some([round(end - 0.5 * self.jamb), round(self.height + 0.5 * self.lintel)]),
         };
         SceneFile {
-            title: Some(format!(
-                "A doorway {} m wide and {} m high",
-                self.width, self.height
-            )),
+            title: Some(format!("A doorway {} m wide and {} m high", self.width, self.height)),
             friction: Some(self.friction),
             density: Some(STONE_DENSITY),
-            ground: vec![floor(
-                round(-self.jamb),
-                round(end + self.jamb),
-                round(self.lintel),
-            )],
+            ground: vec![floor(round(-self.jamb), round(end + self.jamb), round(self.lintel))],
             blocks,
-            robots: vec![RobotEntry {
-                id: Some("robot".into()),
-                ..RobotEntry::default()
-            }],
+            robots: vec![RobotEntry { id: Some("robot".into()), ..RobotEntry::default() }],
             steps: self.steps(grip),
             ..SceneFile::default()
         }

@@ -34,19 +34,12 @@ fn rectangle(from: Pair, to: Pair) -> Vec<Pair> {
 }
 
 fn block(id: String, polygon: Vec<Pair>) -> BlockEntry {
-    BlockEntry {
-        id: Some(id),
-        polygon: Some(polygon),
-        ..BlockEntry::default()
-    }
+    BlockEntry { id: Some(id), polygon: Some(polygon), ..BlockEntry::default() }
 }
 
 /// Returns ground from x = `left` to x = `right`, in metres. It is `depth` metres thick, with its surface at y = 0.
 fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
-    GroundEntry {
-        polygon: Some(rectangle([left, -depth], [right, 0.0])),
-        ..GroundEntry::default()
-    }
+    GroundEntry { polygon: Some(rectangle([left, -depth], [right, 0.0])), ..GroundEntry::default() }
 }
 
 /// Density of stone, kg/m³.

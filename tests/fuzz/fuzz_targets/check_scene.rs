@@ -31,40 +31,22 @@ struct Brick {
 }
 
 fn corners(x: f64, y: f64, width: f64, height: f64, lean: f64) -> [Pair; 4] {
-    [
-        [x, y],
-        [x + width, y],
-        [x + width + lean, y + height],
-        [x + lean, y + height],
-    ]
+    [[x, y], [x + width, y], [x + width + lean, y + height], [x + lean, y + height]]
 }
 
 fn made(heap: &Heap) -> SceneFile {
     let mut file = Scene::builder()
         .friction(f64::from(heap.friction) / 64.0)
         .kernel(f64::from(heap.kernel) / 255.0)
-        .gravity([
-            f64::from(heap.gravity.0) / 16.0,
-            f64::from(heap.gravity.1) / 16.0,
-        ])
+        .gravity([f64::from(heap.gravity.0) / 16.0, f64::from(heap.gravity.1) / 16.0])
         .corner_contacts(heap.corner_contacts)
         .ground(corners(-1.0, -1.0, 12.0, 1.0, 0.0));
     let mut tops: Vec<(f64, f64, f64)> = Vec::new();
     for (number, brick) in heap.bricks.iter().take(12).enumerate() {
-        let (x, width) = (
-            f64::from(brick.x % 20) * 0.5,
-            f64::from(brick.width % 6) * 0.5 + 0.5,
-        );
-        let (height, lean) = (
-            f64::from(brick.height % 4) * 0.5 + 0.5,
-            f64::from(brick.lean % 2) * 0.25,
-        );
+        let (x, width) = (f64::from(brick.x % 20) * 0.5, f64::from(brick.width % 6) * 0.5 + 0.5);
+        let (height, lean) = (f64::from(brick.height % 4) * 0.5 + 0.5, f64::from(brick.lean % 2) * 0.25);
         let (from, to) = (x + lean.min(0.0), x + width + lean.max(0.0));
-        let below = tops
-            .iter()
-            .filter(|t| t.0 < to && from < t.1)
-            .map(|t| t.2)
-            .fold(0.0, f64::max);
+        let below = tops.iter().filter(|t| t.0 < to && from < t.1).map(|t| t.2).fold(0.0, f64::max);
         tops.push((from, to, below + height));
         file.blocks.push(
             BlockEntry::new(number.to_string())
@@ -74,9 +56,7 @@ fn made(heap: &Heap) -> SceneFile {
     }
     let name = |k: u8| file.blocks.get(usize::from(k)).and_then(|b| b.id.clone());
     if let Some((block, limit)) = heap.held {
-        let limits = LimitsEntry::default()
-            .force(f64::from(limit))
-            .torque(f64::from(limit % 7));
+        let limits = LimitsEntry::default().force(f64::from(limit)).torque(f64::from(limit % 7));
         let mut robot = RobotEntry::default().limits(limits);
         robot.holds = name(block);
         file.robots.push(robot);
@@ -102,16 +82,8 @@ fuzz_target!(|heap: Heap| {
             _ => assert!(frame.proof.holds(), "{:?}", frame.proof),
         }
         for contact in &frame.contacts {
-            assert!(
-                contact
-                    .normal_forces
-                    .iter()
-                    .all(|n| *n >= 0.0 && n.is_finite())
-            );
+            assert!(contact.normal_forces.iter().all(|n| *n >= 0.0 && n.is_finite()));
         }
     }
-    assert!(
-        output::svg::write(&figure::forces(&analysis, &figure::Options::default()))
-            .ends_with("</svg>\n")
-    );
+    assert!(output::svg::write(&figure::forces(&analysis, &figure::Options::default())).ends_with("</svg>\n"));
 });

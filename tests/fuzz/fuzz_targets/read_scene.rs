@@ -14,14 +14,8 @@ fuzz_target!(|bytes: &[u8]| {
     for problem in &problems.list {
         assert!(!problem.message.is_empty());
         if let (Some(span), Some(text)) = (&problem.span, &problems.text) {
-            assert!(
-                span.start <= span.end && span.end <= text.len(),
-                "{problem:?}"
-            );
-            assert!(
-                text.is_char_boundary(span.start) && text.is_char_boundary(span.end),
-                "{problem:?}"
-            );
+            assert!(span.start <= span.end && span.end <= text.len(), "{problem:?}");
+            assert!(text.is_char_boundary(span.start) && text.is_char_boundary(span.end), "{problem:?}");
         }
     }
     assert!(!problems.to_string().is_empty());

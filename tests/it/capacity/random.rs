@@ -12,10 +12,7 @@ use crate::oracle::touch::touches;
 /// In each of 90 directions, the set extends as far as the exact set, up to a millionth of its size.
 /// `DRYSTONE_CAPACITY_SCENES=1000` compares more scenes than the usual 30.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn random_sets_are_those_of_an_exact_program() {
     let first = number_of("DRYSTONE_CAPACITY_FIRST", 0);
     let wanted = number_of("DRYSTONE_CAPACITY_SCENES", 30);
@@ -23,23 +20,12 @@ fn random_sets_are_those_of_an_exact_program() {
         .map(|k| libm::sincos(0.013 + f64::from(k) * std::f64::consts::TAU / 90.0))
         .map(|(sin, cos)| [cos, sin])
         .collect();
-    let all: Vec<Result<Compared, String>> = (first..first + wanted)
-        .into_par_iter()
-        .map(|number| compared(number, &directions))
-        .collect();
-    let bad: Vec<&String> = all
-        .iter()
-        .filter_map(|found| found.as_ref().err())
-        .collect();
+    let all: Vec<Result<Compared, String>> =
+        (first..first + wanted).into_par_iter().map(|number| compared(number, &directions)).collect();
+    let bad: Vec<&String> = all.iter().filter_map(|found| found.as_ref().err()).collect();
     let good: Vec<_> = all.iter().flatten().flatten().collect();
-    let skipped: Vec<&Skipped> = all
-        .iter()
-        .flatten()
-        .filter_map(|found| found.as_ref().err())
-        .collect();
-    let worst = good
-        .iter()
-        .fold([0.0, 0.0], |[a, b]: [f64; 2], c| [a.max(c.0), b.max(c.1)]);
+    let skipped: Vec<&Skipped> = all.iter().flatten().filter_map(|found| found.as_ref().err()).collect();
+    let worst = good.iter().fold([0.0, 0.0], |[a, b]: [f64; 2], c| [a.max(c.0), b.max(c.1)]);
     println!(
         "{} sets, beyond the exact set by at most {:.1e}, short of it by at most {:.1e}; {} wrong",
         good.len(),
@@ -47,14 +33,7 @@ fn random_sets_are_those_of_an_exact_program() {
         worst[1],
         bad.len()
     );
-    for shape in [
-        "empty",
-        "point",
-        "segment",
-        "polygon",
-        "unbounded",
-        "everything",
-    ] {
+    for shape in ["empty", "point", "segment", "polygon", "unbounded", "everything"] {
         let count = good.iter().filter(|c| c.2.word() == shape).count();
         println!("{shape}: {count}");
     }
@@ -113,10 +92,7 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
         _ => outline[number as usize % outline.len()],
     };
     let request = CapacityRequest::of_block(drystone::scene::BlockId(block)).at(ForceAt::Point(at));
-    let own = groups
-        .iter()
-        .find(|g| g.blocks.contains(&block))
-        .expect("a group");
+    let own = groups.iter().find(|g| g.blocks.contains(&block)).expect("a group");
     let others = || groups.iter().filter(|g| !g.blocks.contains(&block));
     let is_borderline = others().any(Balance::is_borderline);
     if is_borderline {
@@ -155,17 +131,12 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
                 short = short.max((exact - most) / size);
             }
             other => {
-                return Err(format!(
-                    "{number}: {direction:?} {other:?} {:?}\n{file}",
-                    found.rays
-                ));
+                return Err(format!("{number}: {direction:?} {other:?} {:?}\n{file}", found.rays));
             }
         }
     }
     if outside > 1e-6 || short > 1e-6 {
-        return Err(format!(
-            "{number}: outside {outside:e}, short {short:e}\n{file}"
-        ));
+        return Err(format!("{number}: outside {outside:e}, short {short:e}\n{file}"));
     }
     Ok(Ok((outside, short, found.shape())))
 }

@@ -91,10 +91,7 @@ fn acting(checked: &Checked) -> Vec<(String, f64, Acting)> {
             let along = [-normal[1] * friction, normal[0] * friction];
             acting.add(less(pair(&points[0]), centroid), sign(along));
         }
-        for robot in list(&frame["robots"])
-            .iter()
-            .filter(|r| is_own(&r["holds"]))
-        {
+        for robot in list(&frame["robots"]).iter().filter(|r| is_own(&r["holds"])) {
             let arm = less(pair(&robot["at"]), centroid);
             let [x, y] = pair(&robot["force"]);
             acting.add(arm, [x, 0.0]);
@@ -203,11 +200,7 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
             matches!(own, Proof::Forces { worst_imbalance, .. } if worst_imbalance == imbalance),
             "{imbalance}: {own:?}"
         );
-        assert!(
-            imbalance + 1e-12 >= least_change && imbalance <= 1e-7,
-            "{imbalance} {least_change}: {}",
-            checked.file
-        );
+        assert!(imbalance + 1e-12 >= least_change && imbalance <= 1e-7, "{imbalance} {least_change}: {}", checked.file);
         let (mut pull, mut slip): (f64, f64) = (0.0, 0.0);
         for interface in list(&frame["interfaces"]) {
             let [a, b] = pair(&interface["normal_forces"]);
@@ -233,10 +226,7 @@ fn shares_and_forces_lie_within_the_limits_they_are_compared_with() {
         for interface in list(&frame["interfaces"]) {
             let [a, b] = pair(&interface["normal_forces"]);
             let share = number(&interface["friction_used"]);
-            assert!(
-                a >= 0.0 && b >= 0.0 && (0.0..=1.0).contains(&share),
-                "{interface}"
-            );
+            assert!(a >= 0.0 && b >= 0.0 && (0.0..=1.0).contains(&share), "{interface}");
         }
         for robot in list(&frame["robots"]) {
             let share = number(&robot["limit_used"]);
@@ -271,29 +261,16 @@ fn interfaces_lie_on_both_outlines_and_the_kernel_sets_their_application_points(
         let rings = |body: &str| -> Vec<Vec<[f64; 2]>> {
             let polygons = match body {
                 "ground" => scene.ground().iter().map(|g| &g.body.polygon).collect(),
-                id => vec![
-                    &scene
-                        .blocks()
-                        .iter()
-                        .find(|b| b.id == id)
-                        .expect("a block")
-                        .body
-                        .polygon,
-                ],
+                id => vec![&scene.blocks().iter().find(|b| b.id == id).expect("a block").body.polygon],
             };
             let rings = polygons.into_iter().flat_map(|p| p.rings());
-            rings
-                .map(|ring| ring.iter().map(|p| [p.x, p.y]).collect())
-                .collect()
+            rings.map(|ring| ring.iter().map(|p| [p.x, p.y]).collect()).collect()
         };
         let from_outline = |body: &str, at: [f64; 2]| {
             let rings = rings(body);
-            let edges = rings.iter().flat_map(|ring| {
-                (0..ring.len()).map(move |k| (ring[k], ring[(k + 1) % ring.len()]))
-            });
-            edges
-                .map(|(a, b)| distance(at, a, b))
-                .fold(f64::INFINITY, f64::min)
+            let edges =
+                rings.iter().flat_map(|ring| (0..ring.len()).map(move |k| (ring[k], ring[(k + 1) % ring.len()])));
+            edges.map(|(a, b)| distance(at, a, b)).fold(f64::INFINITY, f64::min)
         };
         let gap = number(&checked.json["contact_tolerance"]["gap"]);
         let friction = checked.file["friction"].as_f64().unwrap_or(0.7);
@@ -305,10 +282,7 @@ fn interfaces_lie_on_both_outlines_and_the_kernel_sets_their_application_points(
             for body in list(&interface["bodies"]).iter().map(name) {
                 for at in ends {
                     let off = from_outline(body, at);
-                    assert!(
-                        off <= gap + 1e-12 * reach,
-                        "{off} {gap} {body}: {interface}"
-                    );
+                    assert!(off <= gap + 1e-12 * reach, "{off} {gap} {body}: {interface}");
                 }
             }
             let normal = pair(&interface["normal"]);
@@ -320,25 +294,15 @@ fn interfaces_lie_on_both_outlines_and_the_kernel_sets_their_application_points(
             let inside = [0, 1].map(|k| middle[k] + hair * normal[k]);
             let first = name(&interface["bodies"][0]);
             let winding: i32 = rings(first).iter().map(|ring| winding(ring, inside)).sum();
-            assert!(
-                winding != 0,
-                "the normal does not point into {first}: {interface}"
-            );
+            assert!(winding != 0, "the normal does not point into {first}: {interface}");
             // The distance of an application point from its end is half of the kernel times the length.
             for (k, at) in list(&interface["application_points"]).iter().enumerate() {
-                let share = if k == 0 {
-                    0.5 * kernel
-                } else {
-                    1.0 - 0.5 * kernel
-                };
+                let share = if k == 0 { 0.5 * kernel } else { 1.0 - 0.5 * kernel };
                 let expected = [0, 1].map(|k| ends[0][k] + share * span[k]);
                 let off = norm(less(pair(at), expected));
                 assert!(off <= 1e-12 * reach, "{off} {kernel}: {interface}");
             }
-            assert!(
-                (number(&interface["mu"]) - friction).abs() <= 1e-15,
-                "{interface}"
-            );
+            assert!((number(&interface["mu"]) - friction).abs() <= 1e-15, "{interface}");
             seen += 1;
         }
     }

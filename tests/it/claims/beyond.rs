@@ -118,28 +118,17 @@ impl Beyond {
         let margins = self.checked.json["frames"][0]["margins"].clone();
         let beyond = &margins["mechanisms"];
         let file = self.checked.file.clone();
-        let this = Beyond {
-            checked: check(&file),
-            seen: 0,
-        };
+        let this = Beyond { checked: check(&file), seen: 0 };
         let friction = |mu: f64| this.with("friction", json!(mu));
         self.holds(&beyond["friction"], &margins["friction"], &friction, -1.0);
         let kernel = |kernel: f64| this.with("kernel", json!(kernel));
         self.holds(&beyond["kernel"], &margins["kernel"], &kernel, 1.0);
         let loaded = |factor: f64| this.loaded(factor);
-        self.holds(
-            &beyond["load_factor"],
-            &margins["load_factor"],
-            &loaded,
-            1.0,
-        );
+        self.holds(&beyond["load_factor"], &margins["load_factor"], &loaded, 1.0);
         let turned = |degrees: f64| this.turned(degrees);
         let pushed = |share: f64| this.pushed(share);
-        let changes: [(&str, &dyn Fn(f64) -> Value); 3] = [
-            ("tilt", &turned),
-            ("horizontal_load", &pushed),
-            ("load_factor", &loaded),
-        ];
+        let changes: [(&str, &dyn Fn(f64) -> Value); 3] =
+            [("tilt", &turned), ("horizontal_load", &pushed), ("load_factor", &loaded)];
         for (key, change) in changes {
             for (side, sign) in [("left", -1.0), ("right", 1.0)] {
                 if let Some(at) = margins[key][side].as_f64() {
@@ -166,9 +155,8 @@ impl Beyond {
             }
         }
         // Loads and limits do not turn with gravity, so a frame may stand again at other tilts; a note says so.
-        let is_noted = list(&margins["notes"])
-            .iter()
-            .any(|note| note.as_str().is_some_and(|note| note.starts_with("tilt:")));
+        let is_noted =
+            list(&margins["notes"]).iter().any(|note| note.as_str().is_some_and(|note| note.starts_with("tilt:")));
         let is_cone = file["loads"].is_null() && file["robots"].is_null();
         let has_tilt = margins["intervals"]["tilt"].is_array();
         assert_eq!(is_noted, has_tilt && !is_cone, "{margins}");
@@ -181,21 +169,11 @@ fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
     let mut pushed = wall(3, 2);
     pushed["loads"] = json!([{ "block": "4", "force": [1.0, 0.0], "at": [1.0, 0.75] }]);
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
-    held["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
+    held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
     let options = Options::default().margins(true);
     let mut seen = 0;
-    for file in [
-        arch(11, 0.3, 0.7),
-        wall(4, 3),
-        harmonic(4, 0.9),
-        pushed,
-        held,
-    ] {
-        let mut beyond = Beyond {
-            checked: check_with(&file, &options),
-            seen: 0,
-        };
+    for file in [arch(11, 0.3, 0.7), wall(4, 3), harmonic(4, 0.9), pushed, held] {
+        let mut beyond = Beyond { checked: check_with(&file, &options), seen: 0 };
         beyond.check_margins();
         seen += beyond.seen;
     }
@@ -207,12 +185,8 @@ fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
 fn hopeless() -> Vec<Value> {
     let read = |text: &str| -> Value { serde_json::from_str(text).expect("JSON") };
     let mut files = vec![
-        read(include_str!(
-            "../intervals/margin-horizontal-two-groups.json"
-        )),
-        read(include_str!(
-            "../intervals/margin-load-factor-two-groups.json"
-        )),
+        read(include_str!("../intervals/margin-horizontal-two-groups.json")),
+        read(include_str!("../intervals/margin-load-factor-two-groups.json")),
         read(include_str!("../intervals/load-factor-unbounded-ramp.json")),
         read(include_str!("../intervals/plank.json")),
     ];
@@ -252,10 +226,7 @@ fn a_scene_with_an_empty_interval_falls_at_each_value_by_a_listed_motion() {
     let turns: Vec<f64> = (0..72).map(|k| 5.0 * f64::from(k) - 178.7).collect();
     let (mut seen, mut pairs) = (Vec::new(), 0);
     for file in hopeless() {
-        let this = Beyond {
-            checked: check_with(&file, &Options::default().margins(true)),
-            seen: 0,
-        };
+        let this = Beyond { checked: check_with(&file, &Options::default().margins(true)), seen: 0 };
         let margins = this.checked.json["frames"][0]["margins"].clone();
         let excluded = &margins["excluded"];
         let friction = |mu: f64| this.with("friction", json!(mu));
@@ -282,43 +253,23 @@ fn a_scene_with_an_empty_interval_falls_at_each_value_by_a_listed_motion() {
             pairs += usize::from(list(&excluded[key]).len() == 2);
             for at in values {
                 let changed = change(*at);
-                assert!(
-                    is_excluded(&excluded[key], *at, period, &changed),
-                    "{key} {at}: {} {changed}",
-                    excluded[key]
-                );
+                assert!(is_excluded(&excluded[key], *at, period, &changed), "{key} {at}: {} {changed}", excluded[key]);
             }
         }
-        for (name, robot) in margins["intervals"]["robots"]
-            .as_object()
-            .into_iter()
-            .flatten()
-        {
+        for (name, robot) in margins["intervals"]["robots"].as_object().into_iter().flatten() {
             for key in ["fx", "fy", "torque"] {
                 let reasons = &excluded["robots"][name][key];
                 assert_eq!(robot[key].is_null(), !reasons.is_null(), "{margins}");
                 for at in grown.iter().filter(|_| robot[key].is_null()) {
                     let mut changed = file.clone();
                     changed["robots"][0]["limits"][key] = json!(at);
-                    assert!(
-                        is_excluded(reasons, *at, 0.0, &changed),
-                        "{key} {at}: {reasons}"
-                    );
+                    assert!(is_excluded(reasons, *at, 0.0, &changed), "{key} {at}: {reasons}");
                     seen.push(key);
                 }
             }
         }
     }
-    for key in [
-        "friction",
-        "kernel",
-        "tilt",
-        "horizontal_load",
-        "load_factor",
-        "fx",
-        "fy",
-        "torque",
-    ] {
+    for key in ["friction", "kernel", "tilt", "horizontal_load", "load_factor", "fx", "fy", "torque"] {
         assert!(seen.contains(&key), "no scene stands at no {key}");
     }
     assert!(pairs >= 2, "{pairs} conflicts of two groups");

@@ -59,21 +59,14 @@ fn moved_corners_are_counted_and_the_largest_move_is_stated() {
         // Rounding moves each coordinate by half a unit of the last decimal. Two corners move apart by twice this in
         // x and in y, so by √2 units. This is rounded up to one and a half units.
         let gap = 1.5e-4;
-        assert_eq!(
-            (&tolerance["from"], &tolerance["digits"]),
-            (&json!("decimals"), &json!(4))
-        );
+        assert_eq!((&tolerance["from"], &tolerance["digits"]), (&json!("decimals"), &json!(4)));
         for key in ["gap", "healed_within"] {
             let is_near = (number(&tolerance[key]) - gap).abs() < 1e-12;
             assert!(is_near, "{key}: {tolerance}");
         }
         let moves = moves(&file);
         let moved = moves.iter().filter(|by| **by > 1e-6 * gap);
-        assert_eq!(
-            tolerance["moved_corners"],
-            json!(moved.count()),
-            "{degrees}°"
-        );
+        assert_eq!(tolerance["moved_corners"], json!(moved.count()), "{degrees}°");
         let largest = moves.iter().fold(0.0_f64, |most, by| most.max(*by));
         let stated = number(&tolerance["largest_move"]);
         assert!((stated - largest).abs() < 1e-12, "{stated} of {largest} m");

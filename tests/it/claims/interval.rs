@@ -30,11 +30,7 @@ fn parameters(file: &Value) -> Vec<Parameter> {
         ("factor on the loads", "load_factor", 1.0),
         ("friction coefficient", "friction", own("friction", 0.7)),
         ("tilt of gravity", "tilt", 0.0),
-        (
-            "horizontal load, as a share of the weights",
-            "horizontal_load",
-            0.0,
-        ),
+        ("horizontal load, as a share of the weights", "horizontal_load", 0.0),
         ("safety kernel", "kernel", own("kernel", 0.0)),
     ]
     .into_iter()
@@ -47,11 +43,7 @@ fn parameters(file: &Value) -> Vec<Parameter> {
     .collect();
     for robot in list(&file["robots"]) {
         let id = robot["id"].as_str().expect("a name");
-        for (name, key) in [
-            ("horizontal force", "fx"),
-            ("vertical force", "fy"),
-            ("torque", "torque"),
-        ] {
+        for (name, key) in [("horizontal force", "fx"), ("vertical force", "fy"), ("torque", "torque")] {
             all.push(Parameter {
                 name: format!("limit of the {name} of robot {id}"),
                 pointer: format!("/robots/{id}/{key}"),
@@ -100,8 +92,7 @@ fn scenes() -> Vec<Statements> {
         "blocks": [{ "id": "plank", "polygon": [[1, 0], [9, 0], [9, 1], [1, 1]], "weight": 6 }],
         "loads": [{ "block": "plank", "force": [0, -3], "at": [2.5, 1] }] });
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
-    held["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
+    held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
     // It slides at 0.7 · 6 / 1.1 times its load.
     let pushed = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": [[0, -1], [9, -1], [9, 0], [0, 0]] }],
@@ -112,12 +103,8 @@ fn scenes() -> Vec<Statements> {
         plank,
         read(include_str!("../intervals/plank.json")),
         read(include_str!("../intervals/archmech.json")),
-        read(include_str!(
-            "../intervals/margin-horizontal-two-groups.json"
-        )),
-        read(include_str!(
-            "../intervals/margin-load-factor-two-groups.json"
-        )),
+        read(include_str!("../intervals/margin-horizontal-two-groups.json")),
+        read(include_str!("../intervals/margin-load-factor-two-groups.json")),
         wall(3, 2),
         held,
     ];
@@ -127,9 +114,7 @@ fn scenes() -> Vec<Statements> {
 /// The sentence after the name of a margin in the terminal's table.
 fn sentence<'a>(table: &'a str, name: &str) -> Option<&'a str> {
     let start = format!("{name}: ");
-    table
-        .lines()
-        .find_map(|line| line.trim().strip_prefix(&start))
+    table.lines().find_map(|line| line.trim().strip_prefix(&start))
 }
 
 /// The numbers of a sentence. A number that is followed by "left" is negative.
@@ -160,10 +145,7 @@ fn bars(page: &str) -> Vec<&str> {
 }
 
 fn class<'a>(bar: Node<'a, 'a>, class: &str) -> Vec<Node<'a, 'a>> {
-    let has = |node: &Node| {
-        node.attribute("class")
-            .is_some_and(|all| all.split(' ').any(|c| c == class))
-    };
+    let has = |node: &Node| node.attribute("class").is_some_and(|all| all.split(' ').any(|c| c == class));
     bar.descendants().filter(has).collect()
 }
 
@@ -181,12 +163,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
         for parameter in parameters(&stated.file) {
             let intervals = &stated.frame["margins"]["intervals"];
             let Some(interval) = intervals.pointer(&parameter.pointer) else {
-                assert_eq!(
-                    sentence(&stated.table, &parameter.name),
-                    None,
-                    "{}",
-                    stated.table
-                );
+                assert_eq!(sentence(&stated.table, &parameter.name), None, "{}", stated.table);
                 assert!(!stated.page.contains(&parameter.name));
                 continue;
             };
@@ -199,12 +176,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
                 .find(|bar| bar.root_element().attribute("aria-label") == Some(label.as_str()))
                 .unwrap_or_else(|| panic!("a bar for {label}"));
             let excluded = stated.frame["margins"]["excluded"].pointer(&parameter.pointer);
-            check_words(
-                &parameter,
-                interval,
-                excluded.unwrap_or(&Value::Null),
-                words,
-            );
+            check_words(&parameter, interval, excluded.unwrap_or(&Value::Null), words);
             check_bar(&parameter, interval, bar.root_element());
             match (interval.is_null(), contains(interval, parameter.present)) {
                 (true, _) => never += 1,
@@ -224,10 +196,7 @@ fn words_and_bars_state_the_intervals_of_the_result() {
             }
         }
     }
-    assert!(
-        inside > 8 && outside > 6 && never > 6,
-        "{inside} {outside} {never}"
-    );
+    assert!(inside > 8 && outside > 6 && never > 6, "{inside} {outside} {never}");
 }
 
 /// The finite ends of an interval. A lower end of 0 is left out if the parameter cannot be negative.
@@ -268,38 +237,19 @@ fn check_words(parameter: &Parameter, interval: &Value, excluded: &Value, words:
     assert_eq!(found.len(), expected.len(), "{words}: {interval}");
     for (found, expected) in found.iter().zip(&expected) {
         // Four digits are written.
-        assert!(
-            (found - expected).abs() <= 6e-4 * expected.abs(),
-            "{words}: {interval}"
-        );
+        assert!((found - expected).abs() <= 6e-4 * expected.abs(), "{words}: {interval}");
     }
     assert_eq!(words.contains(" no "), interval.is_null(), "{words}");
     if interval.is_null() {
         return;
     }
     let is_outside = !contains(interval, parameter.present);
-    assert_eq!(
-        words.ends_with(", outside"),
-        is_outside,
-        "{words}: {interval}"
-    );
+    assert_eq!(words.ends_with(", outside"), is_outside, "{words}: {interval}");
     let is_one_of = |list: &[&str]| list.iter().any(|part| words.contains(part));
     let bound = (low.is_some(), high.is_some());
-    assert_eq!(
-        is_one_of(&["any factor", "at any value"]),
-        bound == (false, false),
-        "{words}"
-    );
-    assert_eq!(
-        is_one_of(&["at least", "and more", "without a limit to the right"]),
-        bound == (true, false),
-        "{words}"
-    );
-    assert_eq!(
-        is_one_of(&["at most", "up to", "without a limit to the left"]),
-        bound == (false, true),
-        "{words}"
-    );
+    assert_eq!(is_one_of(&["any factor", "at any value"]), bound == (false, false), "{words}");
+    assert_eq!(is_one_of(&["at least", "and more", "without a limit to the right"]), bound == (true, false), "{words}");
+    assert_eq!(is_one_of(&["at most", "up to", "without a limit to the left"]), bound == (false, true), "{words}");
 }
 
 /// Asserts that all marks of a bar lie on one scale. Its 0 is at the left end of the track, or in the middle if the
@@ -308,26 +258,16 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     let one = |name: &str| class(bar, name).into_iter().next().expect("one");
     let track = one("all");
     let (left, width) = (coordinate(track, "x"), coordinate(track, "width"));
-    let zero = if parameter.is_signed {
-        left + width / 2.0
-    } else {
-        left
-    };
+    let zero = if parameter.is_signed { left + width / 2.0 } else { left };
     let [low, high] = finite(parameter, interval);
     let mut marks: Vec<(f64, f64)> = Vec::new();
-    let strokes = class(bar, "edge")
-        .into_iter()
-        .map(|edge| coordinate(edge, "x1"));
+    let strokes = class(bar, "edge").into_iter().map(|edge| coordinate(edge, "x1"));
     let ends = [low, high].into_iter().flatten();
     assert_eq!(strokes.len(), ends.clone().count(), "{interval}");
     marks.extend(strokes.zip(ends));
     let now = one("now");
     let is_outside = !contains(interval, parameter.present);
-    assert_eq!(
-        now.has_tag_name("path"),
-        is_outside,
-        "a cross outside, a disc inside"
-    );
+    assert_eq!(now.has_tag_name("path"), is_outside, "a cross outside, a disc inside");
     let at = if is_outside {
         let path = now.attribute("d").expect("a path").trim_start_matches('M');
         let start = path.split(' ').next().expect("a number");
@@ -339,10 +279,7 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
     assert_eq!(class(bar, "safe").is_empty(), interval.is_null());
     if !interval.is_null() {
         let safe = one("safe");
-        let (from, to) = (
-            coordinate(safe, "x"),
-            coordinate(safe, "x") + coordinate(safe, "width"),
-        );
+        let (from, to) = (coordinate(safe, "x"), coordinate(safe, "x") + coordinate(safe, "width"));
         match low {
             Some(low) => marks.push((from, low)),
             None => assert!((from - left).abs() < 0.11, "open or begins at 0"),
@@ -352,26 +289,17 @@ fn check_bar(parameter: &Parameter, interval: &Value, bar: Node) {
             None => assert!((to - left - width).abs() < 0.11, "open to the right"),
         }
         let is_kernel = parameter.pointer == "/kernel";
-        let open = [&interval[0], &interval[1]]
-            .into_iter()
-            .filter(|end| end.is_null());
+        let open = [&interval[0], &interval[1]].into_iter().filter(|end| end.is_null());
         let arrows = if is_kernel { 0 } else { open.count() };
         assert_eq!(class(bar, "open").len(), arrows, "{interval}");
     }
     let farthest = marks.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let (end, value) = *farthest.expect("marks");
-    let pixels = if value == 0.0 {
-        0.0
-    } else {
-        (end - zero) / value
-    };
+    let pixels = if value == 0.0 { 0.0 } else { (end - zero) / value };
     assert!(pixels >= 0.0);
     for (at, value) in marks {
         // Positions are written to a tenth of a pixel, and the scale is read from one of them.
         let expected = zero + pixels * value;
-        assert!(
-            (at - expected).abs() < 0.25,
-            "{at} for {value}, not {expected}: {interval}"
-        );
+        assert!((at - expected).abs() < 0.25, "{at} for {value}, not {expected}: {interval}");
     }
 }

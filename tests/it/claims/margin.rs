@@ -17,16 +17,9 @@ fn margins_agree_with_verdicts_on_either_side() {
     pushed["loads"] = json!([{ "block": "4", "force": [1.0, 0.0], "at": [1.0, 0.75] }]);
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
     // With a vertical limit this small, the robot needs its horizontal force.
-    held["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 0.1, "torque": 9 } }]);
+    held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 0.1, "torque": 9 } }]);
     let mut compared = 0;
-    for file in [
-        arch(11, 0.3, 0.7),
-        wall(4, 3),
-        harmonic(4, 0.9),
-        pushed,
-        held,
-    ] {
+    for file in [arch(11, 0.3, 0.7), wall(4, 3), harmonic(4, 0.9), pushed, held] {
         let options = Options::default().margins(true);
         let json = check_with(&file, &options).json;
         let margins = &json["frames"][0]["margins"];
@@ -37,15 +30,8 @@ fn margins_agree_with_verdicts_on_either_side() {
             for (share, inside) in [(1.0 - 1e-5, more_is_worse), (1.0 + 1e-5, !more_is_worse)] {
                 let changed = change(at * share);
                 let verdict = Analysis::new(scene(&changed)).frames[0].verdict;
-                let expected = if inside {
-                    Verdict::Stable
-                } else {
-                    Verdict::Unstable
-                };
-                assert_eq!(
-                    verdict, expected,
-                    "{at} times {share} in {margins}: {changed}"
-                );
+                let expected = if inside { Verdict::Stable } else { Verdict::Unstable };
+                assert_eq!(verdict, expected, "{at} times {share} in {margins}: {changed}");
                 compared += 1;
             }
         };
@@ -55,12 +41,8 @@ fn margins_agree_with_verdicts_on_either_side() {
             changed[key] = value;
             changed
         };
-        agrees(&margins["friction"], false, &|mu| {
-            with("friction", json!(mu))
-        });
-        agrees(&margins["kernel"], true, &|kernel| {
-            with("kernel", json!(kernel))
-        });
+        agrees(&margins["friction"], false, &|mu| with("friction", json!(mu)));
+        agrees(&margins["kernel"], true, &|kernel| with("kernel", json!(kernel)));
         agrees(&margins["load_factor"], true, &|factor| {
             let mut changed = file.clone();
             for load in changed["loads"].as_array_mut().expect("loads") {
@@ -74,10 +56,7 @@ fn margins_agree_with_verdicts_on_either_side() {
             if file["loads"].is_null() {
                 agrees(&margins["tilt"][side], true, &|degrees| {
                     let angle = degrees.to_radians();
-                    with(
-                        "gravity",
-                        json!([sign * libm::sin(angle), -libm::cos(angle)]),
-                    )
+                    with("gravity", json!([sign * libm::sin(angle), -libm::cos(angle)]))
                 });
             }
             agrees(&margins["horizontal_load"][side], true, &|share| {
@@ -130,9 +109,7 @@ fn assert_margins_are_ends(margins: &Value) {
 /// The text of a figure `--kind margin` states the interval of the result, whether or not the frame stands as it is.
 #[test]
 fn the_figure_of_a_margin_states_the_interval_of_the_result() {
-    let options = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
     // A plank overhangs its support; the load is a counterweight of which at least a third is needed.
     let plank = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],
@@ -157,38 +134,22 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
         let ends = [&interval[0], &interval[1]].map(Value::as_f64);
         // Numbers are written with four digits.
         let near = |exact: f64| {
-            let numbers = words
-                .split([' ', ','])
-                .filter_map(|word| word.parse::<f64>().ok());
-            numbers
-                .into_iter()
-                .any(|value| (value - exact).abs() <= 6e-4 * exact)
+            let numbers = words.split([' ', ',']).filter_map(|word| word.parse::<f64>().ok());
+            numbers.into_iter().any(|value| (value - exact).abs() <= 6e-4 * exact)
         };
         if number_of == 0 {
             // The weight acts 1 m outside the ground's edge at x = 4 m, the load 1.5 m inside: 6·1 = 12·1.5·f.
-            assert!(
-                ends[0].is_some_and(|low| (low - 1.0 / 3.0).abs() < 1e-6),
-                "{interval}"
-            );
-            assert!(
-                words.contains("without limit; falls once they are 0.3333 times"),
-                "{words}"
-            );
+            assert!(ends[0].is_some_and(|low| (low - 1.0 / 3.0).abs() < 1e-6), "{interval}");
+            assert!(words.contains("without limit; falls once they are 0.3333 times"), "{words}");
         }
         if interval == "withheld" {
             assert!(words.contains("not confirmed"), "{words}: {file}");
             continue;
         }
-        match (
-            frame["verdict"].as_str().expect("a word"),
-            interval.is_null(),
-        ) {
+        match (frame["verdict"].as_str().expect("a word"), interval.is_null()) {
             (verdict, true) => {
                 assert_ne!(verdict, "stable", "{file}");
-                assert!(
-                    words.contains("falls at every factor on its loads"),
-                    "{words}"
-                );
+                assert!(words.contains("falls at every factor on its loads"), "{words}");
                 never += 1;
             }
             ("stable", false) => {
@@ -200,22 +161,13 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
             }
             (_, false) => {
                 let low = ends[0].filter(|low| *low > 0.0);
-                assert!(
-                    words.contains("as it is; stands with its loads"),
-                    "{words}: {file}"
-                );
-                for end in [low, ends[1].filter(|high| *high > 0.0)]
-                    .into_iter()
-                    .flatten()
-                {
+                assert!(words.contains("as it is; stands with its loads"), "{words}: {file}");
+                for end in [low, ends[1].filter(|high| *high > 0.0)].into_iter().flatten() {
                     assert!(near(end), "{end}: {words}: {file}");
                 }
                 falling += 1;
             }
         }
     }
-    assert!(
-        standing > 5 && falling > 3 && never > 3,
-        "{standing} {falling} {never}"
-    );
+    assert!(standing > 5 && falling > 3 && never > 3, "{standing} {falling} {never}");
 }

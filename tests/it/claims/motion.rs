@@ -7,15 +7,9 @@ use crate::structure::scene;
 
 /// The velocity of a point of a body. The ground and bodies that are not listed are at rest.
 fn speed(frame: &Value, centroid: &dyn Fn(&str) -> [f64; 2], body: &str, at: [f64; 2]) -> [f64; 2] {
-    let moves = list(&frame["mechanism"])
-        .iter()
-        .find(|m| m["block"] == body);
+    let moves = list(&frame["mechanism"]).iter().find(|m| m["block"] == body);
     moves.map_or([0.0; 2], |m| {
-        let (v, spin, arm) = (
-            pair(&m["velocity"]),
-            number(&m["spin"]),
-            less(at, centroid(body)),
-        );
+        let (v, spin, arm) = (pair(&m["velocity"]), number(&m["spin"]), less(at, centroid(body)));
         [v[0] - spin * arm[1], v[1] + spin * arm[0]]
     })
 }
@@ -52,17 +46,10 @@ fn no_contact_force_opposes_a_mechanism_and_its_fastest_point_has_speed_one() {
             let mu = number(&interface["mu"]);
             for at in list(&interface["application_points"]) {
                 let at = pair(at);
-                let apart = less(
-                    speed(frame, &centroid, a, at),
-                    speed(frame, &centroid, b, at),
-                );
+                let apart = less(speed(frame, &centroid, a, at), speed(frame, &centroid, b, at));
                 // No admissible contact force n ± μ t may take power from the motion.
                 let power = dot(apart, normal) - mu * dot(apart, tangent).abs();
-                assert!(
-                    power >= -1e-5 * (1.0 + mu),
-                    "{interface} {power}: {}",
-                    checked.file
-                );
+                assert!(power >= -1e-5 * (1.0 + mu), "{interface} {power}: {}", checked.file);
             }
         }
     }
@@ -87,10 +74,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
         assert!(power > 0.0 && violation >= 0.0, "{proof}");
         match proof["no_balance_below"].as_f64() {
             Some(sum) => assert!((sum * violation - power).abs() <= 1e-9 * power, "{proof}"),
-            None => assert_eq!(
-                (&proof["no_balance_below"], violation),
-                (&"unbounded".into(), 0.0)
-            ),
+            None => assert_eq!((&proof["no_balance_below"], violation), (&"unbounded".into(), 0.0)),
         }
         let scene = scene(&checked.file);
         let moves = |id: &str| list(&frame["mechanism"]).iter().find(|m| m["block"] == id);
@@ -114,9 +98,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
             let arms = block.body.polygon.outline().iter();
             let arms: Vec<[f64; 2]> = arms.map(|p| less([p.x, p.y], centroid)).collect();
             let radius = arms.iter().map(|a| dot(*a, *a).sqrt()).fold(0.0, f64::max);
-            let speeds = arms
-                .iter()
-                .map(|a| [v[0] - spin * a[1], v[1] + spin * a[0]]);
+            let speeds = arms.iter().map(|a| [v[0] - spin * a[1], v[1] + spin * a[0]]);
             let speed = speeds.map(|v| dot(v, v).sqrt()).fold(0.0, f64::max);
             let gross = block.weight + dot(listed, listed).sqrt() + moment.abs() / radius;
             loads += gross * speed;
@@ -130,9 +112,7 @@ fn the_numbers_of_a_proof_by_a_motion_are_those_of_the_listed_motion() {
             let arm = less(pair(&robot["at"]), [block.centroid.x, block.centroid.y]);
             let (v, spin) = (pair(&moving["velocity"]), number(&moving["spin"]));
             let at_grip = [v[0] - spin * arm[1], v[1] + spin * arm[0]];
-            let listed = list(&checked.file["robots"])
-                .iter()
-                .find(|r| r["id"] == robot["id"]);
+            let listed = list(&checked.file["robots"]).iter().find(|r| r["id"] == robot["id"]);
             let limits = &listed.expect("a robot of the file")["limits"];
             for (key, speed) in [("fx", at_grip[0]), ("fy", at_grip[1]), ("torque", spin)] {
                 let own = limits[key].as_f64();

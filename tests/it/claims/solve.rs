@@ -111,10 +111,7 @@ fn the_method_is_that_of_the_hardest_group() {
         let at = rectangle(0.25 * f64::from(k), f64::from(k), 1.0, 1.0);
         block(&k.to_string(), at, 1.0)
     });
-    for file in [
-        on_floor(0.7, stack.collect()),
-        on_slope(20.0, 2.0, 1.0, 0.6, 0.2),
-    ] {
+    for file in [on_floor(0.7, stack.collect()), on_slope(20.0, 2.0, 1.0, 0.6, 0.2)] {
         let solve = &check(&file).json["frames"][0]["solve"];
         let found = (&solve["method"], count(&solve["programs"]));
         assert_eq!(found, (&json!("closed form"), 0), "{file}");
@@ -126,10 +123,7 @@ fn the_method_is_that_of_the_hardest_group() {
         let ground = json!({ "polygon": rectangle(64.0, -1.0, 9.0, 1.0) });
         both["ground"].as_array_mut().expect("a list").push(ground);
         let separate = block("separate", rectangle(65.0, 0.0, 1.0, 1.0), 1.0);
-        both["blocks"]
-            .as_array_mut()
-            .expect("a list")
-            .push(separate);
+        both["blocks"].as_array_mut().expect("a list").push(separate);
     }
 }
 
@@ -137,10 +131,7 @@ fn the_method_is_that_of_the_hardest_group() {
 #[test]
 fn groups_of_an_earlier_frame_are_reused_and_cost_no_program() {
     let mut file = arches(2);
-    let names: Vec<Value> = list(&file["blocks"])
-        .iter()
-        .map(|body| body["id"].clone())
-        .collect();
+    let names: Vec<Value> = list(&file["blocks"]).iter().map(|body| body["id"].clone()).collect();
     let (first, second) = names.split_at(names.len() / 2);
     file["steps"] = json!([{ "place": first }, { "place": second }, { "remove": second }]);
     let frames = check(&file).json["frames"].clone();
@@ -160,10 +151,7 @@ fn groups_of_an_earlier_frame_are_reused_and_cost_no_program() {
 #[test]
 fn times_do_not_exceed_the_time_of_the_call() {
     let file = arch(11, 0.3, 0.7);
-    for (requested, options) in [
-        (false, Options::default()),
-        (true, Options::default().margins(true).wedging(true)),
-    ] {
+    for (requested, options) in [(false, Options::default()), (true, Options::default().margins(true).wedging(true))] {
         let start = Instant::now();
         let analysis = Analysis::with(scene(&file), &options);
         let took = start.elapsed().as_secs_f64();

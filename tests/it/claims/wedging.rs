@@ -16,24 +16,15 @@ fn wedging_is_reported_with_its_reason() {
         "blocks": [block("bar", rectangle(0.0, 0.0, 3.0, 0.5), 7.0)] });
     let frame = |checked: &Checked| checked.json["frames"][0].clone();
     let why = |frame: &Value| {
-        let effect = list(&frame["effects"])
-            .iter()
-            .find(|e| e["effect"] == "wedging");
-        effect.expect("every effect is listed")["why"]
-            .as_str()
-            .expect("words")
-            .to_string()
+        let effect = list(&frame["effects"]).iter().find(|e| e["effect"] == "wedging");
+        effect.expect("every effect is listed")["why"].as_str().expect("words").to_string()
     };
     assert!(frame(&check(&between)).get("only_by_wedging").is_none());
     let wedged = frame(&check_with(&between, &with_wedging));
     assert_eq!(wedged["only_by_wedging"], json!(true));
     // Friction of 0.7 must carry 7 N, so both faces together press with at least 10 N.
     assert!(why(&wedged).contains("1.000e1 N"), "{}", why(&wedged));
-    assert!(
-        why(&wedged).contains("these blocks move: bar (they press no contact)"),
-        "{}",
-        why(&wedged)
-    );
+    assert!(why(&wedged).contains("these blocks move: bar (they press no contact)"), "{}", why(&wedged));
     let stands = frame(&check_with(&wall(2, 2), &with_wedging));
     assert_eq!(stands["only_by_wedging"], json!(false));
     let falls = frame(&check_with(&harmonic(4, 1.1), &with_wedging));
@@ -68,8 +59,7 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
         let velocity = |motion: &Value, body: &Value, at: [f64; 2]| {
             let of = list(motion).iter().find(|m| m["block"] == *body);
             of.map_or([0.0, 0.0], |m| {
-                let ([x, y], [u, v], spin) =
-                    (pair(&m["at"]), pair(&m["velocity"]), number(&m["spin"]));
+                let ([x, y], [u, v], spin) = (pair(&m["at"]), pair(&m["velocity"]), number(&m["spin"]));
                 [u - spin * (at[1] - y), v + spin * (at[0] - x)]
             })
         };
@@ -102,10 +92,7 @@ fn the_certificate_of_wedging_is_checked_from_the_result_alone() {
         assert_eq!(wedging["presses_nothing"], json!(true));
         // The contact forces take the power of the loads. So in any balance, the listed faces press with at least
         // this force.
-        assert!(
-            (power - at_least).abs() < 1e-5 * at_least,
-            "{power} {at_least}"
-        );
+        assert!((power - at_least).abs() < 1e-5 * at_least, "{power} {at_least}");
         assert!(pressed > (1.0 - 1e-6) * at_least, "{pressed} {at_least}");
     }
 }

@@ -38,21 +38,12 @@ fn tables(all: &[Checked]) -> Vec<String> {
         names.push(name);
     }
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_drystone"));
-    command
-        .args(["check", "--verbose"])
-        .args(&names)
-        .current_dir(folder.path());
-    let out = command
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("starts")
-        .stdout;
+    command.args(["check", "--verbose"]).args(&names).current_dir(folder.path());
+    let out = command.env("NO_COLOR", "1").output().expect("starts").stdout;
     let text = String::from_utf8(out).expect("UTF-8");
     let begins = |name: &String| text.find(name.as_str()).expect("every scene has a table");
     let starts: Vec<usize> = names.iter().map(begins).chain([text.len()]).collect();
-    let parts = starts
-        .windows(2)
-        .map(|part| text[part[0]..part[1]].to_owned());
+    let parts = starts.windows(2).map(|part| text[part[0]..part[1]].to_owned());
     parts.collect()
 }
 
@@ -71,27 +62,15 @@ fn the_terminals_table_says_what_the_result_says() {
         };
         assert!(row.contains(word), "{word}: {table}");
         let sums = table.lines().nth(3).expect("the sums").trim();
-        let parts = sums
-            .strip_prefix("forces ")
-            .and_then(|rest| rest.split_once(", sticking "));
+        let parts = sums.strip_prefix("forces ").and_then(|rest| rest.split_once(", sticking "));
         let (forces, rest) = parts.expect("forces and sticking");
         let (sticking, proof) = rest.split_once("; proof: ").expect("a proof");
-        let cells: Vec<&str> = row
-            .split("  ")
-            .map(str::trim)
-            .filter(|c| !c.is_empty())
-            .collect();
+        let cells: Vec<&str> = row.split("  ").map(str::trim).filter(|c| !c.is_empty()).collect();
         let [_, _, weight, _, _, friction, ref robots @ ..] = cells[..] else {
             panic!("six or seven cells: {table}");
         };
-        assert!(
-            is_near(numbers(weight)[0], number(&frame["weight"])),
-            "{table}"
-        );
-        assert!(
-            is_near(numbers(forces)[0], number(&frame["total_force"])),
-            "{table}"
-        );
+        assert!(is_near(numbers(weight)[0], number(&frame["weight"])), "{table}");
+        assert!(is_near(numbers(forces)[0], number(&frame["total_force"])), "{table}");
         let total = number(&frame["total_sticking"]);
         match numbers(sticking)[..] {
             [written] => assert!(is_near(written, total), "{table}"),
@@ -100,16 +79,10 @@ fn the_terminals_table_says_what_the_result_says() {
         // Shares are written to a tenth of a percent.
         if word == " stands " {
             let share = 100.0 * largest(&frame["interfaces"], "friction_used");
-            assert!(
-                (numbers(friction)[0] - share).abs() <= 0.051,
-                "{share}: {table}"
-            );
+            assert!((numbers(friction)[0] - share).abs() <= 0.051, "{share}: {table}");
             if !list(&frame["robots"]).is_empty() {
                 let share = 100.0 * largest(&frame["robots"], "limit_used");
-                assert!(
-                    (numbers(robots[0])[0] - share).abs() <= 0.051,
-                    "{share}: {table}"
-                );
+                assert!((numbers(robots[0])[0] - share).abs() <= 0.051, "{share}: {table}");
             }
         } else {
             assert_eq!(friction, "-", "{table}");
@@ -120,18 +93,11 @@ fn the_terminals_table_says_what_the_result_says() {
             failures += 1;
         }
         let more = list(&frame["failures"]).len().saturating_sub(12);
-        assert_eq!(
-            table.contains(&format!("and {more} more")),
-            more > 0,
-            "{table}"
-        );
+        assert_eq!(table.contains(&format!("and {more} more")), more > 0, "{table}");
         for block in list(&frame["unsupported"]) {
             let block = block.as_str().expect("a name");
             let line = table.lines().find(|line| line.contains("nothing carries"));
-            assert!(
-                line.is_some_and(|line| line.contains(block)),
-                "{block}: {table}"
-            );
+            assert!(line.is_some_and(|line| line.contains(block)), "{block}: {table}");
             unsupported += 1;
         }
         for notice in list(&frame["notices"]) {
@@ -144,8 +110,7 @@ fn the_terminals_table_says_what_the_result_says() {
 
 /// Whether `written` is `exact`, rounded to one digit, as in `3e-12`.
 fn is_rough(written: f64, exact: f64) -> bool {
-    (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor())
-        || written == exact
+    (written - exact).abs() <= 0.51 * libm::pow(10.0, libm::log10(exact.abs()).floor()) || written == exact
 }
 
 fn assert_proof(words: &str, proof: &Value) {
@@ -153,21 +118,12 @@ fn assert_proof(words: &str, proof: &Value) {
     if proof["power"].is_null() {
         let worst = ["worst_imbalance", "worst_pull", "worst_slip"].map(|key| number(&proof[key]));
         let worst = worst.into_iter().fold(0.0, f64::max);
-        assert!(
-            words.starts_with("forces balance to") && is_rough(values[0], worst),
-            "{words} {proof}"
-        );
+        assert!(words.starts_with("forces balance to") && is_rough(values[0], worst), "{words} {proof}");
         return;
     }
-    assert!(
-        is_near(values[0], number(&proof["power"])),
-        "{words} {proof}"
-    );
+    assert!(is_near(values[0], number(&proof["power"])), "{words} {proof}");
     match proof["no_balance_below"].as_f64() {
-        Some(sum) => assert!(
-            words.contains("no balance below") && is_rough(values[1], sum),
-            "{words} {proof}"
-        ),
+        Some(sum) => assert!(words.contains("no balance below") && is_rough(values[1], sum), "{words} {proof}"),
         None => assert!(words.contains("no balance at all"), "{words} {proof}"),
     }
 }
@@ -177,19 +133,14 @@ fn says_failure(text: &str, failure: &Value) -> bool {
     let name = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let says = |line: &str, words: &str, values: &[f64]| {
         let written = numbers(line);
-        line.contains(words)
-            && (values.iter()).all(|value| written.iter().any(|w| is_near(*w, *value)))
+        line.contains(words) && (values.iter()).all(|value| written.iter().any(|w| is_near(*w, *value)))
     };
     let (force, torque) = (&failure["force"], &failure["torque"]);
     let (words, values) = match failure["kind"].as_str().expect("a kind") {
         kind @ ("tension" | "friction") => {
             let [a, b] = [0, 1].map(|k| name(&failure["bodies"][k]));
             let at = pair(&failure["at"]);
-            let verb = if kind == "tension" {
-                "comes off"
-            } else {
-                "slides along"
-            };
+            let verb = if kind == "tension" { "comes off" } else { "slides along" };
             let amount = dot(pair(force), pair(force)).sqrt();
             (format!("{a} {verb} {b} at"), vec![at[0], at[1], amount])
         }
@@ -204,10 +155,7 @@ fn says_failure(text: &str, failure: &Value) -> bool {
                 "robot_torque" => " additional anticlockwise torque",
                 _ => " additional force",
             };
-            (
-                format!("robot {robot} cannot hold {block}: it would need an{sense}"),
-                values,
-            )
+            (format!("robot {robot} cannot hold {block}: it would need an{sense}"), values)
         }
     };
     text.lines().any(|line| says(line, &words, &values))
@@ -232,9 +180,7 @@ fn amount(text: &str) -> (f64, Option<f64>) {
         Some('G') => 1e9,
         _ => 1.0,
     };
-    let at = words
-        .nth(1)
-        .and_then(|word| word.trim_end_matches('°').parse().ok());
+    let at = words.nth(1).and_then(|word| word.trim_end_matches('°').parse().ok());
     (value * factor, at)
 }
 
@@ -259,22 +205,14 @@ fn titles_of_arrows_state_the_forces_of_the_result() {
                 let (written, at) = amount(written_amount);
                 let size = dot(force, force).sqrt();
                 let angle = libm::atan2(force[1], force[0]).to_degrees();
-                let off = at.map_or(0.0, |at: f64| {
-                    (at - angle + 540.0).rem_euclid(360.0) - 180.0
-                });
+                let off = at.map_or(0.0, |at: f64| (at - angle + 540.0).rem_euclid(360.0) - 180.0);
                 written.is_nan() || ((written - size).abs() <= 5.1e-3 * size && off.abs() <= 0.51)
             };
-            if let Some((on, from)) =
-                (what.strip_prefix("Force on block ")).and_then(|w| w.split_once(" from "))
-            {
+            if let Some((on, from)) = (what.strip_prefix("Force on block ")).and_then(|w| w.split_once(" from ")) {
                 if let Some(robot) = from.strip_prefix("robot ") {
                     let given = list(&frame["robots"]).iter();
                     let mut given = given.filter(|r| r["id"] == robot && r["holds"] == on);
-                    assert!(
-                        given.any(|r| fits(pair(&r["force"]))),
-                        "{title}: {}",
-                        checked.file
-                    );
+                    assert!(given.any(|r| fits(pair(&r["force"]))), "{title}: {}", checked.file);
                     robots += 1;
                     continue;
                 }
@@ -296,18 +234,12 @@ fn titles_of_arrows_state_the_forces_of_the_result() {
             } else if let Some(on) = what.strip_prefix("Weight of block ") {
                 let block = scene.blocks().iter().find(|b| b.id == on).expect("a block");
                 let down = scene.down();
-                assert!(
-                    fits([down.x * block.weight, down.y * block.weight]),
-                    "{title}"
-                );
+                assert!(fits([down.x * block.weight, down.y * block.weight]), "{title}");
                 weights += 1;
             }
         }
     }
-    assert!(
-        contacts > 100 && weights > 50 && robots > 3,
-        "{contacts} {weights} {robots}"
-    );
+    assert!(contacts > 100 && weights > 50 && robots > 3, "{contacts} {weights} {robots}");
 }
 
 /// Unsupported blocks are reported with the correct reason: no path leads from them to the ground, or there is one
@@ -327,10 +259,7 @@ fn unsupported_blocks_are_reported_with_their_true_reason() {
     assert_eq!(frame["unsupported"], json!(["tip", "a", "b"]));
     let table = tables(&[checked]).remove(0);
     let says = |part: &str| table.lines().any(|line| line.trim() == part);
-    assert!(
-        says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"),
-        "{table}"
-    );
+    assert!(says("nothing carries a, b: no chain of contacts leads to the ground or to a robot"), "{table}");
     let touches = "nothing carries tip: even if all contacts could stick and no robot had limits, no forces would balance the loads";
     assert!(says(touches), "{table}");
 }

@@ -14,10 +14,7 @@ fn a_feather_on_a_mountain_is_judged_by_its_own_weight() {
         let mountain = 6.0 * libm::exp10(f64::from(exponent));
         let build = |x: f64| {
             let big = block("mountain", rectangle(0.0, 0.0, 2.0, 1.0), mountain);
-            on_floor(
-                0.5,
-                vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)],
-            )
+            on_floor(0.5, vec![big, block("feather", rectangle(x, 1.0, 1.0, 0.1), 6.0)])
         };
         assert_eq!(verdict(&build(1.6)), FALLS, "1e{exponent}");
         assert_eq!(verdict(&build(1.4)), STANDS, "1e{exponent}");
@@ -49,10 +46,7 @@ fn non_binding_limits_change_nothing() {
     let totals = |file: &Value| {
         let scene = scene(file);
         let frames = Analysis::new(&scene).frames;
-        frames
-            .iter()
-            .map(|f| (f.verdict, f.total_force, f.total_sticking))
-            .collect::<Vec<_>>()
+        frames.iter().map(|f| (f.verdict, f.total_force, f.total_sticking)).collect::<Vec<_>>()
     };
     let expected = totals(&file);
     for limit in [1e2, 1e6, 1e9, 1e12] {
@@ -61,10 +55,7 @@ fn non_binding_limits_change_nothing() {
         }
         for (a, b) in totals(&file).iter().zip(&expected) {
             assert_eq!(a.0, b.0, "{limit}");
-            assert!(
-                (a.1 - b.1).abs() < 1e-8 && (a.2 - b.2).abs() < 1e-8,
-                "{limit}: {a:?} {b:?}"
-            );
+            assert!((a.1 - b.1).abs() < 1e-8 && (a.2 - b.2).abs() < 1e-8, "{limit}: {a:?} {b:?}");
         }
     }
 }
@@ -92,10 +83,7 @@ fn a_wall_a_million_block_lengths_from_the_origin() {
     for list in ["ground", "blocks"] {
         for body in file[list].as_array_mut().unwrap() {
             for corner in body["polygon"].as_array_mut().unwrap() {
-                *corner = json!([
-                    corner[0].as_f64().unwrap() + 1e6,
-                    corner[1].as_f64().unwrap() - 1e6
-                ]);
+                *corner = json!([corner[0].as_f64().unwrap() + 1e6, corner[1].as_f64().unwrap() - 1e6]);
             }
         }
     }
@@ -137,11 +125,7 @@ fn a_binding_limit_keeps_the_least_sum_of_forces() {
                    { "holds": "2", "at": [0.375, 0.921875], "limits": { "fx": 5.5, "torque": 3 } }] });
     let frame = first(&file);
     // The optimum of an exact program. Least squares over a face without the limit gave 33.3959.
-    assert!(
-        (frame.total_force / 33.323_081_432_182_72 - 1.0).abs() < 1e-9,
-        "{}",
-        frame.total_force
-    );
+    assert!((frame.total_force / 33.323_081_432_182_72 - 1.0).abs() < 1e-9, "{}", frame.total_force);
 }
 
 /// The adhesion against a light load is less than a millionth of the adhesion that the weights need. The sum must
@@ -151,21 +135,14 @@ fn the_adhesion_against_a_light_load_is_included() {
     let push = 8e-7;
     let mut file = on_floor(
         0.0,
-        vec![
-            block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0),
-            block("b", rectangle(0.75, 1.0, 1.0, 1.0), 6.0),
-        ],
+        vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 6.0), block("b", rectangle(0.75, 1.0, 1.0, 1.0), 6.0)],
     );
     file["loads"] = json!([{ "block": "a", "force": [push, 0] }]);
     let frame = first(&file);
     assert_eq!(frame.verdict, FALLS);
     // The weight of b acts 0.25 m beyond the edge of a, and the two contact points are 0.25 m apart. So the far point
     // needs a tension of 6 N. The push is added to it.
-    assert!(
-        (frame.total_sticking - 6.0 - push).abs() < 1e-9,
-        "{}",
-        frame.total_sticking
-    );
+    assert!((frame.total_sticking - 6.0 - push).abs() < 1e-9, "{}", frame.total_sticking);
 }
 
 /// A sliver 10 m long and 1 mm thick: its normal comes from a short difference and its centroid from areas that

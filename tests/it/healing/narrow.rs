@@ -28,14 +28,7 @@ fn lintel(gap: f64, tolerance: Option<f64>) -> Value {
 fn a_verdict_that_depends_on_a_narrow_gap_is_undecided() {
     let (verdict, _, doubt) = judged(&lintel(0.004, None));
     assert_eq!(verdict, Verdict::Undecided, "{doubt}");
-    for word in [
-        "4.00e-3 m",
-        "lintel",
-        " b ",
-        "contact_tolerance",
-        "falls",
-        "stands",
-    ] {
+    for word in ["4.00e-3 m", "lintel", " b ", "contact_tolerance", "falls", "stands"] {
         assert!(doubt.contains(word), "{word}: {doubt}");
     }
     // With the tolerance in the message the verdict is decided, and also with one that leaves the gap open.
@@ -50,10 +43,7 @@ fn a_verdict_that_depends_on_a_narrow_gap_is_undecided() {
 /// mm, but a corner of the pier lies 0.8 mm from its intended place. If that gap is closed, the arch stands.
 #[test]
 fn the_tolerance_in_the_message_closes_gaps_at_misplaced_corners() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/reference/arch-on-piers.json"
-    );
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/arch-on-piers.json");
     let text = std::fs::read_to_string(path).expect("a scene");
     let mut file: Value = serde_json::from_str(&text).expect("JSON");
     let (verdict, _, doubt) = judged(&file);
@@ -139,11 +129,7 @@ fn a_slight_overlap_that_does_not_matter_is_reported_with_the_verdict() {
         let frame = first(&file(push));
         assert_eq!(frame.verdict, expected, "{}", frame.doubt());
         let names_overlap = |n: &String| n.contains("4.00e-3 m of overlap between a and b");
-        assert!(
-            frame.notices.iter().any(names_overlap),
-            "{:?}",
-            frame.notices
-        );
+        assert!(frame.notices.iter().any(names_overlap), "{:?}", frame.notices);
     }
     // If it is pushed towards the first post, it stands only if it touches that post.
     let (verdict, _, doubt) = judged(&file(-7.5));

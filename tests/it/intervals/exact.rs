@@ -19,9 +19,7 @@ fn exact_scene(file: &Value) -> Scene {
 fn stands(file: &Value) -> bool {
     let scene = exact_scene(file);
     let touches = touches(&scene);
-    Balance::groups(&scene, &touches)
-        .iter()
-        .all(Balance::stands)
+    Balance::groups(&scene, &touches).iter().all(Balance::stands)
 }
 
 /// The exact interval of a scene, with all its groups.
@@ -42,14 +40,7 @@ pub(super) fn exact_interval(file: &Value, growing: Growing) -> Option<[f64; 2]>
     }
     let [low, high] = whole.map(|value| value.to_f64_fast());
     let endless = ENDLESS as f64;
-    Some([
-        if low <= -endless {
-            f64::NEG_INFINITY
-        } else {
-            low
-        },
-        if high >= endless { f64::INFINITY } else { high },
-    ])
+    Some([if low <= -endless { f64::NEG_INFINITY } else { low }, if high >= endless { f64::INFINITY } else { high }])
 }
 
 fn with(file: &Value, key: &str, value: f64) -> Value {
@@ -92,9 +83,7 @@ pub(super) fn compare(
         return;
     };
     match (read(found), exact) {
-        (Err(withheld), _) => {
-            problems.push(format!("{name} withheld: {withheld}, exactly {exact:?}"))
-        }
+        (Err(withheld), _) => problems.push(format!("{name} withheld: {withheld}, exactly {exact:?}")),
         (Ok(None), None) => {}
         (Ok(Some(found)), Some(exact)) => {
             for (a, b) in found.into_iter().zip(exact) {
@@ -167,12 +156,7 @@ pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Pro
             let more = (low * (1.0 + RELATIVE_TOL) + ABSOLUTE_TOL).max(2e-6);
             expect(&format!("friction {low}"), &at(more), true, problems);
             if low > 2e-6 {
-                expect(
-                    &format!("friction {low}"),
-                    &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
-                    false,
-                    problems,
-                );
+                expect(&format!("friction {low}"), &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL), false, problems);
             }
         }
     }
@@ -183,18 +167,11 @@ pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Probl
     match read(found.kernel.as_ref().expect("requested")) {
         Err(withheld) => problems.push(format!("kernel withheld: {withheld}")),
         Ok(None) => expect("kernel none", &at(0.0), false, problems),
-        Ok(Some([_, high])) if high.is_infinite() => {
-            expect("kernel endless", &at(1.0), true, problems)
-        }
+        Ok(Some([_, high])) if high.is_infinite() => expect("kernel endless", &at(1.0), true, problems),
         Ok(Some([_, high])) => {
             let name = format!("kernel {high}");
             if high > 2e-6 {
-                expect(
-                    &name,
-                    &at(high * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
-                    true,
-                    problems,
-                );
+                expect(&name, &at(high * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL), true, problems);
             }
             let more = (high * (1.0 + RELATIVE_TOL) + ABSOLUTE_TOL).max(2e-6);
             if more < 1.0 {
@@ -204,24 +181,14 @@ pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Probl
     }
 }
 
-pub(super) fn check_tilt(
-    file: &Value,
-    found: &Intervals,
-    chance: &mut Random,
-    problems: &mut Problems,
-) {
+pub(super) fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &mut Problems) {
     const OFF: f64 = 1e-4;
     match read(found.tilt.as_ref().expect("requested")) {
         Err(withheld) => problems.push(format!("tilt withheld: {withheld}")),
         Ok(None) => {
             for _ in 0..12 {
                 let turn = 360.0 * chance.share();
-                expect(
-                    &format!("tilt none at {turn}"),
-                    &turned(file, turn),
-                    false,
-                    problems,
-                );
+                expect(&format!("tilt none at {turn}"), &turned(file, turn), false, problems);
             }
         }
         Ok(Some([low, high])) if low.is_infinite() || high.is_infinite() => {
@@ -230,41 +197,21 @@ pub(super) fn check_tilt(
             }
             for _ in 0..12 {
                 let turn = 360.0 * chance.share();
-                expect(
-                    &format!("tilt endless at {turn}"),
-                    &turned(file, turn),
-                    true,
-                    problems,
-                );
+                expect(&format!("tilt endless at {turn}"), &turned(file, turn), true, problems);
             }
         }
         Ok(Some([low, high])) => {
             let name = format!("tilt {low} to {high}");
-            for (turn, standing) in [
-                (low - OFF, false),
-                (low + OFF, true),
-                (high - OFF, true),
-                (high + OFF, false),
-            ] {
+            for (turn, standing) in [(low - OFF, false), (low + OFF, true), (high - OFF, true), (high + OFF, false)] {
                 let is_inside = turn > low + 0.5 * OFF && turn < high - 0.5 * OFF;
                 if is_inside == standing {
-                    expect(
-                        &format!("{name} at {turn}"),
-                        &turned(file, turn),
-                        standing,
-                        problems,
-                    );
+                    expect(&format!("{name} at {turn}"), &turned(file, turn), standing, problems);
                 }
             }
             for _ in 0..3 {
                 let turn = low + (high - low) * chance.share();
                 if turn > low + OFF && turn < high - OFF {
-                    expect(
-                        &format!("{name} at {turn}"),
-                        &turned(file, turn),
-                        true,
-                        problems,
-                    );
+                    expect(&format!("{name} at {turn}"), &turned(file, turn), true, problems);
                 }
             }
             // If the interval excludes 0, the scene must fall at every tilt smaller than its nearer end.
@@ -272,12 +219,7 @@ pub(super) fn check_tilt(
             for _ in 0..4 {
                 let turn = (nearest - OFF) * (2.0 * chance.share() - 1.0);
                 if nearest > OFF {
-                    expect(
-                        &format!("{name} at {turn}"),
-                        &turned(file, turn),
-                        false,
-                        problems,
-                    );
+                    expect(&format!("{name} at {turn}"), &turned(file, turn), false, problems);
                 }
             }
         }
@@ -286,11 +228,7 @@ pub(super) fn check_tilt(
 
 pub(super) fn check_robots(file: &Value, found: &Intervals, problems: &mut Problems) {
     for robot in &found.robots {
-        for (key, interval) in [
-            ("fx", &robot.fx),
-            ("fy", &robot.fy),
-            ("torque", &robot.torque),
-        ] {
+        for (key, interval) in [("fx", &robot.fx), ("fy", &robot.fy), ("torque", &robot.torque)] {
             let at = |limit: f64| {
                 let mut changed = file.clone();
                 let limits = &mut changed["robots"][robot.robot.0]["limits"];
@@ -302,19 +240,9 @@ pub(super) fn check_robots(file: &Value, found: &Intervals, problems: &mut Probl
                 Ok(None) => expect(&format!("{key} none"), &at(1e6), false, problems),
                 Ok(Some([low, _])) => {
                     let name = format!("{key} {low}");
-                    expect(
-                        &name,
-                        &at((low * (1.0 + RELATIVE_TOL)).max(1e-5)),
-                        true,
-                        problems,
-                    );
+                    expect(&name, &at((low * (1.0 + RELATIVE_TOL)).max(1e-5)), true, problems);
                     if low > 1e-5 {
-                        expect(
-                            &name,
-                            &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL),
-                            false,
-                            problems,
-                        );
+                        expect(&name, &at(low * (1.0 - RELATIVE_TOL) - ABSOLUTE_TOL), false, problems);
                     }
                 }
             }

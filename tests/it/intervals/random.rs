@@ -23,11 +23,7 @@ pub(super) fn random_scene(number: u64) -> Value {
                 let quarter = |chance: &mut Random| chance.whole(-24, 24) as f64 / 4.0;
                 let force = [quarter(&mut chance), quarter(&mut chance)];
                 // Avoid a load of zero.
-                load["force"] = json!(if force == [0.0; 2] {
-                    [0.0, -1.0]
-                } else {
-                    force
-                });
+                load["force"] = json!(if force == [0.0; 2] { [0.0, -1.0] } else { force });
                 if chance.percent(25) {
                     load["torque"] = json!(quarter(&mut chance));
                 }
@@ -56,9 +52,7 @@ pub(super) fn random_scene(number: u64) -> Value {
 /// The first corner of a block.
 fn corner(file: &Value, id: &str) -> Value {
     let mut blocks = file["blocks"].as_array().into_iter().flatten();
-    let block = blocks
-        .find(|block| block["id"] == id)
-        .expect("a block of the scene");
+    let block = blocks.find(|block| block["id"] == id).expect("a block of the scene");
     block["polygon"][0].clone()
 }
 
@@ -68,8 +62,7 @@ fn push(file: &mut Value, list: &str, entry: Value) {
 
 /// Adds the ground and the blocks of one group to the right of `x`. Returns the names of its blocks.
 fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<String> {
-    let eighth =
-        |chance: &mut Random, least: i64, most: i64| chance.whole(least, most) as f64 / 8.0;
+    let eighth = |chance: &mut Random, least: i64, most: i64| chance.whole(least, most) as f64 / 8.0;
     let mut ground = vec![rectangle(x - 2.0, -1.0, 12.0, 1.0)];
     let mut bodies = Vec::new();
     match chance.whole(0, 5) {
@@ -126,11 +119,7 @@ fn add_part(file: &mut Value, chance: &mut Random, x: f64, part: i64) -> Vec<Str
     }
     let ids: Vec<String> = (0..bodies.len()).map(|k| format!("{part}-{k}")).collect();
     for (id, polygon) in ids.iter().zip(bodies) {
-        push(
-            file,
-            "blocks",
-            block(id, polygon, chance.whole(1, 9) as f64),
-        );
+        push(file, "blocks", block(id, polygon, chance.whole(1, 9) as f64));
     }
     ids
 }

@@ -8,9 +8,7 @@ use drystone::analysis::{End, Interval};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::exact::{
-    NONE, Problems, check_friction, check_kernel, check_tilt, exact_interval, is_borderline,
-};
+use super::exact::{NONE, Problems, check_friction, check_kernel, check_tilt, exact_interval, is_borderline};
 use super::random::random_scene;
 use super::{analysed, known, near};
 use crate::oracle::factor::Growing;
@@ -60,12 +58,8 @@ fn compare_safely(
         let is_inside = |value: f64, by: f64| (value - exact) * outward <= by;
         match end {
             End::Unbounded => exact == outward * f64::INFINITY,
-            End::At { value, .. } => {
-                is_inside(*value, allowed) && !is_inside(*value, -none.max(allowed))
-            }
-            End::Unconfirmed { stands, beyond } => {
-                is_inside(*stands, allowed) && !is_inside(*beyond, -allowed)
-            }
+            End::At { value, .. } => is_inside(*value, allowed) && !is_inside(*value, -none.max(allowed)),
+            End::Unconfirmed { stands, beyond } => is_inside(*stands, allowed) && !is_inside(*beyond, -allowed),
             _ => false,
         }
     };
@@ -82,10 +76,7 @@ fn problems(number: u64) -> Vec<String> {
     let file = scaled(&given, by);
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let found = analysed(&scene).intervals;
-    let mut problems = Problems {
-        has_band: true,
-        ..Problems::default()
-    };
+    let mut problems = Problems { has_band: true, ..Problems::default() };
     if !scene.loads().is_empty() {
         // The exact ends of the changed scene.
         let ordinary = |end: f64| end / by;
@@ -103,9 +94,7 @@ fn problems(number: u64) -> Vec<String> {
         true => [NONE * by, ROUNDING * by],
         false => [NONE; 2],
     };
-    problems
-        .list
-        .extend(compare_safely("horizontal", &file, share, exact, band));
+    problems.list.extend(compare_safely("horizontal", &file, share, exact, band));
     check_friction(&file, &found, &mut problems);
     check_kernel(&file, &found, &mut problems);
     check_tilt(&file, &found, &mut Random::new(number), &mut problems);
@@ -119,12 +108,7 @@ fn intervals_are_exact_if_loads_are_far_smaller_or_larger_than_weights() {
     let wanted = number_of("DRYSTONE_INTERVAL_SLIGHT", 36);
     let numbers = (first..first + wanted).into_par_iter();
     let found: Vec<String> = numbers.flat_map_iter(problems).collect();
-    assert!(
-        found.is_empty(),
-        "{} problems:\n{}",
-        found.len(),
-        found.join("\n")
-    );
+    assert!(found.is_empty(), "{} problems:\n{}", found.len(), found.join("\n"));
 }
 
 /// A load factor that must be 0 was once 10⁻⁶ or withheld, because a verdict may be stable just beyond 0. At that
@@ -153,18 +137,12 @@ fn loads_far_larger_or_smaller_than_weights_leave_the_other_margins_exact() {
 fn the_load_factor_of_a_tiny_counterweight_is_found() {
     let (file, margins) = known("plank");
     let ordinary = margins.intervals.load_factor.expect("there is a load");
-    let low = ordinary
-        .low()
-        .and_then(|end| end.value())
-        .expect("it needs a counterweight");
+    let low = ordinary.low().and_then(|end| end.value()).expect("it needs a counterweight");
     for by in [1e-5, 1e-9, 1e-12] {
         let file = scaled(&file, by);
         let scene = Scene::from_json(&file.to_string()).expect("sound");
         let found = analysed(&scene).intervals.load_factor;
-        assert!(
-            matches!(found, Some(Interval::Between { .. })),
-            "{by}: {found:?}"
-        );
+        assert!(matches!(found, Some(Interval::Between { .. })), "{by}: {found:?}");
         near(super::ends(&found), [low / by, f64::INFINITY]);
     }
 }

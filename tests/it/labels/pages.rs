@@ -21,23 +21,14 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                 let options = Options::default().width(width);
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:.0}", kind.name());
-                let page = Group {
-                    items: drawing.items.clone(),
-                    ..Group::default()
-                };
+                let page = Group { items: drawing.items.clone(), ..Group::default() };
                 for items in panels(&drawing) {
                     let (labels, found) = hidden(items, &["name", "robot-name", "amount"], &[]);
                     count += labels;
                     complaints.extend(found.into_iter().map(|c| format!("{what}: {c}")));
                 }
-                let labels: Vec<Text> = classes(&drawing.items, &["labels"])
-                    .into_iter()
-                    .flat_map(texts)
-                    .collect();
-                let others: Vec<Text> = texts(&page)
-                    .into_iter()
-                    .filter(|text| !labels.contains(text))
-                    .collect();
+                let labels: Vec<Text> = classes(&drawing.items, &["labels"]).into_iter().flat_map(texts).collect();
+                let others: Vec<Text> = texts(&page).into_iter().filter(|text| !labels.contains(text)).collect();
                 for text in labels.iter().chain(&others) {
                     let [left, top, right, bottom] = ink(text);
                     if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
@@ -54,8 +45,7 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                 }
                 for label in &labels {
                     let [left, top, right, bottom] = ink(label);
-                    let meets =
-                        |b: Box4| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom;
+                    let meets = |b: Box4| left < b[2] && b[0] < right && top < b[3] && b[1] < bottom;
                     for other in others.iter().filter(|other| meets(ink(other))) {
                         complaints.push(format!("{what}: {} lies on {}", label.words, other.words));
                     }
@@ -74,42 +64,26 @@ fn in_a_figure_of_column_width_texts_are_large_enough_and_not_cut() {
     for (name, scene) in gallery() {
         let analysis = Analysis::new(&scene);
         for kind in figure::Kind::ALL {
-            drawings.push((
-                format!("{name} {}", kind.name()),
-                figure::draw(&analysis, kind, &options),
-            ));
+            drawings.push((format!("{name} {}", kind.name()), figure::draw(&analysis, kind, &options)));
         }
         let block = scene.frames()[0].placed[0];
         let free = figure::freebody(&analysis, 0, block, &options).expect("placed");
         drawings.push((format!("{name} freebody"), free));
     }
     for (name, drawing) in drawings {
-        assert!(
-            (drawing.width - COLUMN).abs() < 1.0,
-            "{name}: {}",
-            drawing.width
-        );
-        let page = Group {
-            items: drawing.items,
-            ..Group::default()
-        };
+        assert!((drawing.width - COLUMN).abs() < 1.0, "{name}: {}", drawing.width);
+        let page = Group { items: drawing.items, ..Group::default() };
         let mut in_pictures = Vec::new();
         of_class(&page.items, "labels", &mut in_pictures);
         let names: Vec<Text> = in_pictures.into_iter().flat_map(texts).collect();
         for text in texts(&page) {
             let [left, top, right, bottom] = ink(&text);
-            let inside =
-                left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
+            let inside = left >= 0.0 && top >= 0.0 && right <= drawing.width && bottom <= drawing.height;
             assert!(inside, "{name}: {} is cut", text.words);
             // At 0.6 points per pixel, texts have at least 6.3 points and names 5.4.
             let least = if names.contains(&text) { 9.0 } else { 10.5 };
             let small_sign = name.ends_with("freebody") && text.size > 10.0;
-            assert!(
-                text.size >= least || small_sign,
-                "{name}: {} of {}",
-                text.words,
-                text.size
-            );
+            assert!(text.size >= least || small_sign, "{name}: {} of {}", text.words, text.size);
         }
     }
 }

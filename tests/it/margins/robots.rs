@@ -13,18 +13,14 @@ fn a_robot_needs_only_the_force_and_torque_of_its_block() {
     // Held 0.25 m to the left of its centroid, the block needs 8 N and 2 N·m.
     file["robots"] = json!([{ "id": "r", "holds": "a", "at": [0.25, 3.5], "limits": { "force": 20, "torque": 5 } }]);
     let found = margins(&file);
-    let [robot] = &found.robots[..] else {
-        panic!("one robot holds")
-    };
+    let [robot] = &found.robots[..] else { panic!("one robot holds") };
     near(&robot.fx, 0.0, 0.0);
     near(&robot.fy, 8.0, 1e-6);
     near(&robot.torque, 2.0, 1e-6);
     // The robot can exert 20 N sideways, 2.5 times the weight of 8 N.
     near(&found.horizontal_load.left, 2.5, 1e-6);
     file["robots"][0]["limits"] = json!({ "force": 4, "torque": 5 });
-    let [robot] = &margins(&file).robots[..] else {
-        panic!("one robot holds")
-    };
+    let [robot] = &margins(&file).robots[..] else { panic!("one robot holds") };
     assert_eq!(robot.fx, Margin::None, "the other limit is too small");
     assert_eq!(robot.torque, Margin::None, "the other limit is too small");
     near(&robot.fy, 8.0, 1e-6);
@@ -37,9 +33,7 @@ fn a_robot_needs_only_the_force_and_torque_of_its_block() {
 fn robot_limits_that_may_be_zero_are_found_in_groups() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     let robot = |limit: f64| json!({ "holds": "a", "at": [0.5, 3.5], "limits": { "force": limit, "torque": 1 } });
-    let options = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
     // The margins of the robots, and the number of verdicts that were computed for them.
     let robot_margins = |file: &Value| {
         let frame = Analysis::with(scene(file), &options).frames.remove(0);
@@ -70,10 +64,7 @@ fn robot_limits_that_may_be_zero_are_found_in_groups() {
     file["robots"] = vec![robot(0.1); 40].into();
     let (robots, _) = robot_margins(&file);
     near(&robots[7].fy, 4.1, 1e-6);
-    assert_eq!(
-        (&robots[7].fx, &robots[7].torque),
-        (&Margin::None, &Margin::None)
-    );
+    assert_eq!((&robots[7].fx, &robots[7].torque), (&Margin::None, &Margin::None));
 }
 
 /// A robot that can exert 4 N horizontally holds a block of 8 N up to a tilt of 30°. With 8 N in each direction, it
@@ -81,8 +72,7 @@ fn robot_limits_that_may_be_zero_are_found_in_groups() {
 #[test]
 fn a_limited_robot_holds_up_to_the_tilt_of_its_first_limit() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
-    file["robots"] =
-        json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
+    file["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 4, "fy": 9, "torque": 0 } }]);
     // 8 sin θ = 4.
     near(&margins(&file).tilt.right, 30.0, 1e-5);
     near(&margins(&file).tilt.left, 30.0, 1e-5);
@@ -98,14 +88,8 @@ fn a_limited_robot_that_pushes_and_presses_holds_up_to_the_tilt_of_sliding() {
     for weight in [9.81, 10.0, 3.0] {
         for ratio in [0.1, 0.2, 0.3, 0.4, 0.5, 0.51, 0.55, 0.6] {
             let limit = ratio * weight;
-            for limits in [
-                json!({ "force": limit }),
-                json!({ "force": limit, "torque": 1 }),
-            ] {
-                let mut file = on_floor(
-                    friction,
-                    vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), weight)],
-                );
+            for limits in [json!({ "force": limit }), json!({ "force": limit, "torque": 1 })] {
+                let mut file = on_floor(friction, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), weight)]);
                 file["robots"] = json!([{ "id": "r", "holds": "a", "limits": limits }]);
                 let found = margins(&file);
                 let pushed = (limit + friction * limit) / (weight * libm::hypot(1.0, friction));

@@ -46,39 +46,17 @@ impl<'a> Balance<'a> {
                 }
             }
         }
-        let length = median(
-            touches
-                .iter()
-                .map(|t| norm(&minus(&t.ends[1], &t.ends[0])))
-                .collect(),
-        )
-        .or_else(|| {
-            median(
-                scene
-                    .blocks()
-                    .iter()
-                    .map(|b| b.body.polygon.area().sqrt())
-                    .collect(),
-            )
-        })
-        .unwrap_or(1.0);
-        let centroids: Vec<Pair> = scene
-            .blocks()
-            .iter()
-            .map(|b| centroid(&corners(&b.body)))
-            .collect();
+        let length = median(touches.iter().map(|t| norm(&minus(&t.ends[1], &t.ends[0]))).collect())
+            .or_else(|| median(scene.blocks().iter().map(|b| b.body.polygon.area().sqrt()).collect()))
+            .unwrap_or(1.0);
+        let centroids: Vec<Pair> = scene.blocks().iter().map(|b| centroid(&corners(&b.body))).collect();
         (0..scene.blocks().len())
             .filter(|first| mark[*first] == *first)
             .map(|first| Balance {
                 scene,
                 blocks: (0..mark.len()).filter(|k| mark[*k] == first).collect(),
                 touches: touches.iter().filter(|t| mark[t.on] == first).collect(),
-                holds: scene.frames()[0]
-                    .holds
-                    .iter()
-                    .filter(|h| mark[h.block.0] == first)
-                    .copied()
-                    .collect(),
+                holds: scene.frames()[0].holds.iter().filter(|h| mark[h.block.0] == first).copied().collect(),
                 length,
                 centroids: centroids.clone(),
             })
@@ -131,8 +109,7 @@ impl<'a> Balance<'a> {
             let own = |unknown: usize| {
                 let first = self.first_row(block);
                 let rows = &program.rows[first..first + 3];
-                rows.iter()
-                    .any(|row| row.entries.iter().any(|e| e.0 == unknown))
+                rows.iter().any(|row| row.entries.iter().any(|e| e.0 == unknown))
             };
             let owned: Vec<bool> = (0..program.costs.len()).map(own).collect();
             for (cost, own) in program.costs.iter_mut().zip(owned) {
@@ -193,15 +170,9 @@ impl<'a> Balance<'a> {
         for row in 0..3 * self.blocks.len() {
             let size = exact(self.size(row));
             let rest = program.unknown(RBig::ZERO);
-            program.rows[row]
-                .entries
-                .extend([(rest, RBig::ONE), (largest, -size.clone())]);
+            program.rows[row].entries.extend([(rest, RBig::ONE), (largest, -size.clone())]);
             let entries = vec![(rest, RBig::ONE), (largest, RBig::from(-2) * size)];
-            program.rows.push(Row {
-                entries,
-                bound: RBig::ZERO,
-                equality: false,
-            });
+            program.rows.push(Row { entries, bound: RBig::ZERO, equality: false });
         }
         program.least().map_or(f64::INFINITY, |v| v.to_f64_fast())
     }
@@ -212,12 +183,7 @@ impl<'a> Balance<'a> {
         self.stands()
             && (0..3 * self.blocks.len()).all(|row| {
                 let block = self.blocks[row / 3];
-                let own = self.gross_load(block)
-                    * if row % 3 == 2 {
-                        self.radius(block)
-                    } else {
-                        1.0
-                    };
+                let own = self.gross_load(block) * if row % 3 == 2 { self.radius(block) } else { 1.0 };
                 [share, -share].iter().all(|share| {
                     let mut program = self.admissible();
                     program.rows[row].bound += exact(share * own);
@@ -248,48 +214,35 @@ impl<'a> Balance<'a> {
             let mut columns: BTreeMap<usize, [RBig; 3]> = BTreeMap::new();
             for row in 0..3 {
                 for (unknown, value) in &program.rows[first + row].entries {
-                    let column = columns
-                        .entry(*unknown)
-                        .or_insert_with(|| [RBig::ZERO, RBig::ZERO, RBig::ZERO]);
+                    let column = columns.entry(*unknown).or_insert_with(|| [RBig::ZERO, RBig::ZERO, RBig::ZERO]);
                     column[row] += value;
                 }
             }
             let radius = exact(self.radius(*block));
             let load = self.load(*block);
             let size = |column: &[RBig; 3]| exact(norm(&[column[0].clone(), column[1].clone()]));
-            let mut moved = Row {
-                entries: Vec::new(),
-                bound: &band * &radius * exact(self.gross_load(*block)),
-                equality: false,
-            };
+            let mut moved =
+                Row { entries: Vec::new(), bound: &band * &radius * exact(self.gross_load(*block)), equality: false };
             for sign in [RBig::ONE, -RBig::ONE] {
                 let moment = program.unknown(RBig::ZERO);
                 program.rows[first + 2].entries.push((moment, sign));
                 moved.entries.push((moment, RBig::ONE));
             }
             for (unknown, column) in &columns {
-                moved
-                    .entries
-                    .push((*unknown, -(&band * &radius * size(column))));
+                moved.entries.push((*unknown, -(&band * &radius * size(column))));
             }
             program.rows.push(moved);
             let forces = columns.into_iter().map(|(u, column)| (Some(u), column));
             for (unknown, column) in forces.chain([(None, load)]) {
                 let mut changed = Row {
                     entries: Vec::new(),
-                    bound: if unknown.is_none() {
-                        band.clone()
-                    } else {
-                        RBig::ZERO
-                    },
+                    bound: if unknown.is_none() { band.clone() } else { RBig::ZERO },
                     equality: false,
                 };
                 for sign in [RBig::ONE, -RBig::ONE] {
                     let change = program.unknown(RBig::ZERO);
                     for (row, value) in column.iter().enumerate() {
-                        program.rows[first + row]
-                            .entries
-                            .push((change, value * &sign));
+                        program.rows[first + row].entries.push((change, value * &sign));
                     }
                     changed.entries.push((change, RBig::ONE));
                 }
@@ -303,9 +256,7 @@ impl<'a> Balance<'a> {
     /// The distance of a block's farthest corner from its centroid.
     fn radius(&self, block: usize) -> f64 {
         let corners = corners(&self.scene.blocks()[block].body);
-        let reach = corners
-            .iter()
-            .map(|c| norm(&minus(c, &self.centroids[block])));
+        let reach = corners.iter().map(|c| norm(&minus(c, &self.centroids[block])));
         reach.fold(0.0, f64::max)
     }
 
@@ -324,17 +275,11 @@ impl<'a> Balance<'a> {
     fn size(&self, row: First) -> f64 {
         let load = |k: &usize| {
             let [x, y, m] = self.load(*k).map(|v| v.to_f64_fast());
-            libm::hypot(x, y)
-                .max(m.abs() / self.length)
-                .max(self.scene.blocks()[*k].weight)
+            libm::hypot(x, y).max(m.abs() / self.length).max(self.scene.blocks()[*k].weight)
         };
         let heaviest = self.blocks.iter().map(load).fold(0.0, f64::max);
         let heaviest = if heaviest > 0.0 { heaviest } else { 1.0 };
-        if row % 3 == 2 {
-            heaviest * self.length
-        } else {
-            heaviest
-        }
+        if row % 3 == 2 { heaviest * self.length } else { heaviest }
     }
 
     /// The hard program of the source: first three rows per block, then friction and limits.
@@ -342,11 +287,7 @@ impl<'a> Balance<'a> {
         let mut program = LinearProgram::default();
         for block in &self.blocks {
             for load in self.load(*block) {
-                program.rows.push(Row {
-                    entries: Vec::new(),
-                    bound: -load,
-                    equality: true,
-                });
+                program.rows.push(Row { entries: Vec::new(), bound: -load, equality: true });
             }
         }
         for touch in &self.touches {
@@ -364,29 +305,18 @@ impl<'a> Balance<'a> {
                     self.act(&mut program, touch, rub, &touch.ends[0], &along);
                     entries.push((rub, RBig::ONE));
                 }
-                program.rows.push(Row {
-                    entries,
-                    bound: RBig::ZERO,
-                    equality: false,
-                });
+                program.rows.push(Row { entries, bound: RBig::ZERO, equality: false });
             }
         }
         for hold in &self.holds {
             let limits = self.scene.robots()[hold.robot.0].limits;
-            for (component, limit) in [limits.fx, limits.fy, limits.torque]
-                .into_iter()
-                .enumerate()
-            {
+            for (component, limit) in [limits.fx, limits.fy, limits.torque].into_iter().enumerate() {
                 for sign in [1.0, -1.0] {
                     let push = program.unknown(self.grip_cost(component));
                     self.grip(&mut program, hold, push, component, sign);
                     if limit.is_finite() {
                         let entries = vec![(push, RBig::ONE)];
-                        program.rows.push(Row {
-                            entries,
-                            bound: exact(limit),
-                            equality: false,
-                        });
+                        program.rows.push(Row { entries, bound: exact(limit), equality: false });
                     }
                 }
             }
@@ -427,73 +357,32 @@ impl<'a> Balance<'a> {
     }
 
     /// Adds an unknown force of a contact: on the first body, and in the opposite direction on the other.
-    fn act(
-        &self,
-        program: &mut LinearProgram,
-        touch: &Touch,
-        unknown: usize,
-        at: &Pair,
-        force: &Pair,
-    ) {
+    fn act(&self, program: &mut LinearProgram, touch: &Touch, unknown: usize, at: &Pair, force: &Pair) {
         self.push(program, touch.on, unknown, at, force);
         if let Some(from) = touch.from {
             self.push(program, from, unknown, at, &negative(force));
         }
     }
 
-    pub(super) fn push(
-        &self,
-        program: &mut LinearProgram,
-        block: usize,
-        unknown: usize,
-        at: &Pair,
-        force: &Pair,
-    ) {
+    pub(super) fn push(&self, program: &mut LinearProgram, block: usize, unknown: usize, at: &Pair, force: &Pair) {
         let first = self.first_row(block);
         let moment = cross(&minus(at, &self.centroids[block]), force);
         for (offset, value) in [&force[0], &force[1], &moment].into_iter().enumerate() {
-            program.rows[first + offset]
-                .entries
-                .push((unknown, value.clone()));
+            program.rows[first + offset].entries.push((unknown, value.clone()));
         }
     }
 
-    fn grip(
-        &self,
-        program: &mut LinearProgram,
-        hold: &Hold,
-        unknown: usize,
-        component: usize,
-        sign: f64,
-    ) {
+    fn grip(&self, program: &mut LinearProgram, hold: &Hold, unknown: usize, component: usize, sign: f64) {
         let block = hold.block.0;
         match component {
-            0 => self.push(
-                program,
-                block,
-                unknown,
-                &pair(hold.at.x, hold.at.y),
-                &pair(sign, 0.0),
-            ),
-            1 => self.push(
-                program,
-                block,
-                unknown,
-                &pair(hold.at.x, hold.at.y),
-                &pair(0.0, sign),
-            ),
-            _ => program.rows[self.first_row(block) + 2]
-                .entries
-                .push((unknown, exact(sign))),
+            0 => self.push(program, block, unknown, &pair(hold.at.x, hold.at.y), &pair(sign, 0.0)),
+            1 => self.push(program, block, unknown, &pair(hold.at.x, hold.at.y), &pair(0.0, sign)),
+            _ => program.rows[self.first_row(block) + 2].entries.push((unknown, exact(sign))),
         }
     }
 
     fn grip_cost(&self, component: usize) -> RBig {
-        if component == 2 {
-            exact(1.0 / self.length)
-        } else {
-            RBig::ONE
-        }
+        if component == 2 { exact(1.0 / self.length) } else { RBig::ONE }
     }
 
     fn first_row(&self, block: usize) -> First {
@@ -513,11 +402,7 @@ impl Axes {
     fn of(touch: &Touch) -> Axes {
         let tangent = minus(&touch.ends[1], &touch.ends[0]);
         let normal = [tangent[1].clone(), -tangent[0].clone()];
-        Axes {
-            normal,
-            length: norm(&tangent),
-            tangent,
-        }
+        Axes { normal, length: norm(&tangent), tangent }
     }
 }
 

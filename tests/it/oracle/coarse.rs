@@ -58,48 +58,41 @@ fn found(number: u64) -> Vec<Found> {
     let touches = touch::touches(&written);
     let groups = Balance::groups(&written, &touches);
     let falls = groups.iter().any(|group| !group.stands());
-    let areas = written
-        .blocks()
-        .iter()
-        .map(|block| block.body.polygon.area());
+    let areas = written.blocks().iter().map(|block| block.body.polygon.area());
     let least = areas.fold(f64::INFINITY, f64::min).sqrt();
     let is_clear = match falls {
         true => groups.iter().any(|group| group.distance() > CLEAR),
         false => groups.iter().all(|group| group.stands_with_margin(CLEAR)),
     };
-    let both = SHARES
-        .into_iter()
-        .flat_map(|share| [(share, false), (share, true)]);
-    let each = both
-        .filter(|(_, is_off)| is_clear || !is_off)
-        .filter_map(|(share, is_off)| {
-            let mut file = file.clone();
-            if is_off {
-                jitter(&mut file, OFF * least, number);
-            }
-            file["contact_tolerance"] = json!(share * least);
-            let scene = sound(&file)?;
-            let analysis = Analysis::new(&scene);
-            let frame = &analysis.frames[0];
-            let is_wrong = match frame.verdict {
-                Verdict::Stable => falls,
-                Verdict::Unstable => !falls,
-                Verdict::Undecided => false,
-            };
-            let is_wrong = is_wrong && !groups.iter().any(Balance::is_borderline);
-            let healed = scene.healed();
-            let words = scene.tolerance_words().unwrap_or_default();
-            Some(Found {
-                number,
-                share,
-                is_off,
-                moved: healed.corners,
-                kept: healed.kept,
-                more: frame.contacts.len() as i64 - touches.len() as i64,
-                is_wrong,
-                text: format!("{:?} {words}", frame.verdict),
-            })
-        });
+    let both = SHARES.into_iter().flat_map(|share| [(share, false), (share, true)]);
+    let each = both.filter(|(_, is_off)| is_clear || !is_off).filter_map(|(share, is_off)| {
+        let mut file = file.clone();
+        if is_off {
+            jitter(&mut file, OFF * least, number);
+        }
+        file["contact_tolerance"] = json!(share * least);
+        let scene = sound(&file)?;
+        let analysis = Analysis::new(&scene);
+        let frame = &analysis.frames[0];
+        let is_wrong = match frame.verdict {
+            Verdict::Stable => falls,
+            Verdict::Unstable => !falls,
+            Verdict::Undecided => false,
+        };
+        let is_wrong = is_wrong && !groups.iter().any(Balance::is_borderline);
+        let healed = scene.healed();
+        let words = scene.tolerance_words().unwrap_or_default();
+        Some(Found {
+            number,
+            share,
+            is_off,
+            moved: healed.corners,
+            kept: healed.kept,
+            more: frame.contacts.len() as i64 - touches.len() as i64,
+            is_wrong,
+            text: format!("{:?} {words}", frame.verdict),
+        })
+    });
     each.collect()
 }
 
@@ -120,17 +113,11 @@ fn jitter(file: &mut Value, off: f64, number: u64) {
 
 /// A verdict may differ from that of the outlines as written only if corners moved or gaps were closed.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn tolerances_as_large_as_blocks_change_no_verdict_without_closing_a_gap() {
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
     let wanted = number_of("DRYSTONE_ORACLE_COARSE", 36);
-    let all: Vec<Found> = (first..first + wanted)
-        .into_par_iter()
-        .flat_map_iter(found)
-        .collect();
+    let all: Vec<Found> = (first..first + wanted).into_par_iter().flat_map_iter(found).collect();
     let count = |f: &dyn Fn(&&Found) -> bool| all.iter().filter(f).count();
     println!(
         "{} scenes with a tolerance, {} of them with moved corners, {} with bodies left as written; {} different verdicts, {} of them with such bodies",
@@ -146,11 +133,7 @@ fn tolerances_as_large_as_blocks_change_no_verdict_without_closing_a_gap() {
             f.number, f.share, f.is_off, f.moved, f.kept, f.more, f.text
         );
     }
-    let bad: Vec<u64> = all
-        .iter()
-        .filter(|f| f.is_wrong && f.moved == 0 && f.more == 0)
-        .map(|f| f.number)
-        .collect();
+    let bad: Vec<u64> = all.iter().filter(|f| f.is_wrong && f.moved == 0 && f.more == 0).map(|f| f.number).collect();
     assert!(bad.is_empty(), "{bad:?}");
 }
 
@@ -185,15 +168,7 @@ fn stones(number: u64) -> Value {
     ]
     .map(&mut near)
     .into();
-    let c: Vec<[f64; 2]> = [
-        [1.61, 2.52],
-        [0.78, 2.71],
-        [0.0, 1.65],
-        [1.54, 0.89],
-        [1.56, 0.9],
-    ]
-    .map(&mut near)
-    .into();
+    let c: Vec<[f64; 2]> = [[1.61, 2.52], [0.78, 2.71], [0.0, 1.65], [1.54, 0.89], [1.56, 0.9]].map(&mut near).into();
     // The ground below an edge ends at the corners of the edge.
     let below = |from: [f64; 2], to: [f64; 2]| json!({ "polygon": [from, [from[0], -2.0], [to[0], -2.0], to] });
     let friction = chance.one_of(&[0.1, 0.3, 0.7, 1.5]);
@@ -231,10 +206,7 @@ fn distance(scene: &Scene, body: BodyId, at: Point) -> f64 {
 /// exact program over the contacts found has the same verdict and sums, and bodies touch only within the stated
 /// tolerance. `DRYSTONE_ORACLE_KEPT=2000` sets the number of scenes.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn results_are_true_of_the_outlines_of_bodies_that_healing_left_as_written() {
     let wanted = number_of("DRYSTONE_ORACLE_KEPT", 60);
     let (mut kept, mut touching) = (0, 0);
@@ -258,21 +230,18 @@ fn results_are_true_of_the_outlines_of_bodies_that_healing_left_as_written() {
         assert!(words.contains("stayed as written"), "{words}");
         for contact in &frame.contacts {
             touching += 1;
-            for (end, body) in contact.interface.ends.iter().flat_map(|end| {
-                contact
-                    .interface
-                    .bodies
-                    .iter()
-                    .map(move |body| (*end, *body))
-            }) {
+            for (end, body) in contact
+                .interface
+                .ends
+                .iter()
+                .flat_map(|end| contact.interface.bodies.iter().map(move |body| (*end, *body)))
+            {
                 let off = distance(&scene, body, end);
                 assert!(off <= scene.tolerance().gap, "{number}: {off} m");
             }
         }
     }
-    println!(
-        "{kept} of {wanted} scenes with bodies left as written, {touching} contacts, verdicts {verdicts:?}"
-    );
+    println!("{kept} of {wanted} scenes with bodies left as written, {touching} contacts, verdicts {verdicts:?}");
     assert!(kept > wanted / 10, "{kept}");
     assert!(verdicts[0] > 0 && verdicts[2] > 0, "{verdicts:?}");
 }

@@ -35,12 +35,7 @@ impl Balance<'_> {
 
     /// For each direction, the largest component of the forces at a point of a block with which the group stands,
     /// newtons. The inner `None` means that the component is unbounded, the outer `None` that no such force exists.
-    pub fn farthest_forces(
-        &self,
-        block: usize,
-        at: [f64; 2],
-        directions: &[[f64; 2]],
-    ) -> Option<Vec<Option<f64>>> {
+    pub fn farthest_forces(&self, block: usize, at: [f64; 2], directions: &[[f64; 2]]) -> Option<Vec<Option<f64>>> {
         let (program, force) = self.with_force(block, at);
         let objectives = directions.iter().map(|direction| {
             let mut costs = vec![RBig::ZERO; program.costs.len()];

@@ -68,23 +68,12 @@ fn examined(number: u64) -> Finding {
         Ok(scene) => compared(&scene, exact, number % 4 < 2),
         Err(_) => (Standing::Refused, None, None),
     };
-    Finding {
-        number,
-        kind,
-        file,
-        standing,
-        error,
-        ruled_out,
-    }
+    Finding { number, kind, file, standing, error, ruled_out }
 }
 
 /// The standing, the error and the excluded sum of forces of a scene, as in [`Finding`].
 fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<f64>, Option<f64>) {
-    let touches = if exact {
-        touch::touches(scene)
-    } else {
-        touch::as_found(scene)
-    };
+    let touches = if exact { touch::touches(scene) } else { touch::as_found(scene) };
     let analysis = Analysis::new(scene);
     let frame = &analysis.frames[0];
     if touches.len() != frame.contacts.len() {
@@ -111,13 +100,7 @@ fn judged(
         Verdict::Undecided => false,
     };
     if !agrees {
-        let blamed = || {
-            groups
-                .iter()
-                .zip(&fallen)
-                .filter(|(_, f)| **f == falls)
-                .map(|(g, _)| g)
-        };
+        let blamed = || groups.iter().zip(&fallen).filter(|(_, f)| **f == falls).map(|(g, _)| g);
         let borderline = match (falls, frame.verdict) {
             (true, Verdict::Stable) => blamed().all(Balance::is_borderline),
             _ => groups.iter().any(Balance::is_borderline),
@@ -157,11 +140,7 @@ fn judged(
         let mut reported: Vec<usize> = frame.unsupported.iter().map(|b| b.0).collect();
         reported.sort();
         let sticking = off(frame.total_sticking, sum, frame.weight);
-        Some(if reported == lost {
-            sticking
-        } else {
-            f64::INFINITY
-        })
+        Some(if reported == lost { sticking } else { f64::INFINITY })
     });
     (Standing::Agrees(frame.verdict), error.flatten())
 }
@@ -169,19 +148,12 @@ fn judged(
 /// The difference of two sums of force, relative to the exact sum or to the total weight, whichever is larger.
 fn off(found: f64, exact: f64, weight: f64) -> f64 {
     let size = exact.max(weight);
-    if size > 0.0 {
-        (found - exact).abs() / size
-    } else {
-        found.abs()
-    }
+    if size > 0.0 { (found - exact).abs() / size } else { found.abs() }
 }
 
 /// The number in an environment variable, or `otherwise`.
 pub fn number_of(variable: &str, otherwise: u64) -> u64 {
-    std::env::var(variable)
-        .ok()
-        .and_then(|v| v.parse().ok())
-        .unwrap_or(otherwise)
+    std::env::var(variable).ok().and_then(|v| v.parse().ok()).unwrap_or(otherwise)
 }
 
 /// Three sums that were once 27, 158 and 647 % too large. A push of 10⁻⁸ of the weight needs a force of a robot or of
@@ -208,10 +180,7 @@ fn a_total_force_above_the_least_is_not_reported_as_the_least() {
     let frame = Analysis::new(&scene).frames.remove(0);
     let is_least = found.error.is_some_and(|error| error < 1e-6);
     assert_eq!(frame.least_force, is_least, "{:?}", found.error);
-    let is_stated = frame
-        .notices
-        .iter()
-        .any(|notice| notice.contains("was not proved"));
+    let is_stated = frame.notices.iter().any(|notice| notice.contains("was not proved"));
     assert_eq!(is_stated, !is_least, "{:?}", frame.notices);
 }
 
@@ -221,11 +190,7 @@ fn a_total_force_above_the_least_is_not_reported_as_the_least() {
 fn scenes_with_a_very_small_push_and_with_an_exact_corner_fall() {
     for number in [51974, 51566] {
         let found = examined(number);
-        assert_eq!(
-            found.standing,
-            Standing::Agrees(Verdict::Unstable),
-            "{number}"
-        );
+        assert_eq!(found.standing, Standing::Agrees(Verdict::Unstable), "{number}");
         assert!(found.error.is_none_or(|e| e < 1e-8), "{:?}", found.error);
     }
 }
@@ -242,17 +207,11 @@ fn the_adhesion_of_the_least_forces_is_the_least() {
 
 /// The verdicts of random small scenes, outside the tolerance, equal those of the exact program.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn verdicts_are_those_of_an_exact_program() {
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
     let wanted = number_of("DRYSTONE_ORACLE_SCENES", 300);
-    let findings: Vec<Finding> = (first..first + wanted)
-        .into_par_iter()
-        .map(examined)
-        .collect();
+    let findings: Vec<Finding> = (first..first + wanted).into_par_iter().map(examined).collect();
     let count = |f: &dyn Fn(&Finding) -> bool| findings.iter().filter(|x| f(x)).count();
     for (kind, (name, _)) in random::KINDS.iter().enumerate() {
         let of = |s: Standing| count(&|f: &Finding| f.kind == kind && f.standing == s);
@@ -271,10 +230,7 @@ fn verdicts_are_those_of_an_exact_program() {
     }
     let errors: Vec<f64> = findings.iter().filter_map(|f| f.error).collect();
     let worst = errors.iter().fold(0.0, |m: f64, e| m.max(*e));
-    println!(
-        "{} sums of forces, the worst off by {worst:.1e}",
-        errors.len()
-    );
+    println!("{} sums of forces, the worst off by {worst:.1e}", errors.len());
     let ruled_out: Vec<f64> = findings.iter().filter_map(|f| f.ruled_out).collect();
     println!(
         "{} motions: {} rule out every balance, {} of at least 1e12 loads, the weakest one of {:.1e}",
@@ -284,24 +240,17 @@ fn verdicts_are_those_of_an_exact_program() {
         ruled_out.iter().copied().fold(f64::INFINITY, f64::min)
     );
     let bad = findings.iter().filter(|f| {
-        matches!(
-            f.standing,
-            Standing::Wrong | Standing::Undecided | Standing::TouchesElsewhere
-        ) || f.error.is_some_and(|e| e > 1e-7)
+        matches!(f.standing, Standing::Wrong | Standing::Undecided | Standing::TouchesElsewhere)
+            || f.error.is_some_and(|e| e > 1e-7)
     });
-    let bad: Vec<String> = bad
-        .map(|f| format!("{} {:?} {:?}\n{}", f.number, f.standing, f.error, f.file))
-        .collect();
+    let bad: Vec<String> = bad.map(|f| format!("{} {:?} {:?}\n{}", f.number, f.standing, f.error, f.file)).collect();
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
 /// Towers and walls with stones of very different sizes and weights on them, next to them and in them.
 /// `DRYSTONE_ORACLE_SMALL=5000` sets the number of scenes.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn verdicts_of_scenes_with_small_stones_are_those_of_an_exact_program() {
     let wanted = number_of("DRYSTONE_ORACLE_SMALL", 300);
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
@@ -339,15 +288,10 @@ fn verdicts_of_scenes_with_small_stones_are_those_of_an_exact_program() {
         of(Standing::Refused),
         of(Standing::TouchesElsewhere),
     );
-    let bad = found.iter().filter(|f| {
-        matches!(
-            f.2,
-            Standing::Wrong | Standing::Undecided | Standing::TouchesElsewhere
-        )
-    });
-    let bad: Vec<String> = bad
-        .map(|(number, file, standing, doubt)| format!("{number} {standing:?} {doubt}\n{file}"))
-        .collect();
+    let bad =
+        found.iter().filter(|f| matches!(f.2, Standing::Wrong | Standing::Undecided | Standing::TouchesElsewhere));
+    let bad: Vec<String> =
+        bad.map(|(number, file, standing, doubt)| format!("{number} {standing:?} {doubt}\n{file}")).collect();
     assert!(bad.is_empty(), "{} scenes:\n{}", bad.len(), bad.join("\n"));
 }
 
@@ -359,31 +303,18 @@ fn the_optimum_of_the_exact_simplex_equals_that_of_the_dual() {
         let (n, m) = (chance.whole(1, 6) as usize, chance.whole(1, 5) as usize);
         let costs: Vec<i64> = (0..n).map(|_| chance.whole(0, 9)).collect();
         let bounds: Vec<i64> = (0..m).map(|_| chance.whole(-4, 9)).collect();
-        let matrix: Vec<Vec<i64>> = bounds
-            .iter()
-            .map(|_| (0..n).map(|_| chance.whole(-3, 3)).collect())
-            .collect();
+        let matrix: Vec<Vec<i64>> = bounds.iter().map(|_| (0..n).map(|_| chance.whole(-3, 3)).collect()).collect();
         // The primal is min c·x with Ax = b, x ≥ 0; the dual is max b·y with Aᵀy + s = c, s ≥ 0. Their optima are
         // equal. So a program with both sets of constraints and c·x ≤ b·y is feasible exactly if the primal is
         // feasible.
-        let mut primal = LinearProgram {
-            costs: costs.iter().map(|c| RBig::from(*c)).collect(),
-            rows: Vec::new(),
-        };
+        let mut primal = LinearProgram { costs: costs.iter().map(|c| RBig::from(*c)).collect(), rows: Vec::new() };
         let row = |entries: Vec<(usize, i64)>, bound: i64, equality: bool| Row {
-            entries: entries
-                .into_iter()
-                .map(|(k, v)| (k, RBig::from(v)))
-                .collect(),
+            entries: entries.into_iter().map(|(k, v)| (k, RBig::from(v))).collect(),
             bound: RBig::from(bound),
             equality,
         };
         for (line, bound) in matrix.iter().zip(&bounds) {
-            primal.rows.push(row(
-                line.iter().copied().enumerate().collect(),
-                *bound,
-                true,
-            ));
+            primal.rows.push(row(line.iter().copied().enumerate().collect(), *bound, true));
         }
         let mut both = primal.clone();
         let free: Vec<usize> = (0..2 * m).map(|_| both.unknown(RBig::ZERO)).collect();
@@ -395,8 +326,7 @@ fn the_optimum_of_the_exact_simplex_equals_that_of_the_dual() {
         let up = (0..m).map(|i| (free[i], -bounds[i]));
         let down = (0..m).map(|i| (free[m + i], bounds[i]));
         let spent = costs.iter().copied().enumerate();
-        both.rows
-            .push(row(spent.chain(up).chain(down).collect(), 0, false));
+        both.rows.push(row(spent.chain(up).chain(down).collect(), 0, false));
         let least = primal.least();
         assert_eq!(least.is_some(), both.is_feasible(), "program {seed}");
         if let Some(least) = least {
@@ -405,11 +335,7 @@ fn the_optimum_of_the_exact_simplex_equals_that_of_the_dual() {
             let entries = primal.costs.iter().cloned().enumerate().collect();
             let below = &least - RBig::from_parts(1.into(), 1_000_000_007u64.into());
             if below >= RBig::ZERO {
-                better.rows.push(Row {
-                    entries,
-                    bound: below,
-                    equality: false,
-                });
+                better.rows.push(Row { entries, bound: below, equality: false });
                 assert!(!better.is_feasible(), "program {seed}");
             }
         }
@@ -423,13 +349,9 @@ fn the_optimum_of_the_exact_simplex_equals_that_of_the_dual() {
 #[test]
 fn the_distance_from_equilibrium_is_exact() {
     let two_to = |power: i32| libm::exp2(f64::from(power));
-    for (beyond, borderline) in [
-        (two_to(-20), false),
-        (two_to(-25), true),
-        (0.0, true),
-        (-two_to(-25), true),
-        (-two_to(-20), false),
-    ] {
+    for (beyond, borderline) in
+        [(two_to(-20), false), (two_to(-25), true), (0.0, true), (-two_to(-25), true), (-two_to(-20), false)]
+    {
         let file = json!({ "drystone": 1, "ground": [{ "polygon": rectangle(0.0, -1.0, 1.0, 1.0) }],
             "blocks": [block("a", rectangle(0.5 + beyond, 0.0, 1.0, 1.0), 6.0)] });
         let scene = scene(&file);

@@ -45,27 +45,17 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
         friction = chance.share();
     }
     if slope && chance.percent(40) {
-        let difference =
-            chance.one_of(&[0.0, 0.0, 1e-3, 1e-5, 1e-6, 1e-8, -1e-8, -1e-6, -1e-5, -1e-3]);
+        let difference = chance.one_of(&[0.0, 0.0, 1e-3, 1e-5, 1e-6, 1e-8, -1e-8, -1e-6, -1e-5, -1e-3]);
         friction = chance.one_of(&[0.75, 5.0 / 12.0, 7.0 / 24.0, 4.0 / 3.0]) + difference;
     }
     file["friction"] = json!(friction);
-    let kernel = if chance.percent(15) {
-        chance.share()
-    } else {
-        chance.one_of(&[0.0, 0.0, 0.0, 0.2, 0.2, 0.25, 1.0])
-    };
+    let kernel = if chance.percent(15) { chance.share() } else { chance.one_of(&[0.0, 0.0, 0.0, 0.2, 0.2, 0.25, 1.0]) };
     file["kernel"] = json!(kernel);
     if chance.percent(12) {
-        file["gravity"] = chance
-            .one_of(&[[3.0, -4.0], [-1.0, -1.0], [0.125, -1.0], [-5.0, -12.0]])
-            .map(Value::from)
-            .to_vec()
-            .into();
+        file["gravity"] =
+            chance.one_of(&[[3.0, -4.0], [-1.0, -1.0], [0.125, -1.0], [-5.0, -12.0]]).map(Value::from).to_vec().into();
     }
-    let blocks = file["blocks"]
-        .as_array_mut()
-        .expect("every kind has blocks");
+    let blocks = file["blocks"].as_array_mut().expect("every kind has blocks");
     let names: Vec<String> = (0..blocks.len()).map(|k| format!("{k}")).collect();
     let by_density = chance.percent(30);
     let mut places = Vec::new();
@@ -78,11 +68,7 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
         }
         places.push(block["polygon"][0].clone());
     }
-    let robots = if chance.percent(30) {
-        chance.whole(1, 2)
-    } else {
-        0
-    };
+    let robots = if chance.percent(30) { chance.whole(1, 2) } else { 0 };
     let mut held = Vec::new();
     let mut list = Vec::new();
     for k in 0..robots {
@@ -108,11 +94,7 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
     file["robots"] = json!(list);
     let mut loads = Vec::new();
     let quarter = |chance: &mut Random| chance.whole(-16, 16) as f64 / 4.0;
-    let listed = if chance.percent(30) {
-        chance.whole(1, 2)
-    } else {
-        0
-    };
+    let listed = if chance.percent(30) { chance.whole(1, 2) } else { 0 };
     for _ in 0..listed {
         let name = &names[chance.whole(0, names.len() as i64 - 1) as usize];
         let mut load = json!({ "block": name, "force": [quarter(chance), quarter(chance)] });
@@ -126,13 +108,7 @@ fn dress(file: &mut Value, chance: &mut Random, slope: bool) {
     }
     if chance.percent(25) {
         let size = libm::exp10(-chance.whole(4, 9) as f64) * chance.whole(1, 9) as f64;
-        let direction = chance.one_of(&[
-            [1.0, 0.0],
-            [-1.0, 0.0],
-            [0.0, 1.0],
-            [0.0, -1.0],
-            [1.0, -1.0],
-        ]);
+        let direction = chance.one_of(&[[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, -1.0]]);
         let name = &names[chance.whole(0, names.len() as i64 - 1) as usize];
         loads.push(json!({ "block": name, "force": [size * direction[0], size * direction[1]] }));
     }

@@ -30,11 +30,7 @@ pub fn square_pile(chance: &mut Random) -> Value {
                 piece.push(next);
             }
         }
-        let free = |down: i64| {
-            piece
-                .iter()
-                .all(|c| !taken.contains(&(c.0, c.1 + 40 - down)))
-        };
+        let free = |down: i64| piece.iter().all(|c| !taken.contains(&(c.0, c.1 + 40 - down)));
         let fall = (0..=40).take_while(|down| free(*down)).last().unwrap_or(0);
         let rise = if chance.percent(5) { 1 } else { 0 };
         piece.iter_mut().for_each(|c| c.1 += 40 - fall + rise);
@@ -55,25 +51,14 @@ pub fn triangular_pile(chance: &mut Random) -> Value {
     };
     let buried = |c: Triangle| if c.2 { c.1 < 0 } else { c.1 < 1 };
     let written = |c: &Triangle| json!([c.0, c.1, if c.2 { "up" } else { "down" }]);
-    let foot: Vec<Triangle> = (-2..4)
-        .filter(|_| chance.percent(75))
-        .map(|x| (x, 0, false))
-        .collect();
-    let foot = if foot.is_empty() {
-        vec![(0, 0, false)]
-    } else {
-        foot
-    };
+    let foot: Vec<Triangle> = (-2..4).filter(|_| chance.percent(75)).map(|x| (x, 0, false)).collect();
+    let foot = if foot.is_empty() { vec![(0, 0, false)] } else { foot };
     let mut taken: BTreeSet<Triangle> = foot.iter().copied().collect();
     let mut blocks = Vec::new();
     for _ in 0..chance.whole(1, 8) {
-        let around = |cells: &mut dyn Iterator<Item = Triangle>,
-                      taken: &BTreeSet<Triangle>|
-         -> Vec<Triangle> {
+        let around = |cells: &mut dyn Iterator<Item = Triangle>, taken: &BTreeSet<Triangle>| -> Vec<Triangle> {
             let all: BTreeSet<Triangle> = cells.flat_map(neighbours).collect();
-            all.into_iter()
-                .filter(|c| !taken.contains(c) && !buried(*c))
-                .collect()
+            all.into_iter().filter(|c| !taken.contains(c) && !buried(*c)).collect()
         };
         let free = around(&mut taken.iter().copied(), &taken);
         if free.is_empty() {
@@ -91,10 +76,7 @@ pub fn triangular_pile(chance: &mut Random) -> Value {
         }
         blocks.push(json!({ "cells": piece.iter().map(written).collect::<Vec<_>>() }));
     }
-    let ground: Vec<Value> = foot
-        .iter()
-        .map(|c| json!({ "cells": [written(c)] }))
-        .collect();
+    let ground: Vec<Value> = foot.iter().map(|c| json!({ "cells": [written(c)] })).collect();
     json!({ "grid": { "kind": "triangular" }, "ground": ground, "blocks": blocks })
 }
 
@@ -120,11 +102,7 @@ pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
     let mut y = 0;
     while (blocks.len() as i64) < wanted {
         let height = chance.one_of(&[2, 4, 4, 8]);
-        let mut x = if y == 0 {
-            chance.whole(-16, 0)
-        } else {
-            chance.whole(below.0 - 6, below.1 - 1)
-        };
+        let mut x = if y == 0 { chance.whole(-16, 0) } else { chance.whole(below.0 - 6, below.1 - 1) };
         x = x.max(-16);
         let left = x;
         let mut right = x;
@@ -146,25 +124,13 @@ pub fn bricks(chance: &mut Random, along: [i64; 2]) -> Value {
 /// A rectangle cut by straight lines, on a floor, sometimes between walls, sometimes with one piece missing.
 pub fn cut_wall(chance: &mut Random) -> Value {
     loop {
-        let (width, height) = (
-            chance.whole(4, 16) as f64 / 4.0,
-            chance.whole(3, 12) as f64 / 4.0,
-        );
-        let mut pieces = vec![vec![
-            [0.0, 0.0],
-            [width, 0.0],
-            [width, height],
-            [0.0, height],
-        ]];
+        let (width, height) = (chance.whole(4, 16) as f64 / 4.0, chance.whole(3, 12) as f64 / 4.0);
+        let mut pieces = vec![vec![[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]];
         for _ in 0..chance.whole(1, 4) {
             let through = [chance.share() * width, chance.share() * height];
             let angle = chance.share() * std::f64::consts::PI;
             let normal = [libm::cos(angle), libm::sin(angle)];
-            pieces = pieces
-                .iter()
-                .flat_map(|p| cut(p, through, normal))
-                .filter(|p| p.len() > 2)
-                .collect();
+            pieces = pieces.iter().flat_map(|p| cut(p, through, normal)).filter(|p| p.len() > 2).collect();
         }
         if chance.percent(40) && pieces.len() > 1 {
             pieces.swap_remove(chance.whole(0, pieces.len() as i64 - 1) as usize);
@@ -178,8 +144,7 @@ pub fn cut_wall(chance: &mut Random) -> Value {
         if pieces.len() > 8 || !pieces.iter().all(long) {
             continue;
         }
-        let mut ground =
-            vec![json!({ "polygon": [[-2, -1], [width + 2.0, -1], [width + 2.0, 0], [-2, 0]] })];
+        let mut ground = vec![json!({ "polygon": [[-2, -1], [width + 2.0, -1], [width + 2.0, 0], [-2, 0]] })];
         if chance.percent(40) {
             ground.push(json!({ "polygon": [[-2, 0], [0, 0], [0, height], [-2, height]] }));
         }
@@ -204,16 +169,9 @@ fn cut(piece: &[[f64; 2]], through: [f64; 2], normal: [f64; 2]) -> [Vec<[f64; 2]
             below.push(a)
         }
         if (side(a) > 0.0) != (side(b) > 0.0) {
-            let (low, high) = if (a[0], a[1]) < (b[0], b[1]) {
-                (a, b)
-            } else {
-                (b, a)
-            };
+            let (low, high) = if (a[0], a[1]) < (b[0], b[1]) { (a, b) } else { (b, a) };
             let t = side(low) / (side(low) - side(high));
-            let corner = [
-                low[0] + t * (high[0] - low[0]),
-                low[1] + t * (high[1] - low[1]),
-            ];
+            let corner = [low[0] + t * (high[0] - low[0]), low[1] + t * (high[1] - low[1])];
             above.push(corner);
             below.push(corner);
         }
@@ -227,28 +185,15 @@ pub fn arch(chance: &mut Random) -> Value {
     let (inner, thickness) = (1.0, 0.1 + chance.share() * 0.6);
     let (from, to) = (chance.share() * 0.9, 3.1 - chance.share() * 0.9);
     let round = |v: f64| (v * 64.0).round() / 64.0;
-    let at = |radius: f64, angle: f64| {
-        [
-            round(-radius * libm::cos(angle)),
-            round(radius * libm::sin(angle)),
-        ]
-    };
+    let at = |radius: f64, angle: f64| [round(-radius * libm::cos(angle)), round(radius * libm::sin(angle))];
     let mut joints = Vec::new();
     for k in 0..=n {
         let angle = from + (to - from) * k as f64 / n as f64;
-        let turn = if chance.percent(30) {
-            (chance.share() - 0.5) * 0.3
-        } else {
-            0.0
-        };
+        let turn = if chance.percent(30) { (chance.share() - 0.5) * 0.3 } else { 0.0 };
         let outer = inner + thickness * (1.0 + 0.3 * chance.share());
-        joints.push([
-            at(inner, angle + turn / n as f64),
-            at(outer, angle - turn / n as f64),
-        ]);
+        joints.push([at(inner, angle + turn / n as f64), at(outer, angle - turn / n as f64)]);
     }
-    let voussoir =
-        |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| json!({ "polygon": [a[0], a[1], b[1], b[0]] });
+    let voussoir = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| json!({ "polygon": [a[0], a[1], b[1], b[0]] });
     let blocks: Vec<Value> = joints.windows(2).map(|j| voussoir(j[0], j[1])).collect();
     let beyond = |[i, o]: [[f64; 2]; 2], sign: f64| {
         let back = [sign * 0.5 * (o[1] - i[1]), -sign * 0.5 * (o[0] - i[0])];

@@ -42,10 +42,7 @@ impl LinearProgram {
 
     /// The least cost; `None` if the program is infeasible. Costs must not be negative, so that the cost is bounded.
     pub fn least(&self) -> Option<RBig> {
-        assert!(
-            self.costs.iter().all(|c| *c >= RBig::ZERO),
-            "costs must not be negative"
-        );
+        assert!(self.costs.iter().all(|c| *c >= RBig::ZERO), "costs must not be negative");
         let mut table = Table::new(self);
         if !table.reach_feasible() {
             return None;
@@ -53,26 +50,12 @@ impl LinearProgram {
         let x = table.optimum(&self.costs);
         // Check the solution against the program, in case the tableau is wrong.
         for row in &self.rows {
-            let sum = row
-                .entries
-                .iter()
-                .fold(RBig::ZERO, |sum, (k, v)| sum + v * &x[*k]);
-            let kept = if row.equality {
-                sum == row.bound
-            } else {
-                sum <= row.bound
-            };
+            let sum = row.entries.iter().fold(RBig::ZERO, |sum, (k, v)| sum + v * &x[*k]);
+            let kept = if row.equality { sum == row.bound } else { sum <= row.bound };
             assert!(kept, "the solution violates a row");
         }
-        assert!(
-            x.iter().all(|v| *v >= RBig::ZERO),
-            "the solution has a negative unknown"
-        );
-        Some(
-            x.iter()
-                .zip(&self.costs)
-                .fold(RBig::ZERO, |sum, (v, c)| sum + v * c),
-        )
+        assert!(x.iter().all(|v| *v >= RBig::ZERO), "the solution has a negative unknown");
+        Some(x.iter().zip(&self.costs).fold(RBig::ZERO, |sum, (v, c)| sum + v * c))
     }
 
     /// The unknowns at the optimum of each objective; `None` if the program is infeasible. The rows must bound the
@@ -83,12 +66,7 @@ impl LinearProgram {
             return None;
         }
         // Each search starts from the last optimum.
-        Some(
-            objectives
-                .iter()
-                .map(|costs| table.optimum(costs))
-                .collect(),
-        )
+        Some(objectives.iter().map(|costs| table.optimum(costs)).collect())
     }
 }
 
@@ -127,16 +105,9 @@ impl Table {
                 line[*k] += whole(value);
             }
             line[width - 1] = whole(&row.bound);
-            let content = line
-                .iter()
-                .filter(|v| !v.is_zero())
-                .fold(UBig::ZERO, |g, v| {
-                    if g.is_zero() {
-                        v.clone().unsigned_abs()
-                    } else {
-                        g.gcd(v.clone().unsigned_abs())
-                    }
-                });
+            let content = line.iter().filter(|v| !v.is_zero()).fold(UBig::ZERO, |g, v| {
+                if g.is_zero() { v.clone().unsigned_abs() } else { g.gcd(v.clone().unsigned_abs()) }
+            });
             if !content.is_zero() {
                 let content = IBig::from(content);
                 line.iter_mut().for_each(|v| *v = &*v / &content);
@@ -147,23 +118,14 @@ impl Table {
                 }
                 basis.push(Basic::Artificial);
             } else {
-                assert!(
-                    row.bound >= RBig::ZERO,
-                    "the bound of an inequality is negative"
-                );
+                assert!(row.bound >= RBig::ZERO, "the bound of an inequality is negative");
                 line[slack] = IBig::ONE;
                 basis.push(Basic::Unknown(slack));
                 slack += 1;
             }
             rows.push(line);
         }
-        Table {
-            rows,
-            basis,
-            objective: Vec::new(),
-            denominator: IBig::ONE,
-            width,
-        }
+        Table { rows, basis, objective: Vec::new(), denominator: IBig::ONE, width }
     }
 
     /// Makes all artificial unknowns 0. False if this is impossible.
@@ -240,9 +202,7 @@ impl Table {
         for idle in 0.. {
             let lowers = |k: &usize| self.objective[*k] < IBig::ZERO;
             let entering = if idle < PATIENCE {
-                (0..self.width - 1)
-                    .filter(lowers)
-                    .min_by(|a, b| self.objective[*a].cmp(&self.objective[*b]))
+                (0..self.width - 1).filter(lowers).min_by(|a, b| self.objective[*a].cmp(&self.objective[*b]))
             } else {
                 (0..self.width - 1).find(lowers)
             };
@@ -264,12 +224,10 @@ impl Table {
     /// The row whose basic unknown first reaches 0 as unknown `k` grows.
     fn leaving(&self, k: usize) -> Option<usize> {
         let bound = |r: usize| &self.rows[r][self.width - 1];
-        (0..self.rows.len())
-            .filter(|r| self.rows[*r][k] > IBig::ZERO)
-            .min_by(|a, b| {
-                let (left, right) = (bound(*a) * &self.rows[*b][k], bound(*b) * &self.rows[*a][k]);
-                left.cmp(&right).then(self.basis[*a].cmp(&self.basis[*b]))
-            })
+        (0..self.rows.len()).filter(|r| self.rows[*r][k] > IBig::ZERO).min_by(|a, b| {
+            let (left, right) = (bound(*a) * &self.rows[*b][k], bound(*b) * &self.rows[*a][k]);
+            left.cmp(&right).then(self.basis[*a].cmp(&self.basis[*b]))
+        })
     }
 
     /// Solves row `r` for unknown `k`, whose entry is positive.

@@ -20,19 +20,13 @@ impl Pile {
     fn outline(&self, x: f64, y: f64, width: f64, height: f64) -> Value {
         let [c, s] = self.along;
         let place = |x: f64, y: f64| json!([x * c - y * s, x * s + y * c]);
-        json!([
-            place(x, y),
-            place(x + width, y),
-            place(x + width, y + height),
-            place(x, y + height)
-        ])
+        json!([place(x, y), place(x + width, y), place(x + width, y + height), place(x, y + height)])
     }
 
     fn add(&mut self, x: f64, y: f64, width: f64, height: f64, weight: f64) {
         let polygon = self.outline(x, y, width, height);
         let id = format!("{}", self.blocks.len());
-        self.blocks
-            .push(json!({ "id": id, "polygon": polygon, "weight": weight }));
+        self.blocks.push(json!({ "id": id, "polygon": polygon, "weight": weight }));
     }
 }
 
@@ -40,10 +34,7 @@ impl Pile {
 pub fn scene(number: u64) -> Value {
     let mut chance = Random::new(number ^ 0x5a11);
     let along = chance.one_of(&AXES);
-    let mut pile = Pile {
-        along,
-        blocks: Vec::new(),
-    };
+    let mut pile = Pile { along, blocks: Vec::new() };
     let weight = |chance: &mut Random| chance.whole(1, 9) as f64;
     // The lightest stones weigh 10⁻¹² times as much as bricks.
     let light = |chance: &mut Random| {
@@ -56,11 +47,7 @@ pub fn scene(number: u64) -> Value {
     let mut x = 0.0;
     for k in 0..courses {
         x += chance.whole(-3, 3) as f64 / 8.0;
-        let own = if chance.percent(15) {
-            light(&mut chance)
-        } else {
-            weight(&mut chance)
-        };
+        let own = if chance.percent(15) { light(&mut chance) } else { weight(&mut chance) };
         pile.add(x, k as f64, 2.0, 1.0, own);
     }
     let top = courses as f64;

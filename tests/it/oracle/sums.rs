@@ -49,12 +49,7 @@ fn piles(number: u64) -> Value {
     let [c, s] = chance.one_of(&AXES);
     let outline = |x: f64, y: f64, width: f64, height: f64| {
         let place = |x: f64, y: f64| json!([x * c - y * s, x * s + y * c]);
-        json!([
-            place(x, y),
-            place(x + width, y),
-            place(x + width, y + height),
-            place(x, y + height)
-        ])
+        json!([place(x, y), place(x + width, y), place(x + width, y + height), place(x, y + height)])
     };
     let mut blocks: Vec<Value> = Vec::new();
     let mut ground = vec![json!({ "polygon": outline(-16.0, -1.0, 112.0, 1.0) })];
@@ -67,9 +62,7 @@ fn piles(number: u64) -> Value {
             let exponent = if mixed { chance.whole(-6, 6) } else { own };
             let weight = weight(exponent, chance);
             let id = format!("{}", blocks.len());
-            blocks.push(
-                json!({ "id": id, "polygon": outline(x, y, width, height), "weight": weight }),
-            );
+            blocks.push(json!({ "id": id, "polygon": outline(x, y, width, height), "weight": weight }));
         };
         let foot = x;
         let courses = chance.whole(1, 4);
@@ -134,16 +127,11 @@ fn compared(scene: &Scene, exact: bool, closely: bool) -> (Vec<String>, f64) {
     let (mut wrong, mut worst) = (beyond_limits(scene, frame), 0.0_f64);
     let listed: f64 = frame.failures.iter().map(|f| size(f, frame.length).0).sum();
     if (listed - frame.total_sticking).abs() > 1e-9 * frame.total_sticking {
-        wrong.push(format!(
-            "the failures sum to {listed} instead of {}",
-            frame.total_sticking
-        ));
+        wrong.push(format!("the failures sum to {listed} instead of {}", frame.total_sticking));
     }
     let falls = groups.iter().any(|group| !group.stands());
     let falling = frame.verdict == Verdict::Unstable;
-    if frame.verdict == Verdict::Undecided
-        || (falls != falling && !groups.iter().any(Balance::is_borderline))
-    {
+    if frame.verdict == Verdict::Undecided || (falls != falling && !groups.iter().any(Balance::is_borderline)) {
         wrong.push(format!("{:?} {}", frame.verdict, frame.doubt()));
         return (wrong, worst);
     }
@@ -179,17 +167,11 @@ fn forces(frame: &FrameAnalysis) -> Vec<(f64, Vec<usize>)> {
     let contacts = frame.contacts.iter().map(|contact| {
         let [first, second] = contact.normal_forces;
         let bodies = contact.interface.bodies;
-        (
-            first + second + contact.friction_force.abs(),
-            blocks_of(&bodies),
-        )
+        (first + second + contact.friction_force.abs(), blocks_of(&bodies))
     });
     let robots = frame.robots.iter().map(|robot| {
         let force = robot.force.x.abs() + robot.force.y.abs();
-        (
-            force + robot.torque.abs() / frame.length,
-            vec![robot.block.0],
-        )
+        (force + robot.torque.abs() / frame.length, vec![robot.block.0])
     });
     contacts.chain(robots).collect()
 }
@@ -205,9 +187,7 @@ fn compare_group(
     let failures = frame.failures.iter().map(|f| size(f, frame.length));
     let failures: Vec<(f64, Vec<usize>)> = failures.collect();
     let of = |sizes: &[(f64, Vec<usize>)], blocks: &[usize]| -> f64 {
-        let own = sizes
-            .iter()
-            .filter(|(_, on)| on.iter().any(|block| blocks.contains(block)));
+        let own = sizes.iter().filter(|(_, on)| on.iter().any(|block| blocks.contains(block)));
         own.map(|(size, _)| size).sum()
     };
     let (stands, stuck) = (group.stands(), of(&failures, &group.blocks));
@@ -220,20 +200,14 @@ fn compare_group(
         return;
     }
     let Some(exact) = group.least_exactly(sum) else {
-        let lost = group
-            .blocks
-            .iter()
-            .all(|block| frame.unsupported.iter().any(|b| b.0 == *block));
+        let lost = group.blocks.iter().all(|block| frame.unsupported.iter().any(|b| b.0 == *block));
         if !lost && group.cannot_be_held() {
             wrong.push(format!("no adhesion can hold {:?}", group.blocks));
         }
         return;
     };
     if stands && stuck > 0.0 {
-        wrong.push(format!(
-            "{:?} stand, but adhesion of {stuck} is listed",
-            group.blocks
-        ));
+        wrong.push(format!("{:?} stand, but adhesion of {stuck} is listed", group.blocks));
     }
     let (least, found) = (exact.to_f64_fast(), of(&sizes, &group.blocks));
     let weights = group.blocks.iter().map(|k| scene.blocks()[*k].weight);
@@ -241,19 +215,14 @@ fn compare_group(
     let off = ((found - least).abs() - rounded).max(0.0) / if least > 0.0 { least } else { 1.0 };
     *worst = worst.max(off);
     if off > SUM {
-        wrong.push(format!(
-            "{sum:?} {:?}: {found} instead of {least}, off by {off:.1e}",
-            group.blocks
-        ));
+        wrong.push(format!("{sum:?} {:?}: {found} instead of {least}, off by {off:.1e}", group.blocks));
     } else if closely {
         for block in &group.blocks {
             let [low, high] = group.sum_on(sum, *block, &exact);
             let allowed = BLOCK * scene.blocks()[*block].weight + rounded;
             let found = of(&sizes, &[*block]);
             if found < low - allowed - SUM * low || found > high + allowed + SUM * high {
-                wrong.push(format!(
-                    "{sum:?} on block {block}: {found} is not from {low} to {high}"
-                ));
+                wrong.push(format!("{sum:?} on block {block}: {found} is not from {low} to {high}"));
             }
         }
     }
@@ -264,10 +233,7 @@ type Comparison = (u64, Value, Vec<String>, f64);
 
 /// `DRYSTONE_ORACLE_SUMS=3000` sets the number of scenes, `DRYSTONE_ORACLE_FIRST` the number of the first scene.
 #[test]
-#[expect(
-    clippy::print_stdout,
-    reason = "the counts are the result of a long run"
-)]
+#[expect(clippy::print_stdout, reason = "the counts are the result of a long run")]
 fn force_and_sticking_of_each_component_and_block_are_exact_for_any_weights() {
     let wanted = number_of("DRYSTONE_ORACLE_SUMS", 100);
     let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
@@ -323,10 +289,7 @@ fn a_light_stone_that_slides_off_a_heavy_one_is_listed() {
     assert!(wrong.is_empty(), "{wrong:?}");
     let frame = &analysis.frames[0];
     let light = frame.failures.iter().map(|f| size(f, frame.length));
-    let light: f64 = light
-        .filter(|(_, on)| on.contains(&1))
-        .map(|(size, _)| size)
-        .sum();
+    let light: f64 = light.filter(|(_, on)| on.contains(&1)).map(|(size, _)| size).sum();
     // Computed by hand: a missing tension of 0.625 N and a missing friction force of 0.6875 N.
     assert!((light - 1.3125).abs() < 1e-6, "{light}");
 }

@@ -42,12 +42,7 @@ pub fn dot(a: &Pair, b: &Pair) -> RBig {
 
 /// The corners of a body's outline in anticlockwise order.
 pub fn corners(body: &Body) -> Vec<Pair> {
-    let mut corners: Vec<Pair> = body
-        .polygon
-        .outline()
-        .iter()
-        .map(|p| pair(p.x, p.y))
-        .collect();
+    let mut corners: Vec<Pair> = body.polygon.outline().iter().map(|p| pair(p.x, p.y)).collect();
     let twice: RBig = (0..corners.len())
         .map(|i| cross(&corners[i], &corners[(i + 1) % corners.len()]))
         .fold(RBig::ZERO, |a, b| a + b);
@@ -64,30 +59,14 @@ pub fn touches(scene: &Scene) -> Vec<Touch> {
     let mut found = Vec::new();
     for (i, one) in blocks.iter().enumerate() {
         for (j, other) in blocks[..i].iter().enumerate() {
-            let friction = scene.blocks()[i]
-                .body
-                .friction
-                .min(scene.blocks()[j].body.friction);
+            let friction = scene.blocks()[i].body.friction.min(scene.blocks()[j].body.friction);
             let common_segments = joined(common_segments(one, other));
-            found.extend(common_segments.into_iter().map(|ends| Touch {
-                on: i,
-                from: Some(j),
-                ends,
-                friction,
-            }));
+            found.extend(common_segments.into_iter().map(|ends| Touch { on: i, from: Some(j), ends, friction }));
         }
         for (j, other) in ground.iter().enumerate() {
-            let friction = scene.blocks()[i]
-                .body
-                .friction
-                .min(scene.ground()[j].body.friction);
+            let friction = scene.blocks()[i].body.friction.min(scene.ground()[j].body.friction);
             let common_segments = joined(common_segments(one, other));
-            found.extend(common_segments.into_iter().map(|ends| Touch {
-                on: i,
-                from: None,
-                ends,
-                friction,
-            }));
+            found.extend(common_segments.into_iter().map(|ends| Touch { on: i, from: None, ends, friction }));
         }
     }
     found
@@ -118,8 +97,7 @@ fn common_segments(one: &[Pair], other: &[Pair]) -> Vec<[Pair; 2]> {
         let along = minus(b, a);
         for j in 0..other.len() {
             let (c, d) = (&other[j], &other[(j + 1) % other.len()]);
-            let straight = cross(&along, &minus(c, a)) == RBig::ZERO
-                && cross(&along, &minus(d, a)) == RBig::ZERO;
+            let straight = cross(&along, &minus(c, a)) == RBig::ZERO && cross(&along, &minus(d, a)) == RBig::ZERO;
             if !straight || dot(&along, &minus(d, c)) >= RBig::ZERO {
                 continue;
             }

@@ -30,15 +30,8 @@ struct Springs<'a> {
 impl<'a> Springs<'a> {
     fn of(scene: &'a Scene, frame: &'a FrameAnalysis) -> Springs<'a> {
         let unknowns = 6 * scene.blocks().len() + 4 * frame.contacts.len();
-        let program = LinearProgram {
-            costs: vec![RBig::ZERO; unknowns],
-            rows: Vec::new(),
-        };
-        Springs {
-            scene,
-            frame,
-            program,
-        }
+        let program = LinearProgram { costs: vec![RBig::ZERO; unknowns], rows: Vec::new() };
+        Springs { scene, frame, program }
     }
 
     fn normal(&self, contact: usize, point: usize) -> usize {
@@ -67,10 +60,7 @@ impl<'a> Springs<'a> {
                 continue;
             };
             let centroid = self.scene.blocks()[number.0].centroid;
-            let arm = [
-                exact(at.x) - exact(centroid.x),
-                exact(at.y) - exact(centroid.y),
-            ];
+            let arm = [exact(at.x) - exact(centroid.x), exact(at.y) - exact(centroid.y)];
             let moment = &arm[0] * &direction[1] - &arm[1] * &direction[0];
             let force = [direction[0].clone(), direction[1].clone(), moment];
             for (k, value) in force.into_iter().enumerate() {
@@ -91,11 +81,7 @@ impl<'a> Springs<'a> {
     }
 
     fn row(&mut self, entries: Entries, bound: RBig, equality: bool) {
-        self.program.rows.push(Row {
-            entries,
-            bound,
-            equality,
-        });
+        self.program.rows.push(Row { entries, bound, equality });
     }
 
     /// Adds the rows that all cases have in common: equilibrium, the power of the loads, and the bound on the normal
@@ -113,12 +99,7 @@ impl<'a> Springs<'a> {
                 balance[row].extend(self.friction(contact, &v));
             }
         }
-        let weights: Vec<RBig> = self
-            .scene
-            .blocks()
-            .iter()
-            .map(|b| exact(b.weight))
-            .collect();
+        let weights: Vec<RBig> = self.scene.blocks().iter().map(|b| exact(b.weight)).collect();
         let mut work = Vec::new();
         for (row, entries) in balance.into_iter().enumerate() {
             let held = match row % 3 {
@@ -133,9 +114,7 @@ impl<'a> Springs<'a> {
         self.row(work, RBig::ZERO, false);
         let all = weights.iter().fold(RBig::ZERO, |sum, w| sum + w) * RBig::from(FAR);
         let points = (0..self.frame.contacts.len()).flat_map(|c| [(c, 0), (c, 1)]);
-        let sum = points
-            .map(|(c, p)| (self.normal(c, p), RBig::ONE))
-            .collect();
+        let sum = points.map(|(c, p)| (self.normal(c, p), RBig::ONE)).collect();
         self.row(sum, all, false);
     }
 
@@ -212,11 +191,7 @@ fn share(case: &RuledOut) -> RBig {
 fn exclude_each_other(one: &RuledOut, other: &RuledOut) -> bool {
     let points = one.points.iter().any(|a| {
         let same = |b: &&_| ends(a) == ends(b);
-        other
-            .points
-            .iter()
-            .find(same)
-            .is_some_and(|b| a.presses != b.presses)
+        other.points.iter().find(same).is_some_and(|b| a.presses != b.presses)
     });
     points
         || one.faces.iter().any(|a| {
@@ -232,20 +207,13 @@ fn ends(point: &drystone::analysis::PointCase) -> (usize, usize) {
 #[test]
 fn the_exact_program_confirms_every_ruled_out_case_of_wedging() {
     let mut cases = 0;
-    for file in [
-        bar_between_walls(0.0, 0.7),
-        bar_between_walls(0.2, 0.7),
-        h_model(0.7),
-    ] {
+    for file in [bar_between_walls(0.0, 0.7), bar_between_walls(0.2, 0.7), h_model(0.7)] {
         let scene = scene(&file);
         let options = Options::default().wedging(true);
         let analysis = Analysis::with(scene.clone(), &options);
         let frame = &analysis.frames[0];
         let wedged = frame.wedged.as_ref().expect("the certificate of wedging");
-        let all = wedged
-            .ruled_out
-            .iter()
-            .fold(RBig::ZERO, |sum, c| sum + share(c));
+        let all = wedged.ruled_out.iter().fold(RBig::ZERO, |sum, c| sum + share(c));
         assert_eq!(all, RBig::ONE, "the cases cover all patterns");
         for (k, case) in wedged.ruled_out.iter().enumerate() {
             for other in &wedged.ruled_out[k + 1..] {

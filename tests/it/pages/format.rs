@@ -56,9 +56,7 @@ use Shown::{Refused, Result};
 
 fn is_near(found: &Value, expected: &Value) -> bool {
     match (found, expected) {
-        (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b))
-        }
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b)),
         (Value::Number(a), Value::Number(b)) => {
             let [a, b] = [a, b].map(|x| x.as_f64().unwrap_or(f64::NAN));
             (a - b).abs() <= 1e-9 * b.abs().max(1.0)
@@ -115,26 +113,15 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
         Claim(
             "or all known keys if none is similar",
             file(json!({ "zzzzzz": 1 })),
-            Refused(
-                "unknown_key",
-                "known keys are author, blocks, contact_tolerance, contacts, corner_contacts",
-            ),
+            Refused("unknown_key", "known keys are author, blocks, contact_tolerance, contacts, corner_contacts"),
         ),
         Claim(
             "All keys may be left out, except those that the tables below mark as *required*",
             without("ground"),
             Result(STANDS, json!("unstable")),
         ),
-        Claim(
-            "`drystone` | whole number | required",
-            without("drystone"),
-            Refused("missing_key", "drystone"),
-        ),
-        Claim(
-            "`blocks` | list: a block | required",
-            without("blocks"),
-            Refused("missing_key", "blocks"),
-        ),
+        Claim("`drystone` | whole number | required", without("drystone"), Refused("missing_key", "drystone")),
+        Claim("`blocks` | list: a block | required", without("blocks"), Refused("missing_key", "blocks")),
         Claim(
             "the value `null` has the same meaning as leaving the key out",
             file(json!({ "title": null, "gravity": null, "grid": null,
@@ -151,16 +138,7 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
             stands(),
         ),
     ]);
-    let lists = [
-        "materials",
-        "friction_pairs",
-        "shapes",
-        "ground",
-        "robots",
-        "loads",
-        "steps",
-        "silence",
-    ];
+    let lists = ["materials", "friction_pairs", "shapes", "ground", "robots", "loads", "steps", "silence"];
     for key in lists.into_iter().chain(["drystone", "blocks"]) {
         let refused = Refused("wrong_type", "found null");
         assert_claims(vec![Claim(
@@ -175,19 +153,12 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
 fn defaults_and_units_are_those_of_the_page() {
     let held = |limits: Value| {
         let robot = json!({ "holds": "a", "limits": limits });
-        block(
-            json!({ "polygon": rectangle(0.0, 5.0, 1.0, 1.0), "weight": 10 }),
-            json!({ "robots": [robot] }),
-        )
+        block(json!({ "polygon": rectangle(0.0, 5.0, 1.0, 1.0), "weight": 10 }), json!({ "robots": [robot] }))
     };
     let pushed = |load: Value| block(json!({ "weight": 10 }), json!({ "loads": [load] }));
     let resultant = "/frames/0/interfaces/0/resultant";
     assert_claims(vec![
-        Claim(
-            "Default [0, -9.81].",
-            file(json!({})),
-            Result(WEIGHT, json!(9.81)),
-        ),
+        Claim("Default [0, -9.81].", file(json!({})), Result(WEIGHT, json!(9.81))),
         Claim(
             "Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default 1.",
             file(json!({})),
@@ -206,33 +177,21 @@ fn defaults_and_units_are_those_of_the_page() {
         Claim(
             "Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length. Default 0.",
             file(json!({ "kernel": 0.2 })),
-            Result(
-                "/frames/0/interfaces/0/application_points",
-                json!([[0.9, 0], [0.1, 0]]),
-            ),
+            Result("/frames/0/interfaces/0/application_points", json!([[0.9, 0], [0.1, 0]])),
         ),
         Claim(
             "Default 0.",
             file(json!({})),
-            Result(
-                "/frames/0/interfaces/0/application_points",
-                json!([[1, 0], [0, 0]]),
-            ),
+            Result("/frames/0/interfaces/0/application_points", json!([[1, 0], [0, 0]])),
         ),
         Claim(
             "Whether a corner that touches an edge or another corner carries force. Default false.",
-            block(
-                json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
-                json!({}),
-            ),
+            block(json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }), json!({})),
             Result(STANDS, json!("unstable")),
         ),
         Claim(
             "Whether a corner that touches an edge or another corner carries force.",
-            block(
-                json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }),
-                json!({ "corner_contacts": true }),
-            ),
+            block(json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }), json!({ "corner_contacts": true })),
             Result("/frames/0/interfaces/0/kind", json!("corner")),
         ),
         Claim(
@@ -252,21 +211,9 @@ fn defaults_and_units_are_those_of_the_page() {
             ),
             Result("/frames/0/robots/0/at", json!([0.5, 0.5])),
         ),
-        Claim(
-            "Largest force and torque of the robot. Default: any force, no torque.",
-            held(json!(null)),
-            stands(),
-        ),
-        Claim(
-            "Default: `force`, else unlimited.",
-            held(json!({ "fx": 0 })),
-            stands(),
-        ),
-        Claim(
-            "Default: `force`, else unlimited.",
-            held(json!({ "force": 9 })),
-            Result(STANDS, json!("unstable")),
-        ),
+        Claim("Largest force and torque of the robot. Default: any force, no torque.", held(json!(null)), stands()),
+        Claim("Default: `force`, else unlimited.", held(json!({ "fx": 0 })), stands()),
+        Claim("Default: `force`, else unlimited.", held(json!({ "force": 9 })), Result(STANDS, json!("unstable"))),
         Claim(
             "Limit for `fx` and `fy` if they are not given",
             held(json!({ "force": 5, "fy": 20 })),
@@ -297,10 +244,7 @@ fn defaults_and_units_are_those_of_the_page() {
             json!({ "drystone": 1, "units": { "length": "mm", "force": "kN" },
                 "ground": [{ "polygon": rectangle(-2000.0, -1000.0, 6000.0, 1000.0) }],
                 "blocks": [{ "polygon": rectangle(0.0, 0.0, 1000.0, 1000.0), "weight": 3 }] }),
-            Result(
-                "/frames/0/interfaces/0/resultant",
-                json!({ "at": [0.5, 0.0], "force": [0.0, 3000.0] }),
-            ),
+            Result("/frames/0/interfaces/0/resultant", json!({ "at": [0.5, 0.0], "force": [0.0, 3000.0] })),
         ),
         Claim(
             "Masses stay in kg, densities in kg/m³ and gravity in m/s².",
@@ -323,10 +267,6 @@ fn defaults_and_units_are_those_of_the_page() {
             "blocks": [{ "cells": [[0, 0]] }] }),
             Result(WEIGHT, json!(9.81)),
         ),
-        Claim(
-            "Title of the scene",
-            file(json!({ "title": "é" })),
-            Result("/scene", json!("é")),
-        ),
+        Claim("Title of the scene", file(json!({ "title": "é" })), Result("/scene", json!("é"))),
     ]);
 }

@@ -25,14 +25,8 @@ fn wedge(half_angle: f64) -> String {
 fn a_study_is_written_in_every_form() {
     let bench = Bench::new();
     let forms = ["html", "csv", "json", "svg", "md"];
-    let outputs: Vec<String> = forms
-        .iter()
-        .map(|form| format!("-o study.{form}"))
-        .collect();
-    let line = format!(
-        "accuracy stands.json --tolerances 1e-4,1e-8 {}",
-        outputs.join(" ")
-    );
+    let outputs: Vec<String> = forms.iter().map(|form| format!("-o study.{form}")).collect();
+    let line = format!("accuracy stands.json --tolerances 1e-4,1e-8 {}", outputs.join(" "));
     let ran = bench.run(&line);
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
     let text = |form: &str| fs::read_to_string(bench.path(&format!("study.{form}"))).expect(form);
@@ -45,16 +39,9 @@ fn a_study_is_written_in_every_form() {
     // An unknown output format is reported before anything is measured or written.
     let ran = bench.run("accuracy stands.json -o study.txt -o other.csv");
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains(".html, .csv, .json, .svg or .md"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains(".html, .csv, .json, .svg or .md"), "{}", ran.err);
     assert!(!bench.path("other.csv").exists());
-    assert_eq!(
-        bench.run("accuracy stands.json -o no/such/folder.csv").code,
-        4
-    );
+    assert_eq!(bench.run("accuracy stands.json -o no/such/folder.csv").code, 4);
 }
 
 #[test]
@@ -66,29 +53,16 @@ fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
     let ran = bench.run("check --accuracy proved flat.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(ran.out.contains("undecided"), "{}", ran.out);
-    assert!(
-        ran.out.contains("miss the balance of a block by"),
-        "{}",
-        ran.out
-    );
+    assert!(ran.out.contains("miss the balance of a block by"), "{}", ran.out);
     // A thrust of 10¹³ weights is balanced to three digits, which is not a proof. The wedge does not fall either.
     fs::write(bench.path("flatter.json"), wedge(1e-13)).expect("writable");
     let ran = bench.run("check flatter.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
     assert!(ran.out.contains("undecided"), "{}", ran.out);
     assert_eq!(bench.run("check flatter.json stands.json").code, 3);
-    assert_eq!(
-        bench.run("check flatter.json falls.json").code,
-        1,
-        "a fall has precedence over an undecided verdict"
-    );
+    assert_eq!(bench.run("check flatter.json falls.json").code, 1, "a fall has precedence over an undecided verdict");
     assert_eq!(bench.run("render flatter.json -o flatter.svg").code, 0);
-    assert_eq!(
-        bench
-            .run("render flatter.json -o flatter.svg --strict")
-            .code,
-        3
-    );
+    assert_eq!(bench.run("render flatter.json -o flatter.svg --strict").code, 3);
     let ran = bench.run("check --json flatter.json");
     let result: Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(result["frames"][0]["verdict"], "undecided");
@@ -98,20 +72,8 @@ fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
 fn every_level_gives_the_same_verdicts() {
     let bench = Bench::new();
     for level in ["standard", "proved"] {
-        assert_eq!(
-            bench
-                .run(&format!("check --accuracy {level} stands.json"))
-                .code,
-            0,
-            "{level}"
-        );
-        assert_eq!(
-            bench
-                .run(&format!("check --accuracy {level} falls.json"))
-                .code,
-            1,
-            "{level}"
-        );
+        assert_eq!(bench.run(&format!("check --accuracy {level} stands.json")).code, 0, "{level}");
+        assert_eq!(bench.run(&format!("check --accuracy {level} falls.json")).code, 1, "{level}");
     }
     let ran = bench.run("check --accuracy best stands.json");
     assert_eq!(ran.code, 2);
@@ -119,11 +81,7 @@ fn every_level_gives_the_same_verdicts() {
     // For a level of earlier versions the message names its replacement.
     let ran = bench.run("check --accuracy draft stands.json");
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("removed") && ran.err.contains("\"standard\""),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("removed") && ran.err.contains("\"standard\""), "{}", ran.err);
 }
 
 #[test]
@@ -134,10 +92,5 @@ fn an_unstable_frame_states_which_forces_its_motion_rules_out() {
     let frames = result["frames"].as_array().expect("frames");
     assert_eq!(frames[0]["proof"]["no_balance_below"], "unbounded");
     assert!(frames[1]["proof"].get("no_balance_below").is_none());
-    assert!(
-        bench
-            .run("check --verbose falls.json")
-            .out
-            .contains("no balance at all")
-    );
+    assert!(bench.run("check --verbose falls.json").out.contains("no balance at all"));
 }

@@ -35,9 +35,7 @@ fn tower(title: &str, bricks: usize, shift: f64) -> String {
 
 fn lines(out: &str) -> Vec<Value> {
     assert!(out.is_empty() || out.ends_with('\n'), "{out:?}");
-    out.lines()
-        .map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}")))
-        .collect()
+    out.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
 }
 
 #[test]
@@ -51,14 +49,8 @@ fn every_line_has_an_answer_in_the_same_order() {
     assert_eq!((ran.code, &*ran.err), (2, ""), "a line is invalid");
     let answers = lines(&ran.out);
     assert_eq!(answers.len(), 5);
-    assert_eq!(
-        answers[0],
-        json!({ "line": 1, "scene": "A lintel", "verdict": "stable" })
-    );
-    assert_eq!(
-        answers[1]["verdict"], "unstable",
-        "the worse of the two frames"
-    );
+    assert_eq!(answers[0], json!({ "line": 1, "scene": "A lintel", "verdict": "stable" }));
+    assert_eq!(answers[1]["verdict"], "unstable", "the worse of the two frames");
     assert_eq!(answers[2]["problems"][0]["line"], 3);
     assert_eq!(answers[3]["line"], 4, "an empty line also has an answer");
     assert_eq!(answers[3]["problems"].as_array().map(Vec::len), Some(1));
@@ -82,13 +74,7 @@ fn problems_are_reported_with_their_positions() {
     let ran = bench.run("batch wrong.json");
     let answers = lines(&ran.out);
     assert_eq!(answers[0]["file"], "wrong.json");
-    let on = |n| {
-        answers[0]["problems"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .any(|p| p["line"] == n)
-    };
+    let on = |n| answers[0]["problems"].as_array().into_iter().flatten().any(|p| p["line"] == n);
     assert!(on(3) && on(4), "{}", ran.out);
 }
 
@@ -105,10 +91,7 @@ fn several_threads_give_the_same_answers_as_one_thread_and_as_check() {
     let one = bench.run("batch corpus.ndjson --jobs 1 --fields all");
     let many = bench.run("batch corpus.ndjson --jobs 4 --fields all");
     assert_eq!((one.code, one.out.len()), (many.code, many.out.len()));
-    assert!(
-        one.out == many.out,
-        "the output depends on the number of threads"
-    );
+    assert!(one.out == many.out, "the output depends on the number of threads");
     assert_eq!(one.code, 1, "some fall");
     for (k, (text, answer)) in input.lines().zip(lines(&one.out)).enumerate().step_by(9) {
         fs::write(bench.path("single.json"), text).expect("writable");
@@ -122,8 +105,7 @@ fn several_threads_give_the_same_answers_as_one_thread_and_as_check() {
 fn fields_select_the_output() {
     let bench = Bench::new();
     let whole = lines(&bench.run("batch falls.json --fields all").out).remove(0);
-    let list =
-        "verdict,frames.total_force,frames.interfaces.resultant.at,frames.proof,contact_tolerance";
+    let list = "verdict,frames.total_force,frames.interfaces.resultant.at,frames.proof,contact_tolerance";
     let ran = bench.run(&format!("batch falls.json --fields {list}"));
     let answers = lines(&ran.out).remove(0);
     let keys: Vec<&String> = answers.as_object().expect("an object").keys().collect();
@@ -138,8 +120,7 @@ fn fields_select_the_output() {
         assert_eq!(part["interfaces"][0].as_object().map(|o| o.len()), Some(1));
     }
     // With the names of all fields, the result is complete.
-    let ran = bench
-        .run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,notes,frames");
+    let ran = bench.run("batch falls.json --fields drystone,scene,verdict,contact_tolerance,notes,frames");
     assert_eq!(lines(&ran.out).remove(0), whole);
     // Results that are computed only on request are requested by their field names.
     let frame = |list: &str| {
@@ -147,10 +128,7 @@ fn fields_select_the_output() {
         lines(&ran.out)[0]["frames"][1].clone()
     };
     assert!(frame("frames.margins")["margins"]["friction"].is_number());
-    assert_eq!(
-        frame("frames.only_by_wedging"),
-        json!({ "only_by_wedging": false })
-    );
+    assert_eq!(frame("frames.only_by_wedging"), json!({ "only_by_wedging": false }));
     assert!(frame("frames.solve.seconds")["solve"]["seconds"].is_number());
     assert!(frame("frames.solve.stages")["solve"]["stages"]["solution"].is_number());
     assert!(frame("frames")["solve"].get("seconds").is_none());
@@ -164,20 +142,13 @@ fn fields_select_the_output() {
 #[test]
 fn margins_are_those_of_check() {
     let bench = Bench::new();
-    for list in [
-        "",
-        "=friction,tilt",
-        " load-factor",
-        "=horizontal_load,kernel,robots",
-    ] {
+    for list in ["", "=friction,tilt", " load-factor", "=horizontal_load,kernel,robots"] {
         for file in ["stands.json", "falls.json"] {
             let ran = bench.run(&format!("check --json --no-timing --margins{list} {file}"));
             let checked: Value = serde_json::from_str(&ran.out).expect("JSON");
             let margins = |result: &Value| {
                 let frames = result["frames"].as_array().expect("frames").iter();
-                frames
-                    .map(|frame| frame["margins"].clone())
-                    .collect::<Vec<_>>()
+                frames.map(|frame| frame["margins"].clone()).collect::<Vec<_>>()
             };
             assert!(margins(&checked).iter().all(Value::is_object), "{checked}");
             let batch = |fields: &str| {
@@ -190,22 +161,14 @@ fn margins_are_those_of_check() {
             assert_eq!(margins(&answers), margins(&checked), "{list}");
             assert_eq!(answers["frames"][0].as_object().map(|o| o.len()), Some(1));
             assert_eq!(answers["scene"], checked["scene"]);
-            assert_eq!(
-                margins(&batch("--fields verdict,frames.weight")),
-                margins(&checked)
-            );
+            assert_eq!(margins(&batch("--fields verdict,frames.weight")), margins(&checked));
             assert_eq!(batch("--fields all")["frames"], checked["frames"], "{list}");
         }
     }
     let ran = bench.run("batch stands.json --margins --fields frames.margins.friction");
     let answers = lines(&ran.out).remove(0);
-    let margins = answers["frames"][0]["margins"]
-        .as_object()
-        .expect("an object");
-    assert!(
-        margins.len() == 1 && margins["friction"].is_number(),
-        "{answers}"
-    );
+    let margins = answers["frames"][0]["margins"].as_object().expect("an object");
+    assert!(margins.len() == 1 && margins["friction"].is_number(), "{answers}");
     let answers = lines(&bench.run("batch stands.json --wedging").out).remove(0);
     assert_eq!(answers["frames"], json!([{ "only_by_wedging": false }]));
     assert_eq!(bench.run("batch stands.json --margins=lean").code, 2);
@@ -223,10 +186,7 @@ fn a_folder_is_read_in_the_order_of_names() {
         fs::write(bench.path(name), text).expect("writable");
     }
     let answers = lines(&bench.run("batch in stands.json").out);
-    let places: Vec<(String, Value)> = answers
-        .iter()
-        .map(|t| (t["file"].to_string(), t["line"].clone()))
-        .collect();
+    let places: Vec<(String, Value)> = answers.iter().map(|t| (t["file"].to_string(), t["line"].clone())).collect();
     assert_eq!(places.len(), 4);
     assert!(places[0].0.contains("a.ndjson") && places[0].1 == 1 && places[1].1 == 2);
     assert!(places[2].0.contains("b.json") && places[2].1.is_null());
@@ -239,12 +199,7 @@ fn a_folder_is_read_in_the_order_of_names() {
 #[test]
 fn each_line_is_answered_before_the_next_one_is_read() {
     let bench = Bench::new();
-    let mut child = bench
-        .command("batch")
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("starts");
+    let mut child = bench.command("batch").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("starts");
     let mut pipe = child.stdin.take().expect("piped");
     let mut answers = BufReader::new(child.stdout.take().expect("piped"));
     for k in 1..=5 {
@@ -291,23 +246,13 @@ fn pictures_of_a_scene_and_of_a_line_never_have_the_same_name() {
         fs::copy(bench.path("stands.json"), bench.path(name)).expect("copied");
     }
     fs::write(bench.path("a.ndjson"), line(STANDS)).expect("written");
-    for clash in [
-        "a-0000001.json a.ndjson",
-        "a.ndjson a-0000001.json",
-        "- 0000001.json",
-    ] {
-        let ran = bench.run_with(
-            &format!("batch {clash} --render drawn"),
-            line(STANDS).as_bytes(),
-        );
+    for clash in ["a-0000001.json a.ndjson", "a.ndjson a-0000001.json", "- 0000001.json"] {
+        let ran = bench.run_with(&format!("batch {clash} --render drawn"), line(STANDS).as_bytes());
         assert_eq!((ran.code, &*ran.out), (2, ""), "{clash}");
         assert!(ran.err.contains("would have the same names"), "{}", ran.err);
     }
     let ran = bench.run("batch a.ndjson a0000001.json 0000001.json --render drawn");
-    let pictures: Vec<Value> = lines(&ran.out)
-        .iter()
-        .map(|answer| answer["picture"].clone())
-        .collect();
+    let pictures: Vec<Value> = lines(&ran.out).iter().map(|answer| answer["picture"].clone()).collect();
     assert_eq!(pictures, ["a-0000001.png", "a0000001.png", "0000001.png"]);
 }
 
@@ -327,11 +272,7 @@ fn the_time_limit_applies_to_each_scene() {
     let input = format!("{}{}", bridge("a"), bridge("b"));
     let ran = bench.run_with("batch --time-limit 0", input.as_bytes());
     assert_eq!(ran.code, 3, "{}", ran.out);
-    assert!(
-        lines(&ran.out)
-            .iter()
-            .all(|answer| answer["verdict"] == "undecided")
-    );
+    assert!(lines(&ran.out).iter().all(|answer| answer["verdict"] == "undecided"));
     let ran = bench.run_with("batch --time-limit 100", input.as_bytes());
     assert_eq!(ran.code, 0, "{}", ran.out);
 }
@@ -361,20 +302,14 @@ fn a_closed_output_ends_the_run_without_failure_while_the_input_is_open() {
         .spawn()
         .expect("starts");
     let mut pipe = child.stdin.take().expect("piped");
-    let endless =
-        std::thread::spawn(move || while pipe.write_all(line(STANDS).as_bytes()).is_ok() {});
+    let endless = std::thread::spawn(move || while pipe.write_all(line(STANDS).as_bytes()).is_ok() {});
     let mut answers = BufReader::new(child.stdout.take().expect("piped"));
     let mut answer = String::new();
     answers.read_line(&mut answer).expect("written");
     drop(answers);
     assert_eq!(child.wait().expect("ended").code(), Some(0));
     let mut errors = String::new();
-    child
-        .stderr
-        .take()
-        .expect("piped")
-        .read_to_string(&mut errors)
-        .expect("text");
+    child.stderr.take().expect("piped").read_to_string(&mut errors).expect("text");
     assert_eq!(errors, "");
     endless.join().expect("the pipe is closed");
 }
@@ -388,16 +323,8 @@ fn a_full_disk_is_reported() {
         assert_eq!(ran.code, 4, "{target}: {}", ran.err);
         assert!(ran.err.contains("cannot write /dev/full"), "{}", ran.err);
     }
-    let full = fs::OpenOptions::new()
-        .write(true)
-        .open("/dev/full")
-        .expect("there");
-    let ended = bench
-        .command("batch stands.json")
-        .stdout(full)
-        .stderr(Stdio::null())
-        .status()
-        .expect("starts");
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("there");
+    let ended = bench.command("batch stands.json").stdout(full).stderr(Stdio::null()).status().expect("starts");
     assert_eq!(ended.code(), Some(4));
 }
 
@@ -406,10 +333,5 @@ fn an_output_that_is_also_an_input_is_refused() {
     let bench = Bench::new();
     let ran = bench.run("batch stands.json -o stands.json");
     assert_eq!(ran.code, 2, "{}", ran.err);
-    assert_eq!(
-        fs::read_to_string(bench.path("stands.json"))
-            .ok()
-            .as_deref(),
-        Some(STANDS)
-    );
+    assert_eq!(fs::read_to_string(bench.path("stands.json")).ok().as_deref(), Some(STANDS));
 }

@@ -31,11 +31,7 @@ fn threshold(mut falls: f64, mut holds: f64, is_stable: impl Fn(f64) -> bool) ->
     assert!(!is_stable(falls) && is_stable(holds));
     for _ in 0..40 {
         let middle = 0.5 * (falls + holds);
-        *if is_stable(middle) {
-            &mut holds
-        } else {
-            &mut falls
-        } = middle;
+        *if is_stable(middle) { &mut holds } else { &mut falls } = middle;
     }
     holds
 }
@@ -46,9 +42,7 @@ fn the_exercise_has_its_known_answers() {
     assert!(stands(&assembly([2.0, 10.0], [0.5; 4])));
     let mass = threshold(2.0, 10.0, |mass| stands(&assembly([2.0, mass], [0.5; 4])));
     assert!((mass - 5.0).abs() < 1e-3, "{mass}");
-    let friction = threshold(0.1, 0.5, |mu| {
-        stands(&assembly([2.0, 10.0], [0.5, mu, 0.5, 0.5]))
-    });
+    let friction = threshold(0.1, 0.5, |mu| stands(&assembly([2.0, 10.0], [0.5, mu, 0.5, 0.5])));
     assert!((friction - 0.3226).abs() < 5e-5, "{friction}");
 }
 
@@ -69,39 +63,20 @@ fn the_symbol_of_a_centre_touches_nothing() {
 #[test]
 fn every_command_accepts_a_contact_list() {
     let bench = Bench::empty();
-    let rows = "x,y,mass\n25,35,2\n66,42,10\n1,2,60,60,pi,0.5\n1,0,0,0,pi/2,0.5\n2,0,60,0,1.5708,0.5\n2,0,72,0,1.5708,0.5\n";
+    let rows =
+        "x,y,mass\n25,35,2\n66,42,10\n1,2,60,60,pi,0.5\n1,0,0,0,pi/2,0.5\n2,0,60,0,1.5708,0.5\n2,0,72,0,1.5708,0.5\n";
     std::fs::write(bench.path("list.csv"), rows).expect("writable");
     let ran = bench.run("import list.csv -o stands.json");
     assert_eq!(ran.code, 0, "{}", ran.err);
-    std::fs::write(
-        bench.path("falls.json"),
-        assembly([2.0, 5.0], [0.5, 0.1, 0.5, 0.5]).to_string(),
-    )
-    .expect("writable");
+    std::fs::write(bench.path("falls.json"), assembly([2.0, 5.0], [0.5, 0.1, 0.5, 0.5]).to_string()).expect("writable");
     assert_eq!(bench.run("check --margins --wedging stands.json").code, 0);
     let ran = bench.run("check --margins --explain falls.json");
     assert_eq!(ran.code, 1, "{}", ran.err);
-    assert_eq!(
-        bench
-            .run("check --json --blocks falls.json stands.json")
-            .code,
-        1
-    );
-    for kind in [
-        "forces",
-        "flow",
-        "mechanism",
-        "thrust",
-        "kernel",
-        "utilisation",
-        "build",
-        "polygon",
-        "margin",
-    ] {
+    assert_eq!(bench.run("check --json --blocks falls.json stands.json").code, 1);
+    for kind in ["forces", "flow", "mechanism", "thrust", "kernel", "utilisation", "build", "polygon", "margin"] {
         for scene in ["stands", "falls"] {
-            let ran = bench.run(&format!(
-                "render {scene}.json --kind {kind} --dimensions --scale-bar -o {scene}-{kind}.svg"
-            ));
+            let ran =
+                bench.run(&format!("render {scene}.json --kind {kind} --dimensions --scale-bar -o {scene}-{kind}.svg"));
             assert_eq!(ran.code, 0, "{kind}: {}", ran.err);
         }
     }
@@ -117,27 +92,17 @@ fn every_command_accepts_a_contact_list() {
         let ran = bench.run(line);
         assert!(ran.code <= 2, "{line}: {}", ran.err);
     }
-    let ran = bench.run_with(
-        "batch -",
-        format!("{}\n", assembly([2.0, 10.0], [0.5; 4])).as_bytes(),
-    );
+    let ran = bench.run_with("batch -", format!("{}\n", assembly([2.0, 10.0], [0.5; 4])).as_bytes());
     assert!(ran.out.contains("\"stable\""), "{}{}", ran.out, ran.err);
 }
 
 #[test]
 fn figures_show_centres_contacts_normals_and_cones() {
     let scene = Scene::from_json(&assembly([2.0, 10.0], [0.5; 4]).to_string()).expect("sound");
-    let drawing = figure::draw(
-        &Analysis::new(&scene),
-        Kind::Forces,
-        &figure::Options::default(),
-    );
+    let drawing = figure::draw(&Analysis::new(&scene), Kind::Forces, &figure::Options::default());
     let svg = output::svg::write(&drawing);
     assert_eq!(svg.matches("class=\"contact\"").count(), 4);
-    assert!(
-        svg.contains("Contact of 2 and 1: friction coefficient 0.5"),
-        "{svg}"
-    );
+    assert!(svg.contains("Contact of 2 and 1: friction coefficient 0.5"), "{svg}");
 }
 
 #[test]
@@ -147,27 +112,15 @@ fn a_session_accepts_a_contact_list() {
         let scene = assembly([2.0, 10.0], [0.5; 4]);
         for block in scene["blocks"].as_array().expect("blocks") {
             let id = block["id"].as_str().expect("an id");
-            let at = ["0", "1"].map(|i| {
-                block["centre"][i.parse::<usize>().expect("0 or 1")]
-                    .as_f64()
-                    .expect("a number")
-            });
-            file = file.block(
-                BlockEntry::new(id)
-                    .centre(at)
-                    .mass(block["mass"].as_f64().expect("a number")),
-            );
+            let at =
+                ["0", "1"].map(|i| block["centre"][i.parse::<usize>().expect("0 or 1")].as_f64().expect("a number"));
+            file = file.block(BlockEntry::new(id).centre(at).mass(block["mass"].as_f64().expect("a number")));
         }
         for contact in scene["contacts"].as_array().expect("contacts") {
             let text = |i: usize| contact["bodies"][i].as_str().expect("a name").to_owned();
             let at = [0, 1].map(|i| contact["at"][i].as_f64().expect("a number"));
             let normal = contact["normal"].as_f64().expect("a number");
-            file = file.contact(drystone::scene::format::ContactEntry::between(
-                text(0),
-                text(1),
-                at,
-                normal,
-            ));
+            file = file.contact(drystone::scene::format::ContactEntry::between(text(0), text(1), at, normal));
         }
         file
     };
@@ -185,9 +138,7 @@ fn invalid_contact_lists_are_refused_with_messages() {
     file["contacts"][1]["bodies"] = json!(["1", "grond"]);
     file["blocks"][0] = json!({ "id": "1", "centre": [0, 0] });
     file["blocks"][1]["polygon"] = json!([[0, 0], [1, 0], [1, 1]]);
-    let problems = Scene::from_json(&file.to_string())
-        .expect_err("refused")
-        .to_string();
+    let problems = Scene::from_json(&file.to_string()).expect_err("refused").to_string();
     for words in [
         "both bodies of the contact are the same body",
         "grond",

@@ -10,11 +10,7 @@ use super::{Bench, FALLS, Ran, STANDS};
 fn bench() -> Bench {
     let bench = Bench::empty();
     fs::create_dir(bench.path("all")).expect("a folder");
-    for (name, text) in [
-        ("all/a.json", STANDS),
-        ("all/faulty.json", STANDS),
-        ("all/z.json", FALLS),
-    ] {
+    for (name, text) in [("all/a.json", STANDS), ("all/faulty.json", STANDS), ("all/z.json", FALLS)] {
         fs::write(bench.path(name), text).expect("writable");
     }
     bench
@@ -39,8 +35,7 @@ fn is_reported(text: &str) -> bool {
     // Messages are broken into lines of the width of the terminal.
     let words: Vec<&str> = text.split_whitespace().collect();
     let text = words.join(" ");
-    text.contains("faulty.json")
-        && text.contains("please report this error together with the scene")
+    text.contains("faulty.json") && text.contains("please report this error together with the scene")
 }
 
 #[test]
@@ -76,13 +71,7 @@ fn render_draws_the_other_scenes() {
         assert!(is_reported(&ran.err), "{}", ran.err);
         let mut drawn: Vec<String> = fs::read_dir(bench.path("out"))
             .expect("a folder")
-            .map(|entry| {
-                entry
-                    .expect("readable")
-                    .file_name()
-                    .into_string()
-                    .expect("a name")
-            })
+            .map(|entry| entry.expect("readable").file_name().into_string().expect("a name"))
             .collect();
         drawn.sort();
         assert_eq!(drawn, ["a.svg", "z.svg"]);
@@ -110,10 +99,6 @@ fn snapshot_checks_the_other_scenes() {
         let ran = run(&bench(), "snapshot all", number);
         assert!(is_reported(&ran.out), "{}{}", ran.out, ran.err);
         assert!(ran.out.contains("all/z"), "{}", ran.out);
-        assert!(
-            ran.err.contains("1 scene on which the program failed"),
-            "{}",
-            ran.err
-        );
+        assert!(ran.err.contains("1 scene on which the program failed"), "{}", ran.err);
     }
 }

@@ -23,16 +23,9 @@ fn the_gallery_is_drawn_in_every_format_with_captions() {
         "figure-8",
         "figure-9",
     ] {
-        for (ending, begins) in [
-            ("svg", b"<svg".as_slice()),
-            ("png", b"\x89PNG"),
-            ("pdf", b"%PDF"),
-        ] {
+        for (ending, begins) in [("svg", b"<svg".as_slice()), ("png", b"\x89PNG"), ("pdf", b"%PDF")] {
             let bytes = fs::read(bench.path(&format!("gallery/{name}.{ending}"))).expect("drawn");
-            assert!(
-                bytes.starts_with(begins) && bytes.len() > 2000,
-                "{name}.{ending}"
-            );
+            assert!(bytes.starts_with(begins) && bytes.len() > 2000, "{name}.{ending}");
         }
         assert!(captions.contains(&format!("**{name}** ")), "{name}");
     }
@@ -52,18 +45,9 @@ fn the_block_of_a_free_body_is_chosen_by_its_name() {
     let svg = fs::read_to_string(bench.path("free.svg")).expect("drawn");
     assert!(svg.contains("Force F_1^(2) on block lintel"));
     for (line, message) in [
-        (
-            "render stands.json -o a.svg --kind freebody",
-            "add --block with one of these names: left, right, lintel",
-        ),
-        (
-            "render stands.json -o a.svg --kind freebody --block lintl",
-            "did you mean lintel?",
-        ),
-        (
-            "render stands.json -o a.svg --block lintel",
-            "add --kind freebody",
-        ),
+        ("render stands.json -o a.svg --kind freebody", "add --block with one of these names: left, right, lintel"),
+        ("render stands.json -o a.svg --kind freebody --block lintl", "did you mean lintel?"),
+        ("render stands.json -o a.svg --block lintel", "add --kind freebody"),
     ] {
         let ran = bench.run(line);
         assert_eq!(ran.code, 2, "{line}");
@@ -78,17 +62,10 @@ fn steps_follow_one_another_in_an_animated_png() {
     let ran = bench.run("render falls.json -o steps.png --kind build --animate 0.5");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let bytes = fs::read(bench.path("steps.png")).expect("drawn");
-    let at = bytes
-        .windows(4)
-        .position(|w| w == b"acTL")
-        .expect("it is animated");
+    let at = bytes.windows(4).position(|w| w == b"acTL").expect("it is animated");
     assert_eq!(bytes[at + 4..at + 8], 2_u32.to_be_bytes(), "two frames");
     let delay = bytes.windows(4).position(|w| w == b"fcTL").expect("frames") + 24;
-    assert_eq!(
-        bytes[delay..delay + 4],
-        [0, 50, 0, 100],
-        "50 hundredths of a second"
-    );
+    assert_eq!(bytes[delay..delay + 4], [0, 50, 0, 100], "50 hundredths of a second");
     let ran = bench.run("render falls.json -o steps.gif --kind build --animate 0.5");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let bytes = fs::read(bench.path("steps.gif")).expect("drawn");
@@ -141,10 +118,7 @@ fn a_figure_for_latex_contains_its_text_and_closes_its_groups() {
     assert_eq!(ran.code, 0, "{}", ran.err);
     let tikz = fs::read_to_string(bench.path("a.tikz")).expect("drawn");
     let count = |what: &str| tikz.matches(what).count();
-    assert_eq!(
-        (count("\\begin{tikzpicture}"), count("\\end{tikzpicture}")),
-        (1, 1)
-    );
+    assert_eq!((count("\\begin{tikzpicture}"), count("\\end{tikzpicture}")), (1, 1));
     assert_eq!(count("\\begin{scope}"), count("\\end{scope}"));
     assert!(tikz.contains("{lintel}") && tikz.contains("{stands}"));
     assert!(!tikz.contains("NaN") && !tikz.contains("inf"));
@@ -156,11 +130,8 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
     let scene = r#"{ "drystone": 1, "title": "石塔", "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }],
         "blocks": [{ "id": "لوح", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 4 }] }"#;
     fs::write(bench.path("stone.json"), scene).expect("writable");
-    for line in [
-        "render stone.json -o s.png",
-        "render stone.json -o s.pdf",
-        "render stone.json -o s.svg --text paths",
-    ] {
+    for line in ["render stone.json -o s.png", "render stone.json -o s.pdf", "render stone.json -o s.svg --text paths"]
+    {
         let ran = bench.run(line);
         assert_eq!(ran.code, 0, "{line}: {}", ran.err);
         for named in ["石 (U+77F3)", "塔 (U+5854)", "U+0644", "--font FILE"] {
@@ -168,28 +139,18 @@ fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
         }
     }
     let svg = fs::read_to_string(bench.path("s.svg")).expect("drawn");
-    assert!(
-        svg.contains("aria-label=\"U+77F3\u{a0}5854\""),
-        "spelled out"
-    );
+    assert!(svg.contains("aria-label=\"U+77F3\u{a0}5854\""), "spelled out");
     // In SVG the text stays as it is, because the browser has its own fonts.
     let ran = bench.run("render stone.json -o named.svg");
     assert!(ran.code == 0 && !ran.err.contains("warning"), "{}", ran.err);
     let svg = fs::read_to_string(bench.path("named.svg")).expect("drawn");
     assert!(svg.contains(">石塔</text>"));
     for (line, message) in [
-        (
-            "render stone.json -o s.png --font stone.json",
-            "it is not a font",
-        ),
+        ("render stone.json -o s.png --font stone.json", "it is not a font"),
         ("render stone.json -o s.png --font none.ttf", "none.ttf"),
     ] {
         let ran = bench.run(line);
-        assert!(
-            ran.code == 2 && ran.err.contains(message),
-            "{line}: {}",
-            ran.err
-        );
+        assert!(ran.code == 2 && ran.err.contains(message), "{line}: {}", ran.err);
     }
 }
 
@@ -209,20 +170,14 @@ fn a_book_with_an_invalid_scene_fails() {
     assert!(ran.out.contains("Nothing to draw."));
     let ran = bench.run_with("mdbook", book("# One\n\n```drystone\n{}\n```\n").as_bytes());
     assert_eq!((ran.code, ran.out.as_str()), (2, ""));
-    assert!(
-        ran.err.contains("one.md, line 3: the scene is not valid"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("one.md, line 3: the scene is not valid"), "{}", ran.err);
 }
 
 #[test]
 fn two_scenes_are_compared_and_invalid_comparisons_are_reported() {
     let bench = Bench::new();
     let text = fs::read_to_string(bench.path("stands.json")).expect("there");
-    let heavier = text
-        .replace("\"weight\": 11", "\"weight\": 9")
-        .replace("0.6", "0.5");
+    let heavier = text.replace("\"weight\": 11", "\"weight\": 9").replace("0.6", "0.5");
     assert_ne!(heavier, text);
     fs::write(bench.path("lighter.json"), &heavier).expect("writable");
     let ran = bench.run("render stands.json lighter.json --kind compare -o diff.svg");
@@ -246,11 +201,7 @@ fn two_scenes_are_compared_and_invalid_comparisons_are_reported() {
     fs::write(bench.path("other.json"), &other).expect("writable");
     let ran = bench.run("render stands.json other.json --kind compare -o no.svg");
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("the second scene has another ground"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("the second scene has another ground"), "{}", ran.err);
     let ran = bench.run("render stands.json lighter.json --kind forces -o no.svg");
     assert_eq!(ran.code, 2);
     assert!(!bench.path("no.svg").exists());
@@ -261,10 +212,7 @@ fn a_strip_too_large_for_a_png_is_refused_with_options_to_split_it() {
     let bench = Bench::new();
     let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
     fs::copy(steps, bench.path("steps.json")).expect("copied");
-    for (scene, split) in [
-        ("steps", "; or split its 30 steps: --pages"),
-        ("stands", ""),
-    ] {
+    for (scene, split) in [("steps", "; or split its 30 steps: --pages"), ("stands", "")] {
         let ran = bench.run(&format!("render {scene}.json --width 31000 -o {scene}.png"));
         assert_eq!(ran.code, 2);
         assert!(ran.err.contains("at most 100 million"), "{}", ran.err);
@@ -287,10 +235,7 @@ fn a_long_strip_is_split_into_pages_and_a_margin_has_a_direction() {
         frames += svg.matches("class=\"frame\"").count();
         let number = |name: &str| -> f64 {
             let rest = svg.split(&format!(" {name}=\"")).nth(1).expect(name);
-            rest.split('"')
-                .next()
-                .and_then(|n| n.parse().ok())
-                .expect(name)
+            rest.split('"').next().and_then(|n| n.parse().ok()).expect(name)
         };
         assert!(number("height") <= 1.42 * number("width"), "page {pages}");
     }

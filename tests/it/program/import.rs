@@ -14,11 +14,7 @@ const OVERLAP: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80
 
 fn bench() -> Bench {
     let bench = Bench::new();
-    for (name, text) in [
-        ("drawing.svg", DRAWING),
-        ("doubtful.svg", DOUBTFUL),
-        ("overlap.svg", OVERLAP),
-    ] {
+    for (name, text) in [("drawing.svg", DRAWING), ("doubtful.svg", DOUBTFUL), ("overlap.svg", OVERLAP)] {
         fs::write(bench.path(name), text).expect("writable");
     }
     bench
@@ -27,31 +23,15 @@ fn bench() -> Bench {
 #[test]
 fn a_drawing_becomes_a_scene_that_check_accepts() {
     let bench = bench();
-    let ran = bench.run("import drawing.svg -o scene.json --friction 0.6 --density 2000 --kernel 0.1 --gravity 9.81 --thickness 0.2");
+    let ran = bench.run(
+        "import drawing.svg -o scene.json --friction 0.6 --density 2000 --kernel 0.1 --gravity 9.81 --thickness 0.2",
+    );
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
-    assert!(
-        ran.err
-            .contains("drawing.svg: 1 block, 1 part of the ground, 0 robots"),
-        "{}",
-        ran.err
-    );
-    assert!(
-        ran.err
-            .contains("a unit of the drawing is 0.001 m, because it is 8cm wide"),
-        "{}",
-        ran.err
-    );
-    assert!(
-        ran.err
-            .contains("snapped 2 corners of post by up to 2.00e-5 m, to ground[0]"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("drawing.svg: 1 block, 1 part of the ground, 0 robots"), "{}", ran.err);
+    assert!(ran.err.contains("a unit of the drawing is 0.001 m, because it is 8cm wide"), "{}", ran.err);
+    assert!(ran.err.contains("snapped 2 corners of post by up to 2.00e-5 m, to ground[0]"), "{}", ran.err);
     let scene = fs::read_to_string(bench.path("scene.json")).expect("written");
-    assert!(
-        scene.contains(r#""kernel": 0.1"#) && scene.contains(r#""gravity": [0.0,-9.81]"#),
-        "{scene}"
-    );
+    assert!(scene.contains(r#""kernel": 0.1"#) && scene.contains(r#""gravity": [0.0,-9.81]"#), "{scene}");
     assert_eq!(bench.run("check scene.json").code, 0);
 }
 
@@ -66,18 +46,12 @@ fn standard_input_and_output_need_the_format() {
     let unspecified = bench.run_with("import -", DRAWING.as_bytes());
     assert_eq!(unspecified.code, 2);
     assert!(
-        unspecified
-            .err
-            .contains("give --format svg, dxf, geojson, wkt, contacts or compas"),
+        unspecified.err.contains("give --format svg, dxf, geojson, wkt, contacts or compas"),
         "{}",
         unspecified.err
     );
     let wkt = bench.run_with("import - --format wkt", b"a; POLYGON ((0 0, 2 0, 2 1))");
-    assert!(
-        wkt.code == 0 && wkt.out.contains(r#""id": "a""#),
-        "{}",
-        wkt.err
-    );
+    assert!(wkt.code == 0 && wkt.out.contains(r#""id": "a""#), "{}", wkt.err);
 }
 
 #[test]
@@ -105,11 +79,7 @@ fn doubts_are_warnings_unless_strict() {
     }
     let strict = bench.run("import doubtful.svg -o strict.json --strict");
     assert_eq!(strict.code, 2);
-    assert!(
-        strict.err.contains("error: doubtful.svg: text \"words\""),
-        "{}",
-        strict.err
-    );
+    assert!(strict.err.contains("error: doubtful.svg: text \"words\""), "{}", strict.err);
     assert!(!bench.made().contains(&"strict.json".to_owned()));
 }
 
@@ -119,30 +89,18 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
     let overlap = bench.run("import overlap.svg -o scene.json");
     assert_eq!(overlap.code, 2);
     assert!(
-        overlap.err.contains(
-            "overlap.svg: rect \"b\": block `b` and block `a` overlap by 5 m, with a common area of 150 m²"
-        ),
+        overlap
+            .err
+            .contains("overlap.svg: rect \"b\": block `b` and block `a` overlap by 5 m, with a common area of 150 m²"),
         "{}",
         overlap.err
     );
     for (line, why) in [
-        (
-            "import missing.svg -o scene.json",
-            "cannot read missing.svg",
-        ),
-        (
-            "import drawing.svg --scale 0 -o scene.json",
-            "--scale: 0 is not a valid value",
-        ),
+        ("import missing.svg -o scene.json", "cannot read missing.svg"),
+        ("import drawing.svg --scale 0 -o scene.json", "--scale: 0 is not a valid value"),
         ("import drawing.svg --friction -1 -o scene.json", "friction"),
-        (
-            "import drawing.svg --frame 2 -o scene.json",
-            "--frame needs a figure by drystone",
-        ),
-        (
-            "import drawing.svg --gravity down -o scene.json",
-            "give gravity in m/s²",
-        ),
+        ("import drawing.svg --frame 2 -o scene.json", "--frame needs a figure by drystone"),
+        ("import drawing.svg --gravity down -o scene.json", "give gravity in m/s²"),
         ("import stands.json -o scene.json", "already a scene file"),
         ("import drawing.svgz -o scene.json", "unpack it first"),
     ] {
@@ -161,47 +119,24 @@ fn single_frames_of_a_figure_can_be_imported() {
     assert_eq!(bench.run("render falls.json -o figure.svg").code, 0);
     let held = bench.run("import figure.svg -o held.json --friction 0.6");
     assert_eq!(held.code, 0, "{}", held.err);
-    assert!(
-        held.err.contains("imported from frame 2 of 2"),
-        "{}",
-        held.err
-    );
-    assert!(
-        held.err.contains("2 blocks, 1 part of the ground, 1 robot"),
-        "{}",
-        held.err
-    );
+    assert!(held.err.contains("imported from frame 2 of 2"), "{}", held.err);
+    assert!(held.err.contains("2 blocks, 1 part of the ground, 1 robot"), "{}", held.err);
     assert_eq!(bench.run("check held.json").code, 0);
-    assert_eq!(
-        bench.run("import figure.svg -o alone.json --frame a").code,
-        0
-    );
+    assert_eq!(bench.run("import figure.svg -o alone.json --frame a").code, 0);
     assert_eq!(bench.run("check alone.json").code, 1);
     let beyond = bench.run("import figure.svg -o beyond.json --frame 3");
     assert_eq!(beyond.code, 2);
-    assert!(
-        beyond
-            .err
-            .contains("there is no frame 3: the figure has 2 frames"),
-        "{}",
-        beyond.err
-    );
+    assert!(beyond.err.contains("there is no frame 3: the figure has 2 frames"), "{}", beyond.err);
 }
 
 #[test]
 fn a_dwg_is_refused_with_a_remedy_and_windows_1252_is_read() {
     let bench = bench();
     let ran = bench.run("import bridge.dwg");
-    assert!(
-        ran.code == 2 && ran.err.contains("save it there as DXF"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.code == 2 && ran.err.contains("save it there as DXF"), "{}", ran.err);
     // The layer name "Gelände" in Windows-1252, as in files of versions before 2007.
     let square = "70\n1\n10\n0\n20\n0\n10\n2\n20\n0\n10\n2\n20\n1\n10\n0\n20\n1\n";
-    let file = format!(
-        "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nGel\u{e4}nde\n{square}0\nENDSEC\n0\nEOF\n"
-    );
+    let file = format!("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nGel\u{e4}nde\n{square}0\nENDSEC\n0\nEOF\n");
     let bytes: Vec<u8> = file.chars().map(|c| c as u8).collect();
     let ran = bench.run_with("import - --format dxf", &bytes);
     assert_eq!(ran.code, 0, "{}", ran.err);

@@ -12,9 +12,7 @@ fn fenced(page: &'static str, language: &str, words: &str) -> &'static str {
     let mark = format!("```{language}\n");
     let blocks = page.split(mark.as_str()).skip(1);
     let mut blocks = blocks.filter_map(|rest| rest.split("```").next());
-    blocks
-        .find(|block| block.contains(words))
-        .expect("the page contains such a block")
+    blocks.find(|block| block.contains(words)).expect("the page contains such a block")
 }
 
 /// Runs each `$ drystone …` line in order, in an initially empty folder. Its output must equal the text below it.
@@ -60,22 +58,10 @@ fn every_command_of_the_page_succeeds() {
         ("scenes/one.json", scene),
         ("scenes/two.json", &other),
         ("corpus.ndjson", &(line(scene) + &line(&other))),
-        (
-            "drawing.svg",
-            include_str!("../../../assets/import/doorway.svg"),
-        ),
-        (
-            "bridge.dxf",
-            include_str!("../../../assets/import/arch.dxf"),
-        ),
-        (
-            "contacts.csv",
-            include_str!("../../../assets/import/contacts.csv"),
-        ),
-        (
-            "assembly-compas.json",
-            include_str!("../../../assets/import/compas.json"),
-        ),
+        ("drawing.svg", include_str!("../../../assets/import/doorway.svg")),
+        ("bridge.dxf", include_str!("../../../assets/import/arch.dxf")),
+        ("contacts.csv", include_str!("../../../assets/import/contacts.csv")),
+        ("assembly-compas.json", include_str!("../../../assets/import/compas.json")),
     ] {
         fs::write(bench.path(name), text).expect("writable");
     }

@@ -10,33 +10,12 @@ fn render_ends_with_0_if_the_picture_is_written_unless_strict() {
     let bench = Bench::new();
     let ran = bench.run("render falls.json -o falls.svg");
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
-    assert!(
-        ran.err.contains("falls.svg: 2 frames: 1 stands, 1 falls"),
-        "{}",
-        ran.err
-    );
-    assert!(
-        fs::read_to_string(bench.path("falls.svg"))
-            .expect("written")
-            .starts_with("<svg")
-    );
-    assert_eq!(
-        bench.run("render falls.json -o strict.svg --strict").code,
-        1
-    );
-    assert!(
-        bench.path("strict.svg").exists(),
-        "with --strict the picture is still written"
-    );
-    assert_eq!(
-        bench.run("render stands.json -o strict.svg --strict").code,
-        0
-    );
-    assert_eq!(
-        bench.made(),
-        ["falls.svg", "strict.svg"],
-        "no other file is left"
-    );
+    assert!(ran.err.contains("falls.svg: 2 frames: 1 stands, 1 falls"), "{}", ran.err);
+    assert!(fs::read_to_string(bench.path("falls.svg")).expect("written").starts_with("<svg"));
+    assert_eq!(bench.run("render falls.json -o strict.svg --strict").code, 1);
+    assert!(bench.path("strict.svg").exists(), "with --strict the picture is still written");
+    assert_eq!(bench.run("render stands.json -o strict.svg --strict").code, 0);
+    assert_eq!(bench.made(), ["falls.svg", "strict.svg"], "no other file is left");
 }
 
 #[test]
@@ -69,26 +48,11 @@ fn pictures_for_print_have_their_width_in_millimetres() {
     assert!(text("a.pdf").starts_with("%PDF-") && text("a.pdf").contains("0 0 238.11"));
     assert_eq!(bench.run("render stands.json -o out/ --format pdf").code, 0);
     assert!(text("out/stands.pdf").starts_with("%PDF-"));
-    assert_eq!(
-        bench
-            .run("render stands.json -o a.svg --width-mm 174 --text embed")
-            .code,
-        0
-    );
+    assert_eq!(bench.run("render stands.json -o a.svg --width-mm 174 --text embed").code, 0);
     assert!(text("a.svg").contains("width=\"174mm\"") && text("a.svg").contains("@font-face"));
-    assert_eq!(
-        bench
-            .run("render stands.json -o b.svg --text paths --background none")
-            .code,
-        0
-    );
+    assert_eq!(bench.run("render stands.json -o b.svg --text paths --background none").code, 0);
     assert!(!text("b.svg").contains("<text") && !text("b.svg").contains("<rect width"));
-    assert_eq!(
-        bench
-            .run("shapes -o c.png --width-mm 84 --dpi 150 --background #f4f1ea")
-            .code,
-        0
-    );
+    assert_eq!(bench.run("shapes -o c.png --width-mm 84 --dpi 150 --background #f4f1ea").code, 0);
     let png = fs::read(bench.path("c.png")).expect("there");
     assert_eq!(png[16..20], 496_u32.to_be_bytes());
     assert_eq!(bench.run("shapes -o c.pdf").code, 0);
@@ -136,16 +100,9 @@ fn a_file_that_cannot_be_written_ends_with_four() {
     ] {
         let ran = bench.run(line);
         assert_eq!(ran.code, 4, "{line}: {}", ran.err);
-        assert!(
-            ran.err.starts_with("error: cannot write"),
-            "{line}: {}",
-            ran.err
-        );
+        assert!(ran.err.starts_with("error: cannot write"), "{line}: {}", ran.err);
     }
-    assert_eq!(
-        fs::read_to_string(bench.path("stands.json")).expect("there"),
-        STANDS
-    );
+    assert_eq!(fs::read_to_string(bench.path("stands.json")).expect("there"), STANDS);
     assert_eq!(bench.made(), Vec::<String>::new());
 }
 
@@ -153,27 +110,13 @@ fn a_file_that_cannot_be_written_ends_with_four() {
 #[test]
 fn a_full_disk_behind_standard_output_ends_with_four_and_a_closed_pipe_does_not() {
     let bench = Bench::new();
-    for line in [
-        "check --json stands.json",
-        "schema",
-        "render stands.json -o -",
-        "completions bash",
-    ] {
+    for line in ["check --json stands.json", "schema", "render stands.json -o -", "completions bash"] {
         let mut command = bench.command(line);
-        command.stdout(
-            fs::OpenOptions::new()
-                .write(true)
-                .open("/dev/full")
-                .expect("Linux has one"),
-        );
+        command.stdout(fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has one"));
         assert_eq!(ran(command).code, 4, "{line}");
 
         let mut command = bench.command(line);
-        let mut child = command
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("starts");
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("starts");
         drop(child.stdout.take());
         let ran = of(child.wait_with_output().expect("ends"));
         assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{line}");
@@ -187,12 +130,7 @@ fn a_picture_has_the_permissions_of_any_new_file() {
     let bench = Bench::new();
     assert_eq!(bench.run("render stands.json -o a.svg").code, 0);
     fs::write(bench.path("plain"), "").expect("writable");
-    let mode = |name: &str| {
-        fs::metadata(bench.path(name))
-            .expect("there")
-            .permissions()
-            .mode()
-    };
+    let mode = |name: &str| fs::metadata(bench.path(name)).expect("there").permissions().mode();
     assert_eq!(mode("a.svg"), mode("plain"));
 }
 
@@ -200,18 +138,12 @@ fn a_picture_has_the_permissions_of_any_new_file() {
 fn invalid_command_lines_are_refused_with_a_remedy() {
     let bench = Bench::new();
     for (line, words) in [
-        (
-            "render stands.json -o a.jpeg",
-            ".svg, .png, .gif, .pdf or .tikz",
-        ),
+        ("render stands.json -o a.jpeg", ".svg, .png, .gif, .pdf or .tikz"),
         ("render stands.json -o a", "slash"),
         ("render stands.json falls.json -o a.svg", "folder"),
         ("render stands.json falls.json -o -", "folder"),
         ("render stands.json -o a.svg --width 300", "pixels"),
-        (
-            "render stands.json -o a.png --width 300 --scale 2",
-            "--scale",
-        ),
+        ("render stands.json -o a.png --width 300 --scale 2", "--scale"),
         ("render stands.json -o a.png --width 1000000", "pixels"),
         ("render stands.json -o a.png --scale nan", "pixels"),
         ("render stands.json -o a.svg --format png", "--format png"),
@@ -219,24 +151,12 @@ fn invalid_command_lines_are_refused_with_a_remedy() {
         ("render stands.json -o a.pdf --scale 2", "--width-mm"),
         ("render stands.json -o a.pdf --text paths", "--text"),
         ("render stands.json -o a.pdf --format png", "--format png"),
-        (
-            "render stands.json -o a.svg --width-mm 84 --dpi 300",
-            "--dpi",
-        ),
+        ("render stands.json -o a.svg --width-mm 84 --dpi 300", "--dpi"),
         ("render stands.json -o a.png --dpi 300", "--width-mm"),
-        (
-            "render stands.json -o a.png --width 300 --width-mm 84",
-            "--width-mm",
-        ),
+        ("render stands.json -o a.png --width 300 --width-mm 84", "--width-mm"),
         ("render stands.json -o a.svg --width-mm 0", "from 2 to 5080"),
-        (
-            "render stands.json -o a.png --width-mm 84 --dpi 0",
-            "from 1 to 10000",
-        ),
-        (
-            "render stands.json -o a.png --width-mm 5000 --dpi 9000",
-            "pixels",
-        ),
+        ("render stands.json -o a.png --width-mm 84 --dpi 0", "from 1 to 10000"),
+        ("render stands.json -o a.png --width-mm 5000 --dpi 9000", "pixels"),
         ("render stands.json -o a.svg --background red", "#rrggbb"),
         ("render stands.json", "--output"),
         ("new --force", "--output"),
@@ -253,22 +173,10 @@ fn invalid_command_lines_are_refused_with_a_remedy() {
 fn every_kind_of_figure_states_what_it_shows() {
     let bench = Bench::new();
     for (kind, falls, stands) in [
-        (
-            "mechanism",
-            "block lintel turns about a corner on block left",
-            "there is no mechanism",
-        ),
+        ("mechanism", "block lintel turns about a corner on block left", "there is no mechanism"),
         ("thrust", "so it is not in equilibrium", "this width shows"),
-        (
-            "kernel",
-            "no forces balance the structure",
-            "safe part of an interface",
-        ),
-        (
-            "utilisation",
-            "with the missing forces added",
-            "in the forces shown",
-        ),
+        ("kernel", "no forces balance the structure", "safe part of an interface"),
+        ("utilisation", "with the missing forces added", "in the forces shown"),
     ] {
         let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));
         assert_eq!(ran.code, 0, "{kind}: {}", ran.err);
@@ -279,11 +187,7 @@ fn every_kind_of_figure_states_what_it_shows() {
     }
     let ran = bench.run("render stands.json -o out.svg --kind stress");
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("mechanism") && ran.err.contains("utilisation"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("mechanism") && ran.err.contains("utilisation"), "{}", ran.err);
     assert_eq!(bench.made(), Vec::<String>::new());
 }
 
@@ -310,11 +214,7 @@ fn watching_draws_again_on_every_save() {
     fs::write(bench.path("stands.json"), "{ \"drystone\": 1,").expect("writable");
     std::thread::sleep(Duration::from_millis(600));
     let kept = shown("A lintel");
-    fs::write(
-        bench.path("stands.json"),
-        STANDS.replace("A lintel", "Another lintel"),
-    )
-    .expect("writable");
+    fs::write(bench.path("stands.json"), STANDS.replace("A lintel", "Another lintel")).expect("writable");
     let second = shown("Another lintel");
     child.kill().expect("it runs until it is stopped");
     child.wait().expect("ends");

@@ -6,7 +6,8 @@ use std::{os::unix::fs::symlink, process::Stdio};
 
 use super::{Bench, STANDS};
 
-const SQUARE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><rect width="4" height="4"/></svg>"#;
+const SQUARE: &str =
+    r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><rect width="4" height="4"/></svg>"#;
 
 #[test]
 fn an_input_is_not_overwritten_under_any_name() {
@@ -61,10 +62,7 @@ fn a_link_stays_a_link_and_a_file_keeps_its_permissions() {
     assert!(bench.path("link.svg").is_symlink());
     let text = fs::read_to_string(bench.path("real.svg")).expect("there");
     assert!(text.starts_with("<svg"));
-    let mode = fs::metadata(bench.path("real.svg"))
-        .expect("there")
-        .permissions()
-        .mode();
+    let mode = fs::metadata(bench.path("real.svg")).expect("there").permissions().mode();
     assert_eq!(mode & 0o777, 0o604);
 }
 
@@ -76,16 +74,10 @@ fn a_signal_leaves_no_incomplete_file() {
     fs::create_dir(bench.path("out")).expect("made");
     for (number, signal) in ["-INT", "-TERM"].into_iter().cycle().take(8).enumerate() {
         let mut command = bench.command("figures -q --format svg -o out");
-        let mut child = command
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("starts");
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("starts");
         std::thread::sleep(std::time::Duration::from_millis(50 * number as u64));
-        let _ = std::process::Command::new("kill")
-            .args([signal, &child.id().to_string()])
-            .stderr(Stdio::null())
-            .status();
+        let _ =
+            std::process::Command::new("kill").args([signal, &child.id().to_string()]).stderr(Stdio::null()).status();
         child.wait().expect("ends");
         for entry in fs::read_dir(bench.path("out")).expect("readable") {
             let name = entry.expect("readable").file_name();
@@ -102,19 +94,13 @@ fn a_file_size_limit_is_a_failure_to_write() {
     let bench = Bench::new();
     let program = env!("CARGO_BIN_EXE_drystone");
     let ran = std::process::Command::new("sh")
-        .args([
-            "-c",
-            &format!("ulimit -f 8; '{program}' render stands.json -o a.png --scale 9"),
-        ])
+        .args(["-c", &format!("ulimit -f 8; '{program}' render stands.json -o a.png --scale 9")])
         .current_dir(bench.folder.path())
         .output()
         .expect("starts");
     let errors = String::from_utf8_lossy(&ran.stderr);
     assert_eq!(ran.status.code(), Some(4), "{errors}");
-    assert!(
-        errors.contains("cannot write a.png") && !errors.contains(".part"),
-        "{errors}"
-    );
+    assert!(errors.contains("cannot write a.png") && !errors.contains(".part"), "{errors}");
     assert!(bench.made().is_empty(), "{:?}", bench.made());
 }
 
@@ -122,23 +108,10 @@ fn a_file_size_limit_is_a_failure_to_write() {
 #[test]
 fn help_that_cannot_be_printed_is_a_failure() {
     let bench = Bench::new();
-    for line in [
-        "--help",
-        "--version",
-        "check --help",
-        "schema",
-        "check stands.json",
-    ] {
-        let full = fs::OpenOptions::new()
-            .write(true)
-            .open("/dev/full")
-            .expect("Linux has one");
+    for line in ["--help", "--version", "check --help", "schema", "check stands.json"] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has one");
         let mut command = bench.command(line);
-        let status = command
-            .stdout(full)
-            .stderr(Stdio::null())
-            .status()
-            .expect("starts");
+        let status = command.stdout(full).stderr(Stdio::null()).status().expect("starts");
         assert_eq!(status.code(), Some(4), "{line}");
     }
     assert_eq!(bench.run("--nothing").code, 2);

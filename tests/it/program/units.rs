@@ -13,9 +13,7 @@ use super::Bench;
 /// newtons.
 fn lintel(length: f64, force: f64, units: Value) -> Value {
     let at = |x: f64, y: f64| json!([x / length, y / length]);
-    let box_of = |x: f64, y: f64, w: f64, h: f64| {
-        json!([at(x, y), at(x + w, y), at(x + w, y + h), at(x, y + h)])
-    };
+    let box_of = |x: f64, y: f64, w: f64, h: f64| json!([at(x, y), at(x + w, y), at(x + w, y + h), at(x, y + h)]);
     let mut file = json!({ "drystone": 1, "title": "Lintel", "friction": 0.6, "kernel": 0.1, "thickness": 0.5 / length,
         "ground": [{ "polygon": box_of(-1.0, -1.0, 8.0, 1.0) }],
         "blocks": [{ "id": "left", "polygon": box_of(0.0, 0.0, 1.0, 3.0), "density": 2000 },
@@ -81,11 +79,7 @@ fn results_are_the_same_in_all_units() {
         (1e-3, 1e3, json!({ "length": "mm", "force": "kN" })),
         (1e-2, 1.0, json!({ "length": "cm" })),
         (1.0, 1e6, json!({ "force": "MN" })),
-        (
-            0.3048,
-            4.448_221_615_260_5,
-            json!({ "length": "ft", "force": "lbf" }),
-        ),
+        (0.3048, 4.448_221_615_260_5, json!({ "length": "ft", "force": "lbf" })),
         (0.0254, 1.0, json!({ "length": "in", "force": "N" })),
     ] {
         let verdicts = |frames: &Value| -> Vec<Value> {
@@ -103,13 +97,7 @@ fn tables_have_the_units_of_the_file() {
     let file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let analysis = Analysis::new(&scene);
-    for kind in [
-        Kind::Forces,
-        Kind::Flow,
-        Kind::Thrust,
-        Kind::Mechanism,
-        Kind::Kernel,
-    ] {
+    for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism, Kind::Kernel] {
         let svg = output::svg::write(&figure::draw(&analysis, kind, &figure::Options::default()));
         let words = svg.replace('\u{a0}', " ");
         assert!(words.contains(" kN"), "{kind:?}");
@@ -132,26 +120,16 @@ fn tables_have_the_units_of_the_file() {
 fn problems_name_the_units_of_the_file() {
     let mut file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
     file["blocks"][1]["polygon"] = json!([[0, 0], [1500, 0], [1500, 3000], [0, 3000]]);
-    let problems = Scene::from_json(&file.to_string())
-        .expect_err("overlap")
-        .to_string();
-    assert!(
-        problems.contains("overlap by 1000 mm, with a common area of 3000000 mm²"),
-        "{problems}"
-    );
+    let problems = Scene::from_json(&file.to_string()).expect_err("overlap").to_string();
+    assert!(problems.contains("overlap by 1000 mm, with a common area of 3000000 mm²"), "{problems}");
     file["units"] = json!({ "length": "furlong" });
-    let problems = Scene::from_json(&file.to_string())
-        .expect_err("no unit")
-        .to_string();
+    let problems = Scene::from_json(&file.to_string()).expect_err("no unit").to_string();
     assert!(problems.contains("units.length"), "{problems}");
     let mut file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
     file["loads"][0]["at"] = json!([9000, 4000]);
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let notes: Vec<&str> = scene.notes().iter().map(|n| n.message.as_str()).collect();
-    assert!(
-        notes.iter().any(|n| n.contains("3000 mm outside")),
-        "{notes:?}"
-    );
+    assert!(notes.iter().any(|n| n.contains("3000 mm outside")), "{notes:?}");
 }
 
 /// The output of capacity and sensitivity on the terminal and in figures.
@@ -169,24 +147,15 @@ fn capacities_and_sensitivities_have_the_units_of_the_file() {
         let ran = bench.run(arguments);
         assert_eq!(ran.code, 0, "{arguments}: {}", ran.err);
         let picture = arguments.rsplit_once(" -o ").map(|(_, name)| name);
-        let words = picture.map_or(ran.out, |name| {
-            std::fs::read_to_string(bench.path(name)).expect("written")
-        });
+        let words = picture.map_or(ran.out, |name| std::fs::read_to_string(bench.path(name)).expect("written"));
         let words = words.replace('\u{a0}', " ");
-        let unit = if arguments.contains("capacity") {
-            " kN"
-        } else {
-            " mm"
-        };
+        let unit = if arguments.contains("capacity") { " kN" } else { " mm" };
         assert!(words.contains(unit), "{arguments}: {words}");
         for wrong in [" N<", " N ", " N,", " N;", " m ", " m<", " MN", " cm"] {
             assert!(!words.contains(wrong), "{arguments}: {wrong:?} in {words}");
         }
         if arguments.contains("check") && picture.is_none() && unit == " kN" {
-            assert!(
-                words.contains("at (3000, 4000) mm on block lintel"),
-                "{words}"
-            );
+            assert!(words.contains("at (3000, 4000) mm on block lintel"), "{words}");
         }
     }
 }
@@ -199,19 +168,9 @@ fn notices_have_the_units_of_the_file() {
     file["blocks"][0]["polygon"] = json!([[0, 0.02], [1000, 0.02], [1000, 3000], [0, 3000]]);
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let analysis = Analysis::new(&scene);
-    let mut words: Vec<String> = analysis
-        .notes
-        .iter()
-        .map(|n| format!("{} {}", n.message, n.hint))
-        .collect();
+    let mut words: Vec<String> = analysis.notes.iter().map(|n| format!("{} {}", n.message, n.hint)).collect();
     words.extend(analysis.frames.iter().flat_map(|f| f.notices.clone()));
-    words.extend(
-        analysis
-            .frames
-            .iter()
-            .flat_map(|f| &f.doubts)
-            .map(ToString::to_string),
-    );
+    words.extend(analysis.frames.iter().flat_map(|f| &f.doubts).map(ToString::to_string));
     let words = words.join("\n");
     assert!(words.contains("2.00e-2 mm"), "{words}");
     assert!(!words.contains("e-5 m"), "{words}");

@@ -28,10 +28,7 @@ fn balances(page: &str) -> Vec<(String, String, Vec<Row>)> {
         let head = table.next().expect("a head").to_owned();
         let rows = table.skip(1).map(|row| {
             let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-            Row {
-                name: cells[0].trim_matches('*').to_owned(),
-                values: cells[1..].iter().map(|c| number(c)).collect(),
-            }
+            Row { name: cells[0].trim_matches('*').to_owned(), values: cells[1..].iter().map(|c| number(c)).collect() }
         });
         found.push((line.to_owned(), head, rows.collect()));
     }
@@ -57,15 +54,9 @@ fn assert_balances((caption, head, rows): &(String, String, Vec<Row>)) {
     for column in 2..5 {
         let printed = forces.iter().filter_map(|row| row.values[column]);
         let (total, slack) = printed.fold((0.0, 0.0), |(t, s), (v, half)| (t + v, s + half));
-        assert!(
-            total.abs() <= slack + 1e-9,
-            "{caption}: {head}: column {column} sums to {total}"
-        );
+        assert!(total.abs() <= slack + 1e-9, "{caption}: {head}: column {column} sums to {total}");
         let (stated, half) = sum.values[column].expect("a sum");
-        assert!(
-            stated.abs() <= half,
-            "{caption}: the printed sum is {stated}"
-        );
+        assert!(stated.abs() <= half, "{caption}: the printed sum is {stated}");
     }
     // The first row of the table of a block is its weight, which acts at its centroid.
     let about = match caption.contains("its centroid") {
@@ -90,12 +81,7 @@ fn assert_balances((caption, head, rows): &(String, String, Vec<Row>)) {
             + force * (dx.abs() * up.1 + dy.abs() * right.1)
             + moment * stated.1;
         let off = (expected - moment * stated.0).abs();
-        assert!(
-            off <= 1.01 * slack + 1e-9,
-            "{caption}: {}: {expected} is printed as {}",
-            row.name,
-            stated.0
-        );
+        assert!(off <= 1.01 * slack + 1e-9, "{caption}: {}: {expected} is printed as {}", row.name, stated.0);
     }
 }
 
@@ -122,23 +108,14 @@ fn the_printed_forces_balance_and_their_moments_follow_from_them() {
     let mut files = vec![
         ("in/a.json".to_owned(), STANDS.to_owned()),
         ("in/b.json".to_owned(), FALLS.to_owned()),
-        (
-            "in/c.json".to_owned(),
-            include_str!("../intervals/archmech.json").to_owned(),
-        ),
-        (
-            "in/d.json".to_owned(),
-            include_str!("../intervals/plank.json").to_owned(),
-        ),
+        ("in/c.json".to_owned(), include_str!("../intervals/archmech.json").to_owned()),
+        ("in/d.json".to_owned(), include_str!("../intervals/plank.json").to_owned()),
     ];
     files.extend(named.map(|name| {
         let text = std::fs::read_to_string(format!("{scenes}/{name}.json"));
         (format!("in/{name}.json"), text.expect("readable"))
     }));
-    let files: Vec<(&str, &str)> = files
-        .iter()
-        .map(|(name, text)| (name.as_str(), text.as_str()))
-        .collect();
+    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
     let folder = Folder::new(&files);
     folder.done("report in -o r.md");
     let balances = balances(&folder.text("r.md"));

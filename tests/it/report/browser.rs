@@ -50,20 +50,10 @@ impl Browser {
             .expect("starts");
         let commands = process.stdin.take().expect("piped");
         let answers = BufReader::new(process.stdout.take().expect("piped"));
-        let mut browser = Browser {
-            process,
-            commands,
-            answers,
-            session: None,
-            sent: 0,
-            events: VecDeque::new(),
-        };
+        let mut browser = Browser { process, commands, answers, session: None, sent: 0, events: VecDeque::new() };
         let targets = browser.call("Target.getTargets", json!({}));
         let targets = targets["targetInfos"].as_array().expect("a list");
-        let page = targets
-            .iter()
-            .find(|t| t["type"] == "page")
-            .expect("a page");
+        let page = targets.iter().find(|t| t["type"] == "page").expect("a page");
         let parameters = json!({ "targetId": page["targetId"], "flatten": true });
         let attached = browser.call("Target.attachToTarget", parameters);
         browser.session = attached["sessionId"].as_str().map(str::to_owned);
@@ -86,9 +76,7 @@ impl Browser {
         }
         let mut bytes = message.to_string().into_bytes();
         bytes.push(0);
-        self.commands
-            .write_all(&bytes)
-            .expect("the browser reads its input");
+        self.commands.write_all(&bytes).expect("the browser reads its input");
         loop {
             let answer = self.next();
             if answer["id"] == id {
@@ -100,9 +88,7 @@ impl Browser {
 
     fn next(&mut self) -> Value {
         let mut bytes = Vec::new();
-        self.answers
-            .read_until(0, &mut bytes)
-            .expect("the browser answers");
+        self.answers.read_until(0, &mut bytes).expect("the browser answers");
         bytes.pop();
         let message: Value = serde_json::from_slice(&bytes).expect("JSON");
         if message["method"].is_string() {
@@ -116,25 +102,16 @@ impl Browser {
         self.events.clear();
         let url = format!("file://{}", file.display());
         self.call("Page.navigate", json!({ "url": url }));
-        while !self
-            .events
-            .iter()
-            .any(|e| e["method"] == "Page.loadEventFired")
-        {
+        while !self.events.iter().any(|e| e["method"] == "Page.loadEventFired") {
             self.next();
         }
     }
 
     /// The value of a JavaScript expression on the page.
     pub fn eval(&mut self, expression: &str) -> Value {
-        let parameters =
-            json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let answer = self.call("Runtime.evaluate", parameters);
-        assert!(
-            answer["exceptionDetails"].is_null(),
-            "{expression}: {}",
-            answer["exceptionDetails"]
-        );
+        assert!(answer["exceptionDetails"].is_null(), "{expression}: {}", answer["exceptionDetails"]);
         answer["result"]["value"].clone()
     }
 
@@ -148,8 +125,7 @@ impl Browser {
 
     /// Sets the width and the colour scheme, light or dark, of the page.
     pub fn view(&mut self, width: u32, scheme: &str) {
-        let size =
-            json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", size);
         let scheme = json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
         self.call("Emulation.setEmulatedMedia", scheme);
@@ -166,11 +142,7 @@ impl Browser {
             "Network.requestWillBeSent" => event["params"]["type"] != "Document",
             _ => false,
         };
-        self.events
-            .iter()
-            .filter(bad)
-            .map(Value::to_string)
-            .collect()
+        self.events.iter().filter(bad).map(Value::to_string).collect()
     }
 }
 

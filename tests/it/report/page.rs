@@ -32,10 +32,7 @@ fn the_page_sorts_filters_and_searches_without_errors() {
         return;
     };
     let hostile: Value = serde_json::from_str(HOSTILE).expect("JSON");
-    let hostile = hostile["title"]
-        .as_str()
-        .expect("text")
-        .replace('\u{202e}', "\u{fffd}");
+    let hostile = hostile["title"].as_str().expect("text").replace('\u{202e}', "\u{fffd}");
     let (a, b, c) = ("A lintel", "Half a lintel", hostile.as_str());
     assert_eq!(browser.eval(NAMES), json!([a, b, c]));
     // Sorted by the number of blocks: three, two, one; then in the reverse order.
@@ -54,7 +51,9 @@ fn the_page_sorts_filters_and_searches_without_errors() {
     browser.eval(&choose("falls"));
     assert_eq!(browser.eval(NAMES), json!([b]));
     browser.eval(&choose("any"));
-    browser.eval("(s => { s.value = 'half'; s.dispatchEvent(new Event('input')) })(document.querySelector('.controls input'))");
+    browser.eval(
+        "(s => { s.value = 'half'; s.dispatchEvent(new Event('input')) })(document.querySelector('.controls input'))",
+    );
     assert_eq!(browser.eval(NAMES), json!([b]));
     let title = "document.querySelector('#scene-3 h2').textContent";
     assert_eq!(browser.eval(title), c, "shown as text");
@@ -78,10 +77,7 @@ fn the_page_marks_related_parts_and_enlarges_figures() {
     assert_eq!(browser.eval(on), json!(["g i0", "g i0", "TR i0"]));
     let readout = browser.eval("document.querySelector('#scene-1 .readout').textContent");
     let readout = readout.as_str().expect("words");
-    assert!(
-        readout.contains("normal force") && readout.contains(" N"),
-        "{readout}"
-    );
+    assert!(readout.contains("normal force") && readout.contains(" N"), "{readout}");
     // If a row of the table gets the keyboard focus, its interface in the figure is marked.
     browser.eval("document.querySelector('#scene-1 tr[data-mark=i1]').focus()");
     assert_eq!(browser.eval(on), json!(["g i1", "g i1", "TR i1"]));
@@ -94,24 +90,14 @@ fn without_scripts_the_page_is_complete() {
     let Some(mut browser) = opened(&folder) else {
         return;
     };
-    browser.call(
-        "Emulation.setScriptExecutionDisabled",
-        json!({ "value": true }),
-    );
+    browser.call("Emulation.setScriptExecutionDisabled", json!({ "value": true }));
     browser.go(&folder.path("r.html"));
     assert_eq!(browser.count("table.all tbody tr"), 3);
-    assert_eq!(
-        browser.count("noscript section.step"),
-        3,
-        "the figures are in noscript elements"
-    );
+    assert_eq!(browser.count("noscript section.step"), 3, "the figures are in noscript elements");
     // Each figure is drawn for light and for dark pages.
     let figures = browser.count("noscript figure.plate");
     assert!(figures >= 4, "{figures}");
-    assert_eq!(
-        browser.count("noscript figure.plate .paper > svg"),
-        2 * figures
-    );
+    assert_eq!(browser.count("noscript figure.plate .paper > svg"), 2 * figures);
     assert_eq!(browser.count(".controls"), 0);
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
@@ -125,20 +111,12 @@ fn the_page_prints_every_step_and_fits_a_phone() {
     for width in [360, 768] {
         browser.view(width, "dark");
         let wide = browser.eval("document.documentElement.scrollWidth");
-        assert!(
-            wide.as_u64().is_some_and(|w| w <= u64::from(width)),
-            "{wide} of {width}"
-        );
+        assert!(wide.as_u64().is_some_and(|w| w <= u64::from(width)), "{wide} of {width}");
     }
     browser.view(1200, "light");
     let print = json!({ "preferCSSPageSize": true, "printBackground": true });
     let pdf = browser.call("Page.printToPDF", print);
-    assert!(
-        pdf["data"]
-            .as_str()
-            .is_some_and(|data| data.starts_with("JVBERi")),
-        "a PDF"
-    );
+    assert!(pdf["data"].as_str().is_some_and(|data| data.starts_with("JVBERi")), "a PDF");
     browser.call("Emulation.setEmulatedMedia", json!({ "media": "print" }));
     let steps = "[...document.querySelectorAll('.step')].map(s => getComputedStyle(s).display)";
     assert_eq!(browser.eval(steps), json!(["block", "block", "block"]));
@@ -159,12 +137,7 @@ fn axe_finds_no_violation_in_light_dark_and_on_a_phone() {
         return;
     };
     browser.call("Page.setBypassCSP", json!({ "enabled": true }));
-    for (width, scheme) in [
-        (1200, "light"),
-        (1200, "dark"),
-        (380, "light"),
-        (380, "dark"),
-    ] {
+    for (width, scheme) in [(1200, "light"), (1200, "dark"), (380, "light"), (380, "dark")] {
         browser.view(width, scheme);
         browser.go(&folder.path("r.html"));
         browser.eval(&format!("{script}; 0"));
@@ -194,21 +167,13 @@ fn a_thousand_scenes_open_and_scroll() {
     browser.view(1200, "light");
     let start = std::time::Instant::now();
     browser.go(&folder.path("r.html"));
-    assert_eq!(
-        browser.eval("document.querySelectorAll('table.all tbody tr').length"),
-        1000
-    );
-    browser.eval(
-        "scrollTo(0, document.body.scrollHeight); document.body.getBoundingClientRect().height",
-    );
+    assert_eq!(browser.eval("document.querySelectorAll('table.all tbody tr').length"), 1000);
+    browser.eval("scrollTo(0, document.body.scrollHeight); document.body.getBoundingClientRect().height");
     browser.eval("location.hash = '#scene-701'; new Promise(r => setTimeout(r, 50))");
     let figures = browser.eval("document.querySelectorAll('#scene-701 .plate svg').length");
     assert!(figures.as_u64().is_some_and(|n| n > 0), "{figures}");
     let elements = browser.eval("document.querySelectorAll('*').length");
-    assert!(
-        elements.as_u64().is_some_and(|n| n < 60_000),
-        "{elements} elements"
-    );
+    assert!(elements.as_u64().is_some_and(|n| n < 60_000), "{elements} elements");
     let seconds = start.elapsed().as_secs_f64();
     let _ = std::io::Write::write_all(
         &mut std::io::stderr(),

@@ -27,12 +27,7 @@ fn hung(polygon: &Value, edge: usize, size: f64) -> Option<Value> {
             ay + (0.4 + size * u) * along[1] + size * v * out[1]
         ])
     };
-    Some(json!([
-        at(0.0, 0.0),
-        at(0.0, 0.5),
-        at(1.0, 0.5),
-        at(1.0, 0.0)
-    ]))
+    Some(json!([at(0.0, 0.0), at(0.0, 0.5), at(1.0, 0.5), at(1.0, 0.0)]))
 }
 
 /// A stable structure becomes unstable if an unsupported pebble of any size is added at any edge.
@@ -55,9 +50,7 @@ fn a_falling_pebble_makes_any_structure_fall() {
         let doubled: f64 = {
             let list = polygon.as_array().expect("corners");
             let at = |k: usize| [0, 1].map(|c| list[k % list.len()][c].as_f64().unwrap_or(0.0));
-            (0..list.len())
-                .map(|k| at(k)[0] * at(k + 1)[1] - at(k)[1] * at(k + 1)[0])
-                .sum()
+            (0..list.len()).map(|k| at(k)[0] * at(k + 1)[1] - at(k)[1] * at(k + 1)[0]).sum()
         };
         if doubled < 0.0 {
             polygon.as_array_mut().expect("corners").reverse();
@@ -68,10 +61,7 @@ fn a_falling_pebble_makes_any_structure_fall() {
             continue;
         };
         let weight = libm::exp10(-12.0 * chance.share());
-        file["blocks"]
-            .as_array_mut()
-            .expect("a list")
-            .push(block("pebble", pebble, weight));
+        file["blocks"].as_array_mut().expect("a list").push(block("pebble", pebble, weight));
         // If another body is at this position or next to it, the pebble may overlap it or be supported. Such cases
         // are skipped.
         let Ok(scene) = Scene::from_json(&file.to_string()) else {
@@ -83,20 +73,12 @@ fn a_falling_pebble_makes_any_structure_fall() {
         let analysis = Analysis::new(&scene);
         let frame = &analysis.frames[0];
         let last = BodyId::Block(BlockId(blocks.len()));
-        let touched = frame
-            .contacts
-            .iter()
-            .filter(|c| c.interface.bodies.contains(&last));
+        let touched = frame.contacts.iter().filter(|c| c.interface.bodies.contains(&last));
         if touched.count() > 1 {
             continue;
         }
         tried += 1;
-        assert_eq!(
-            frame.verdict,
-            FALLS,
-            "round {round}: {}\n{file}",
-            frame.doubt()
-        );
+        assert_eq!(frame.verdict, FALLS, "round {round}: {}\n{file}", frame.doubt());
     }
     assert!(tried > 25, "{tried}");
 }

@@ -21,29 +21,17 @@ fn a_scene_a_folder_and_a_figure() {
     assertion::scenes(folder, "scenes".as_ref());
     let text = std::fs::read_to_string(folder.join("scenes/arch.json")).expect("there");
     let scene = Scene::from_json(&text).expect("sound");
-    let drawing = figure::draw(
-        &Analysis::new(&scene),
-        figure::Kind::Thrust,
-        &figure::Options::default(),
-    );
+    let drawing = figure::draw(&Analysis::new(&scene), figure::Kind::Thrust, &figure::Options::default());
     assertion::figure(folder, "deep/a thrust line".as_ref(), &drawing);
 }
 
 fn run(folder: &Folder, environment: &[(&str, &str)]) -> (bool, String) {
     let mut command = Command::new(std::env::current_exe().expect("this program"));
-    command.args([
-        "--ignored",
-        "--exact",
-        "snapshot::assertion::a_scene_a_folder_and_a_figure",
-        "--nocapture",
-    ]);
+    command.args(["--ignored", "--exact", "snapshot::assertion::a_scene_a_folder_and_a_figure", "--nocapture"]);
     command.env_remove("CI").env_remove("UPDATE_SNAPSHOTS");
-    command
-        .env(FOLDER, folder.path(""))
-        .envs(environment.iter().copied());
+    command.env(FOLDER, folder.path("")).envs(environment.iter().copied());
     let output = command.output().expect("starts");
-    let output_text = String::from_utf8_lossy(&output.stdout).into_owned()
-        + &String::from_utf8_lossy(&output.stderr);
+    let output_text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
     assert!(output_text.contains("running 1 test"), "{output_text}");
     (output.status.success(), output_text)
 }
@@ -52,36 +40,18 @@ fn run(folder: &Folder, environment: &[(&str, &str)]) -> (bool, String) {
 fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
     let folder = Folder::with(&[("scenes/arch.json", lintel("A lintel", 1.0))]);
     let before = folder.files();
-    for environment in [
-        &[("CI", "true")][..],
-        &[("CI", "true"), ("UPDATE_SNAPSHOTS", "1")],
-    ] {
+    for environment in [&[("CI", "true")][..], &[("CI", "true"), ("UPDATE_SNAPSHOTS", "1")]] {
         let (passed, output_text) = run(&folder, environment);
-        assert!(
-            !passed && output_text.contains("CI is set, so nothing was written"),
-            "{output_text}"
-        );
+        assert!(!passed && output_text.contains("CI is set, so nothing was written"), "{output_text}");
         assert_eq!(folder.files(), before);
     }
     let (passed, output_text) = run(&folder, &[]);
-    assert!(
-        !passed && output_text.contains("scenes/arch.json differs from its references"),
-        "{output_text}"
-    );
-    assert!(
-        output_text.contains("arch.new.txt") && output_text.contains("UPDATE_SNAPSHOTS=1"),
-        "{output_text}"
-    );
-    assert!(
-        folder.path("scenes/arch.new.png").exists() && !folder.path("scenes/arch.png").exists()
-    );
+    assert!(!passed && output_text.contains("scenes/arch.json differs from its references"), "{output_text}");
+    assert!(output_text.contains("arch.new.txt") && output_text.contains("UPDATE_SNAPSHOTS=1"), "{output_text}");
+    assert!(folder.path("scenes/arch.new.png").exists() && !folder.path("scenes/arch.png").exists());
     let (passed, output_text) = run(&folder, &[("UPDATE_SNAPSHOTS", "1")]);
     assert!(passed, "{output_text}");
-    assert!(
-        folder
-            .path("tests/snapshots/deep/a thrust line.svg")
-            .exists()
-    );
+    assert!(folder.path("tests/snapshots/deep/a thrust line.svg").exists());
     assert!(!folder.path("scenes/arch.new.png").exists());
     for environment in [&[][..], &[("CI", "true")], &[("UPDATE_SNAPSHOTS", "0")]] {
         let (passed, output_text) = run(&folder, environment);
@@ -89,10 +59,7 @@ fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
     }
     folder.write("scenes/arch.json", &lintel("A lintel", 1.2));
     let (passed, output_text) = run(&folder, &[]);
-    assert!(
-        !passed && output_text.contains("interface left–ground: N "),
-        "{output_text}"
-    );
+    assert!(!passed && output_text.contains("interface left–ground: N "), "{output_text}");
     assert!(output_text.contains("arch.diff.png"), "{output_text}");
 }
 

@@ -18,10 +18,7 @@ fn a_file_that_cannot_be_written_is_reported_and_prevents_acceptance() {
     fs::create_dir(folder.path("a/arch.new.txt")).expect("made");
     let ran = folder.run(&["a"]);
     assert!(
-        ran.code == 1
-            && ran
-                .err
-                .contains("could not write a/arch.new.txt: it is a folder"),
+        ran.code == 1 && ran.err.contains("could not write a/arch.new.txt: it is a folder"),
         "{}{}",
         ran.out,
         ran.err
@@ -42,11 +39,8 @@ fn a_file_that_cannot_be_written_is_reported_and_prevents_acceptance() {
 /// A folder with twelve scenes.
 fn twelve() -> Folder {
     let names: Vec<String> = (0..12).map(|k| format!("s{k}.json")).collect();
-    let scenes: Vec<(&str, String)> = names
-        .iter()
-        .enumerate()
-        .map(|(k, n)| (n.as_str(), lintel("One of twelve", 1.0 + k as f64)))
-        .collect();
+    let scenes: Vec<(&str, String)> =
+        names.iter().enumerate().map(|(k, n)| (n.as_str(), lintel("One of twelve", 1.0 + k as f64))).collect();
     Folder::with(&scenes)
 }
 
@@ -92,20 +86,13 @@ fn an_interrupted_acceptance_leaves_complete_files() {
             match name.rsplit_once('.').map(|(_, e)| e) {
                 _ if hidden => continue,
                 Some("png") => assert!(Picture::decode(&bytes).is_ok(), "{name}"),
-                Some("txt") => assert!(
-                    Facts::read(&String::from_utf8_lossy(&bytes)).is_ok(),
-                    "{name}"
-                ),
+                Some("txt") => assert!(Facts::read(&String::from_utf8_lossy(&bytes)).is_ok(), "{name}"),
                 Some("svg") => assert!(bytes.ends_with(b"</svg>\n"), "{name}"),
                 _ => continue,
             }
             complete += 1;
         }
-        assert_eq!(
-            folder.run(&["--accept"]).code,
-            0,
-            "the lock ended with the process"
-        );
+        assert_eq!(folder.run(&["--accept"]).code, 0, "the lock ended with the process");
     }
     assert!(complete > 0, "no run wrote anything");
 }

@@ -46,102 +46,36 @@ fn every_kind_of_png_is_read_as_the_same_pixels() {
     let expected = Picture::new(4, 2, vec![b, w, b, w, w, b, w, b]);
     let spread = |one: &[u8], zero: &[u8]| -> Vec<u8> {
         let bits = [0, 1, 0, 1, 1, 0, 1, 0];
-        bits.iter()
-            .flat_map(|bit| {
-                if *bit == 1 {
-                    one.to_vec()
-                } else {
-                    zero.to_vec()
-                }
-            })
-            .collect()
+        bits.iter().flat_map(|bit| if *bit == 1 { one.to_vec() } else { zero.to_vec() }).collect()
     };
     let table: &[u8] = &[0, 0, 0, 255, 255, 255];
     for (what, bytes) in [
-        (
-            "1 bit of grey",
-            foreign(Grayscale, One, None, None, &[0b0101_0000, 0b1010_0000]),
-        ),
-        (
-            "8 bits of grey",
-            foreign(Grayscale, Eight, None, None, &spread(&[255], &[0])),
-        ),
-        (
-            "16 bits of grey",
-            foreign(
-                Grayscale,
-                Sixteen,
-                None,
-                None,
-                &spread(&[255, 200], &[0, 90]),
-            ),
-        ),
-        (
-            "grey with alpha",
-            foreign(
-                GrayscaleAlpha,
-                Eight,
-                None,
-                None,
-                &spread(&[255, 255], &[0, 255]),
-            ),
-        ),
-        (
-            "a table of 4 bits",
-            foreign(Indexed, Four, Some(table), None, &[0x01, 0x01, 0x10, 0x10]),
-        ),
-        (
-            "a table of 8 bits",
-            foreign(
-                Indexed,
-                Eight,
-                Some(table),
-                Some(&[255, 255]),
-                &spread(&[1], &[0]),
-            ),
-        ),
-        (
-            "8 bits of colour",
-            foreign(Rgb, Eight, None, None, &spread(&[255; 3], &[0; 3])),
-        ),
-        (
-            "16 bits of colour",
-            foreign(Rgb, Sixteen, None, None, &spread(&[255; 6], &[0; 6])),
-        ),
+        ("1 bit of grey", foreign(Grayscale, One, None, None, &[0b0101_0000, 0b1010_0000])),
+        ("8 bits of grey", foreign(Grayscale, Eight, None, None, &spread(&[255], &[0]))),
+        ("16 bits of grey", foreign(Grayscale, Sixteen, None, None, &spread(&[255, 200], &[0, 90]))),
+        ("grey with alpha", foreign(GrayscaleAlpha, Eight, None, None, &spread(&[255, 255], &[0, 255]))),
+        ("a table of 4 bits", foreign(Indexed, Four, Some(table), None, &[0x01, 0x01, 0x10, 0x10])),
+        ("a table of 8 bits", foreign(Indexed, Eight, Some(table), Some(&[255, 255]), &spread(&[1], &[0]))),
+        ("8 bits of colour", foreign(Rgb, Eight, None, None, &spread(&[255; 3], &[0; 3]))),
+        ("16 bits of colour", foreign(Rgb, Sixteen, None, None, &spread(&[255; 6], &[0; 6]))),
         (
             "16 bits of colour and alpha",
-            foreign(
-                Rgba,
-                Sixteen,
-                None,
-                None,
-                &spread(&[255; 8], &[0, 0, 0, 0, 0, 0, 255, 255]),
-            ),
+            foreign(Rgba, Sixteen, None, None, &spread(&[255; 8], &[0, 0, 0, 0, 0, 0, 255, 255])),
         ),
     ] {
         assert_eq!(Picture::decode(&bytes).as_ref(), Ok(&expected), "{what}");
     }
     let clear = foreign(Rgba, Eight, None, None, &[9, 9, 9, 0].repeat(8));
     let clear_too = Picture::decode(&foreign(Rgba, Eight, None, None, &[200, 3, 3, 0].repeat(8)));
-    let difference = Difference::new(
-        &Picture::decode(&clear).expect("read"),
-        &clear_too.expect("read"),
-        PixelTolerance::default(),
-    );
-    assert!(
-        difference.is_none(),
-        "the colour of transparent pixels does not matter"
-    );
+    let difference =
+        Difference::new(&Picture::decode(&clear).expect("read"), &clear_too.expect("read"), PixelTolerance::default());
+    assert!(difference.is_none(), "the colour of transparent pixels does not matter");
 }
 
 #[test]
 fn each_kind_of_invalid_png_has_its_own_message() {
     let bytes = sample().encode(Some(Subject::Scene)).expect("packed");
-    let refused = |bytes: &[u8]| {
-        Picture::decode(bytes)
-            .expect_err("no whole picture")
-            .to_string()
-    };
+    let refused = |bytes: &[u8]| Picture::decode(bytes).expect_err("no whole picture").to_string();
     let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:9f8e\nsize 18231\n";
     let text_mode = String::from_utf8_lossy(&bytes[..8]).replace("\r\n", "\n");
     assert!(text_mode.contains("PNG"));
@@ -150,16 +84,10 @@ fn each_kind_of_invalid_png_has_its_own_message() {
     for (bytes, words) in [
         (&b""[..], "it is empty (0 bytes)"),
         (pointer, "it is a Git LFS pointer"),
-        (
-            b"\x89PNG\n\x1a\n",
-            "it is not a PNG: its line endings were converted",
-        ),
+        (b"\x89PNG\n\x1a\n", "it is not a PNG: its line endings were converted"),
         (b"\xff\xd8\xff\xe0", "it is not a PNG: it is a JPEG"),
         (b"<svg/>", "it is not a PNG: it is an SVG"),
-        (
-            b"<<<<<<< HEAD\n",
-            "it is not a PNG: it contains a merge conflict",
-        ),
+        (b"<<<<<<< HEAD\n", "it is not a PNG: it contains a merge conflict"),
         (&[0; 300], "it is not a PNG: all its bytes are zero"),
         (&bytes[..5], "it is truncated after 5 bytes"),
         (&bytes[..bytes.len() / 2], "it is truncated after"),
@@ -168,23 +96,11 @@ fn each_kind_of_invalid_png_has_its_own_message() {
         assert!(refused(bytes).starts_with(words), "{}", refused(bytes));
     }
     // A header with more pixels than the limit.
-    let mut huge = foreign(
-        png::ColorType::Grayscale,
-        png::BitDepth::Eight,
-        None,
-        None,
-        &[0; 8],
-    );
+    let mut huge = foreign(png::ColorType::Grayscale, png::BitDepth::Eight, None, None, &[0; 8]);
     huge[16..24].copy_from_slice(&[0, 0, 255, 255, 0, 0, 255, 255]);
     let crc = crc(&huge[12..29]);
     huge[29..33].copy_from_slice(&crc.to_be_bytes());
-    assert_eq!(
-        Picture::decode(&huge),
-        Err(PictureError::Large {
-            width: 65_535,
-            height: 65_535
-        })
-    );
+    assert_eq!(Picture::decode(&huge), Err(PictureError::Large { width: 65_535, height: 65_535 }));
     let page = |colour: &str| animation::Step {
         svg: format!(
             "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><path d='M0 0h9v9z' fill='{colour}'/></svg>"
@@ -192,8 +108,7 @@ fn each_kind_of_invalid_png_has_its_own_message() {
         seconds: 0.5,
     };
     let pages = [page("#f00"), page("#00f")];
-    let moving =
-        animation::apng(&pages, ours::Size::Natural, &default_fonts()).expect("an animation");
+    let moving = animation::apng(&pages, ours::Size::Natural, &default_fonts()).expect("an animation");
     assert_eq!(Picture::decode(&moving), Err(PictureError::Animation(2)));
 }
 
@@ -207,11 +122,7 @@ fn crc(bytes: &[u8]) -> u32 {
     for byte in bytes {
         value ^= u32::from(*byte);
         for _ in 0..8 {
-            value = if value & 1 == 1 {
-                0xedb8_8320 ^ (value >> 1)
-            } else {
-                value >> 1
-            };
+            value = if value & 1 == 1 { 0xedb8_8320 ^ (value >> 1) } else { value >> 1 };
         }
     }
     !value
@@ -221,26 +132,16 @@ fn crc(bytes: &[u8]) -> u32 {
 fn every_beginning_and_every_damaged_byte_is_refused_or_read_without_a_panic() {
     let bytes = sample().encode(Some(Subject::Figure)).expect("packed");
     for end in 0..bytes.len() {
-        assert!(
-            Picture::decode(&bytes[..end]).is_err(),
-            "{end} of {} bytes",
-            bytes.len()
-        );
+        assert!(Picture::decode(&bytes[..end]).is_err(), "{end} of {} bytes", bytes.len());
     }
-    assert_eq!(
-        Picture::decode(&bytes).map(|p| p.pixels().to_vec()),
-        Ok(sample().pixels().to_vec())
-    );
+    assert_eq!(Picture::decode(&bytes).map(|p| p.pixels().to_vec()), Ok(sample().pixels().to_vec()));
     for place in 0..bytes.len() {
         for flip in [0x01, 0x80, 0xff] {
             let mut damaged = bytes.clone();
             damaged[place] ^= flip;
             // A picture that is read has exactly the pixels of its header.
             if let Ok(picture) = Picture::decode(&damaged) {
-                assert_eq!(
-                    picture.pixels().len() as u64,
-                    u64::from(picture.width) * u64::from(picture.height)
-                );
+                assert_eq!(picture.pixels().len() as u64, u64::from(picture.width) * u64::from(picture.height));
             }
         }
     }
@@ -251,25 +152,12 @@ fn pictures_of_different_sizes_are_reported_with_both_sizes() {
     let one = sample();
     let other = Picture::new(20, 24, vec![[255; 4]; 480]);
     let difference = Difference::new(&one, &other, PixelTolerance::default());
-    assert!(
-        difference
-            .words()
-            .starts_with("24 × 20 pixels expected, 20 × 24 found; "),
-        "{}",
-        difference.words()
-    );
+    assert!(difference.words().starts_with("24 × 20 pixels expected, 20 × 24 found; "), "{}", difference.words());
     let image = difference.image(&one);
     assert_eq!((image.width, image.height), (24, 24));
-    assert_eq!(
-        image.pixel(22, 10),
-        [0xb8, 0xd4, 0xf0, 255],
-        "only one of the pictures has this pixel"
-    );
+    assert_eq!(image.pixel(22, 10), [0xb8, 0xd4, 0xf0, 255], "only one of the pictures has this pixel");
     // A page with an additional white row is a different page.
     let white = |w, h| Picture::new(w, h, vec![[255; 4]; (w * h) as usize]);
     let grown = Difference::new(&white(9, 9), &white(9, 10), PixelTolerance::default());
-    assert_eq!(
-        (grown.is_none(), grown.words().as_str()),
-        (false, "9 × 9 pixels expected, 9 × 10 found")
-    );
+    assert_eq!((grown.is_none(), grown.words().as_str()), (false, "9 × 9 pixels expected, 9 × 10 found"));
 }

@@ -13,50 +13,18 @@ fn a_new_snapshot_is_written_next_to_the_reference_until_it_is_accepted() {
     let folder = Folder::with(&[("a/arch.json", lintel("A lintel", 1.0))]);
     let ran = folder.run(&["a"]);
     assert_eq!(ran.code, 1);
-    assert!(
-        ran.out
-            .contains("facts new, a/arch.txt: this reference file does not exist yet"),
-        "{}",
-        ran.out
-    );
-    assert!(
-        ran.err.contains("1 snapshot: 0 match, 0 changed, 1 new"),
-        "{}",
-        ran.err
-    );
-    let new_files = [
-        "a/arch.json",
-        "a/arch.new.png",
-        "a/arch.new.svg",
-        "a/arch.new.txt",
-        "drystone-snapshots.toml",
-    ];
+    assert!(ran.out.contains("facts new, a/arch.txt: this reference file does not exist yet"), "{}", ran.out);
+    assert!(ran.err.contains("1 snapshot: 0 match, 0 changed, 1 new"), "{}", ran.err);
+    let new_files = ["a/arch.json", "a/arch.new.png", "a/arch.new.svg", "a/arch.new.txt", "drystone-snapshots.toml"];
     assert_eq!(folder.files(), new_files);
     assert_eq!(folder.run(&["a", "--accept"]).code, 0);
-    let accepted_files = [
-        "a/arch.json",
-        "a/arch.png",
-        "a/arch.svg",
-        "a/arch.txt",
-        "drystone-snapshots.toml",
-    ];
-    assert_eq!(
-        folder.files(),
-        accepted_files,
-        "no new files are left next to the references"
-    );
-    let before = fs::metadata(folder.path("a/arch.png"))
-        .and_then(|m| m.modified())
-        .expect("there");
+    let accepted_files = ["a/arch.json", "a/arch.png", "a/arch.svg", "a/arch.txt", "drystone-snapshots.toml"];
+    assert_eq!(folder.files(), accepted_files, "no new files are left next to the references");
+    let before = fs::metadata(folder.path("a/arch.png")).and_then(|m| m.modified()).expect("there");
     let ran = folder.run(&["a", "--accept"]);
     assert_eq!((ran.code, ran.out.as_str()), (0, ""));
-    let after = fs::metadata(folder.path("a/arch.png"))
-        .and_then(|m| m.modified())
-        .expect("there");
-    assert_eq!(
-        before, after,
-        "a reference that agrees is not written again"
-    );
+    let after = fs::metadata(folder.path("a/arch.png")).and_then(|m| m.modified()).expect("there");
+    assert_eq!(before, after, "a reference that agrees is not written again");
 }
 
 #[test]
@@ -74,12 +42,7 @@ fn a_change_is_reported_with_a_picture_that_is_removed_with_the_change() {
     ] {
         assert!(ran.out.contains(words), "{words}: {}", ran.out);
     }
-    assert!(
-        ran.err
-            .contains("to review: drystone snapshot a --review review.html"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("to review: drystone snapshot a --review review.html"), "{}", ran.err);
     assert!(Picture::decode(&fs::read(folder.path("a/arch.diff.png")).expect("there")).is_ok());
     folder.write("a/arch.json", &lintel("A lintel", 1.0));
     assert_eq!(folder.run(&["a"]).code, 0);
@@ -92,10 +55,7 @@ fn references_without_scenes_and_missing_references_fail() {
     fs::remove_file(folder.path("a/arch.svg")).expect("there");
     let ran = folder.run(&["a"]);
     assert!(
-        ran.code == 1
-            && ran
-                .out
-                .contains("svg new, a/arch.svg: this reference file does not exist yet"),
+        ran.code == 1 && ran.out.contains("svg new, a/arch.svg: this reference file does not exist yet"),
         "{}",
         ran.out
     );
@@ -103,16 +63,11 @@ fn references_without_scenes_and_missing_references_fail() {
     folder.write("a/notes.txt", "The words of a person.\n");
     folder.write("a/logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
     assert_eq!(folder.run(&["a"]).code, 0, "other files are ignored");
-    folder.write(
-        "a/arch.dark.svg",
-        "<svg xmlns=\"http://www.w3.org/2000/svg\"/>",
-    );
+    folder.write("a/arch.dark.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
     let ran = folder.run(&["a"]);
     assert!(
         ran.code == 1
-            && ran.out.contains(
-                "a/arch.dark.svg: an orphaned reference: the settings of its scene do not include"
-            ),
+            && ran.out.contains("a/arch.dark.svg: an orphaned reference: the settings of its scene do not include"),
         "{}",
         ran.out
     );
@@ -127,57 +82,37 @@ fn references_without_scenes_and_missing_references_fail() {
 
 #[test]
 fn a_filter_selects_scenes_by_a_part_of_their_name() {
-    let folder = Folder::with(&[
-        ("one.json", lintel("One", 1.0)),
-        ("two.json", lintel("Two", 1.0)),
-    ]);
+    let folder = Folder::with(&[("one.json", lintel("One", 1.0)), ("two.json", lintel("Two", 1.0))]);
     assert_eq!(folder.run(&[".", "--accept", "--only", "one"]).code, 0);
     assert!(folder.path("one.txt").exists() && !folder.path("two.txt").exists());
     assert_eq!(folder.run(&["--only", "o*e"]).code, 0);
     assert_eq!(folder.run(&["--only", "two"]).code, 1);
     let ran = folder.run(&["--only", "three"]);
-    assert!(
-        ran.code == 2
-            && ran
-                .err
-                .contains("no scene under . whose path contains \"three\""),
-        "{}",
-        ran.err
-    );
+    assert!(ran.code == 2 && ran.err.contains("no scene under . whose path contains \"three\""), "{}", ran.err);
 }
 
 #[test]
 fn a_complete_name_selects_only_that_scene() {
-    let folder = Folder::with(&[
-        ("arch.json", lintel("One", 1.0)),
-        ("arch2.json", lintel("Two", 1.0)),
-    ]);
+    let folder = Folder::with(&[("arch.json", lintel("One", 1.0)), ("arch2.json", lintel("Two", 1.0))]);
     assert_eq!(folder.run(&[".", "--accept", "--only", "arch"]).code, 0);
     assert!(folder.path("arch.txt").exists() && !folder.path("arch2.txt").exists());
     assert_eq!(folder.run(&[".", "--only", "arch"]).code, 0);
     fs::write(folder.path("arch2.svg"), "<svg/>").expect("writable");
     assert_eq!(folder.run(&[".", "--accept", "--only", "arc"]).code, 0);
-    assert!(
-        folder.path("arch2.txt").exists(),
-        "a part of a name selects both scenes"
-    );
+    assert!(folder.path("arch2.txt").exists(), "a part of a name selects both scenes");
 }
 
 #[test]
 fn invalid_input_is_reported_completely_and_nothing_is_written() {
-    let folder = Folder::with(&[
-        ("good.json", lintel("Good", 1.0)),
-        ("bad.json", r#"{ "drystone": 1, "blocks": 3 }"#.into()),
-    ]);
+    let folder =
+        Folder::with(&[("good.json", lintel("Good", 1.0)), ("bad.json", r#"{ "drystone": 1, "blocks": 3 }"#.into())]);
     folder.write("worse.json", "{ \"drystone\": 1,");
     folder.write("package.json", "{ \"name\": \"no scene\" }");
     let before = folder.files();
     let ran = folder.run(&["--accept"]);
     assert_eq!((ran.code, folder.files()), (2, before));
     assert!(
-        ran.err.contains("bad.json")
-            && ran.err.contains("worse.json")
-            && !ran.err.contains("package.json"),
+        ran.err.contains("bad.json") && ran.err.contains("worse.json") && !ran.err.contains("package.json"),
         "{}",
         ran.err
     );
@@ -204,11 +139,7 @@ fn nothing_is_accepted_in_ci_without_the_option_for_ci() {
     };
     for arguments in [&["--accept"][..], &["--review"]] {
         let ran = in_ci(arguments);
-        assert!(
-            ran.code == 2 && ran.err.contains("CI is set"),
-            "{}",
-            ran.err
-        );
+        assert!(ran.code == 2 && ran.err.contains("CI is set"), "{}", ran.err);
     }
     assert!(!folder.path("arch.txt").exists());
     assert_eq!(in_ci(&[".", "--accept-in-ci"]).code, 0);
@@ -217,12 +148,7 @@ fn nothing_is_accepted_in_ci_without_the_option_for_ci() {
 
 #[test]
 fn names_may_have_spaces_and_any_script() {
-    let names = [
-        "a b/ein Bogen & 'mehr'.json",
-        "арка.json",
-        "石 橋.json",
-        "naïve.v2.json",
-    ];
+    let names = ["a b/ein Bogen & 'mehr'.json", "арка.json", "石 橋.json", "naïve.v2.json"];
     let scenes: Vec<(&str, String)> = names.iter().map(|n| (*n, lintel(n, 1.0))).collect();
     let folder = Folder::with(&scenes);
     assert_eq!(folder.run(&["--accept"]).code, 0);
@@ -231,10 +157,7 @@ fn names_may_have_spaces_and_any_script() {
     folder.write("a b/ein Bogen & 'mehr'.json", &lintel("changed", 1.0));
     let ran = folder.run(&["--only", "Bogen"]);
     assert!(
-        ran.code == 1
-            && ran
-                .out
-                .contains("facts changed, a b/ein Bogen & 'mehr'.txt: the scene: the title was"),
+        ran.code == 1 && ran.out.contains("facts changed, a b/ein Bogen & 'mehr'.txt: the scene: the title was"),
         "{}",
         ran.out
     );
@@ -242,34 +165,17 @@ fn names_may_have_spaces_and_any_script() {
 
 #[test]
 fn names_that_are_equal_on_some_disks_are_refused() {
-    let folder = Folder::with(&[
-        ("Arch.json", lintel("One", 1.0)),
-        ("arch.json", lintel("Two", 1.0)),
-    ]);
+    let folder = Folder::with(&[("Arch.json", lintel("One", 1.0)), ("arch.json", lintel("Two", 1.0))]);
     if folder.files().len() < 3 {
         // This file system ignores case, so both names are one file.
         return;
     }
     let ran = folder.run(&["--accept"]);
-    assert!(
-        ran.code == 2 && ran.err.contains("on file systems that ignore case"),
-        "{}",
-        ran.err
-    );
-    let folder = Folder::with(&[
-        ("a.json", lintel("One", 1.0)),
-        ("a.dark.json", lintel("Two", 1.0)),
-    ]);
-    folder.write(
-        "drystone-snapshots.toml",
-        "themes = [\"thesis\", \"dark\"]\nwidths = [160]\n",
-    );
+    assert!(ran.code == 2 && ran.err.contains("on file systems that ignore case"), "{}", ran.err);
+    let folder = Folder::with(&[("a.json", lintel("One", 1.0)), ("a.dark.json", lintel("Two", 1.0))]);
+    folder.write("drystone-snapshots.toml", "themes = [\"thesis\", \"dark\"]\nwidths = [160]\n");
     let ran = folder.run(&["--accept"]);
-    assert!(
-        ran.code == 2 && ran.err.contains("a.dark.png"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.code == 2 && ran.err.contains("a.dark.png"), "{}", ran.err);
 }
 
 #[test]
@@ -277,45 +183,17 @@ fn references_that_cannot_be_read_have_specific_messages() {
     let folder = accepted();
     let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:9f8e\nsize 18231\n";
     for (name, text, words) in [
-        (
-            "arch.png",
-            pointer,
-            "pixels unreadable, a/arch.png: it is a Git LFS pointer",
-        ),
-        (
-            "arch.svg",
-            pointer,
-            "svg unreadable, a/arch.svg: it is a Git LFS pointer",
-        ),
-        (
-            "arch.txt",
-            pointer,
-            "facts unreadable, a/arch.txt: it is a Git LFS pointer",
-        ),
-        (
-            "arch.png",
-            "",
-            "pixels unreadable, a/arch.png: it is empty (0 bytes)",
-        ),
-        (
-            "arch.txt",
-            "<<<<<<< HEAD\n",
-            "line 1 is a mark of a merge conflict",
-        ),
-        (
-            "arch.svg",
-            "<svg",
-            "svg unreadable, a/arch.svg: it is not SVG",
-        ),
+        ("arch.png", pointer, "pixels unreadable, a/arch.png: it is a Git LFS pointer"),
+        ("arch.svg", pointer, "svg unreadable, a/arch.svg: it is a Git LFS pointer"),
+        ("arch.txt", pointer, "facts unreadable, a/arch.txt: it is a Git LFS pointer"),
+        ("arch.png", "", "pixels unreadable, a/arch.png: it is empty (0 bytes)"),
+        ("arch.txt", "<<<<<<< HEAD\n", "line 1 is a mark of a merge conflict"),
+        ("arch.svg", "<svg", "svg unreadable, a/arch.svg: it is not SVG"),
     ] {
         let kept = fs::read(folder.path(&format!("a/{name}"))).expect("there");
         folder.write(&format!("a/{name}"), text);
         let ran = folder.run(&["a"]);
-        assert!(
-            ran.code == 1 && ran.out.contains(words),
-            "{words}: {}",
-            ran.out
-        );
+        assert!(ran.code == 1 && ran.out.contains(words), "{words}: {}", ran.out);
         fs::write(folder.path(&format!("a/{name}")), kept).expect("writable");
     }
     assert_eq!(folder.run(&["a"]).code, 0);
@@ -326,9 +204,7 @@ fn a_page_a_report_and_annotations_are_written() {
     let folder = accepted();
     folder.write("b.json", &lintel("New", 1.0));
     folder.write("a/arch.json", &lintel("A <b>lintel</b>", 1.2));
-    let ran = folder.run(&[
-        ".", "--review", "out.html", "--junit", "out.xml", "--github",
-    ]);
+    let ran = folder.run(&[".", "--review", "out.html", "--junit", "out.xml", "--github"]);
     assert_eq!(ran.code, 1, "{}", ran.err);
     let page = fs::read_to_string(folder.path("out.html")).expect("there");
     assert_eq!(
@@ -336,31 +212,17 @@ fn a_page_a_report_and_annotations_are_written() {
         3 + 2 + 1,
         "the changed scene: three, and two on top of each other; the new scene: one"
     );
-    assert!(
-        page.contains("drystone snapshot . --accept --only a/arch")
-            && page.contains("type=\"range\"")
-    );
+    assert!(page.contains("drystone snapshot . --accept --only a/arch") && page.contains("type=\"range\""));
     assert!(page.contains("A &lt;b&gt;lintel") && !page.contains("<b>lintel"));
-    assert!(
-        !page.contains("http://") && !page.contains("https://"),
-        "the page loads nothing from other addresses"
-    );
+    assert!(!page.contains("http://") && !page.contains("https://"), "the page loads nothing from other addresses");
     let xml = fs::read_to_string(folder.path("out.xml")).expect("there");
     let document = roxmltree::Document::parse(&xml).expect("XML");
-    let suite = document
-        .root_element()
-        .first_element_child()
-        .expect("a suite");
-    assert_eq!(
-        (suite.attribute("tests"), suite.attribute("failures")),
-        (Some("2"), Some("2"))
-    );
+    let suite = document.root_element().first_element_child().expect("a suite");
+    assert_eq!((suite.attribute("tests"), suite.attribute("failures")), (Some("2"), Some("2")));
     let lines: Vec<&str> = ran.out.lines().collect();
     assert_eq!(lines.len(), 2, "{}", ran.out);
     assert!(
-        lines[0].starts_with(
-            "::error file=a/arch.json,title=drystone snapshot a/arch::  facts changed"
-        ),
+        lines[0].starts_with("::error file=a/arch.json,title=drystone snapshot a/arch::  facts changed"),
         "{}",
         lines[0]
     );
@@ -372,17 +234,11 @@ fn a_page_a_report_and_annotations_are_written() {
 
 #[test]
 fn review_asks_about_each_change() {
-    let scenes = [
-        ("one.json", lintel("One", 1.0)),
-        ("three.json", lintel("Three", 1.0)),
-        ("two.json", lintel("Two", 1.0)),
-    ];
+    let scenes =
+        [("one.json", lintel("One", 1.0)), ("three.json", lintel("Three", 1.0)), ("two.json", lintel("Two", 1.0))];
     let folder = Folder::with(&scenes);
     let mut command = folder.command(&[".", "--review"]);
-    command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut run = command.spawn().expect("starts");
     let mut typed = run.stdin.take().expect("a pipe");
     // After an invalid answer the question is repeated. At the end of the input the remaining references stay as they
@@ -394,11 +250,7 @@ fn review_asks_about_each_change() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(out.matches("1 of 3, one: accept?").count(), 2, "{out}");
     assert!(out.contains("3 of 3, two: accept?"), "{out}");
-    assert!(
-        folder.path("one.txt").exists()
-            && !folder.path("three.txt").exists()
-            && !folder.path("two.txt").exists()
-    );
+    assert!(folder.path("one.txt").exists() && !folder.path("three.txt").exists() && !folder.path("two.txt").exists());
     assert!(!folder.path("one.new.txt").exists() && folder.path("three.new.txt").exists());
 }
 
@@ -425,21 +277,12 @@ fn kinds_themes_and_widths_have_their_own_files() {
         "drystone-snapshots.toml",
     ];
     assert_eq!(folder.files(), expected);
-    let size = |name: &str| {
-        Picture::decode(&fs::read(folder.path(name)).expect("there"))
-            .expect("read")
-            .width
-    };
+    let size = |name: &str| Picture::decode(&fs::read(folder.path(name)).expect("there")).expect("read").width;
     assert_eq!((size("a.png"), size("a.thrust.dark.w100.png")), (200, 100));
-    folder.write(
-        "drystone-snapshots.toml",
-        "widths = [200]\nthemes = [\"paper\"]\n",
-    );
+    folder.write("drystone-snapshots.toml", "widths = [200]\nthemes = [\"paper\"]\n");
     let ran = folder.run(&["."]);
     assert!(
-        ran.out.contains(
-            "a.thrust.svg: an orphaned reference: the settings of its scene do not include"
-        ),
+        ran.out.contains("a.thrust.svg: an orphaned reference: the settings of its scene do not include"),
         "{}",
         ran.out
     );

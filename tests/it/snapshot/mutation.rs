@@ -49,17 +49,10 @@ impl Sample {
 fn messages(expected: &Sample, found: &Sample) -> [Vec<String>; 3] {
     let kept = Facts::read(&expected.facts.text()).expect("what was written is read");
     let facts = kept.changes(&found.facts).into_iter().map(|c| c.words);
-    let packed = expected
-        .picture
-        .encode(Some(Subject::Scene))
-        .expect("packed");
+    let packed = expected.picture.encode(Some(Subject::Scene)).expect("packed");
     let packed = Picture::decode(&packed).expect("what was packed is read");
     let difference = Difference::new(&packed, &found.picture, PixelTolerance::default());
-    let pixels = if difference.is_none() {
-        vec![]
-    } else {
-        vec![difference.words()]
-    };
+    let pixels = if difference.is_none() { vec![] } else { vec![difference.words()] };
     let elements = element::changes(&expected.svg, &found.svg).expect("both are SVG");
     [facts.collect(), elements, pixels]
 }
@@ -240,20 +233,14 @@ fn every_mutation_is_reported_by_the_expected_layers() {
     ];
     for row in rows {
         let messages = messages(&expected, &row.found);
-        for ((layer, words), part) in ["facts", "svg", "pixels"]
-            .iter()
-            .zip(&messages)
-            .zip([row.facts, row.svg, row.pixels])
+        for ((layer, words), part) in
+            ["facts", "svg", "pixels"].iter().zip(&messages).zip([row.facts, row.svg, row.pixels])
         {
             if part.is_empty() {
                 assert!(words.is_empty(), "{}, {layer}: {words:#?}", row.what);
             } else {
                 let found = words.iter().any(|w| w.contains(part));
-                assert!(
-                    found,
-                    "{}, {layer}: {part:?} expected in {words:#?}",
-                    row.what
-                );
+                assert!(found, "{}, {layer}: {part:?} expected in {words:#?}", row.what);
             }
         }
     }
@@ -267,26 +254,13 @@ fn a_missing_block_is_reported_before_the_blocks_that_fall_without_it() {
     let [facts, ..] = messages(&Sample::scene(&text), &Sample::scene(&file.to_string()));
     assert_eq!(facts[0], "block right is gone: weight 60 N", "the cause");
     assert_eq!(facts[1], "frame 1: stable → unstable", "its effect");
-    assert!(
-        facts.contains(&"block lintel no longer stands".into()),
-        "{facts:#?}"
-    );
-    for gone in [
-        "block right is gone: weight 60 N",
-        "interface right–ground is gone",
-    ] {
+    assert!(facts.contains(&"block lintel no longer stands".into()), "{facts:#?}");
+    for gone in ["block right is gone: weight 60 N", "interface right–ground is gone"] {
         assert!(facts.iter().any(|w| w.starts_with(gone)), "{facts:#?}");
     }
     let [back, ..] = messages(&Sample::scene(&file.to_string()), &Sample::scene(&text));
-    assert!(
-        back.contains(&"block lintel no longer falls".into()),
-        "{back:#?}"
-    );
-    assert!(
-        back.iter()
-            .any(|w| w.starts_with("block right is new: weight 60 N")),
-        "{back:#?}"
-    );
+    assert!(back.contains(&"block lintel no longer falls".into()), "{back:#?}");
+    assert!(back.iter().any(|w| w.starts_with("block right is new: weight 60 N")), "{back:#?}");
 }
 
 /// A block with a load and a robot, for tests of causes. `kernel` is its safety kernel.
@@ -311,11 +285,7 @@ fn an_edited_input_is_the_first_change_that_is_reported() {
     };
     let load = first(&|file| file["loads"][0]["force"] = serde_json::json!([1, -4]));
     assert_eq!(load[0], "load on a: force 1, −2 → 1, −4 N");
-    assert!(
-        load.iter()
-            .any(|words| words.starts_with("interface a–ground: N ")),
-        "{load:?}"
-    );
+    assert!(load.iter().any(|words| words.starts_with("interface a–ground: N ")), "{load:?}");
     let gone = first(&|file| file["loads"] = serde_json::json!([]));
     assert_eq!(gone[0], "load on a is gone: force 1, −2 N");
     let friction = first(&|file| file["friction"] = 0.5.into());
@@ -347,9 +317,7 @@ fn an_equal_change_of_many_blocks_is_one_line() {
     let changes = row(0.7).changes(&row(0.5));
     assert_eq!(changes[0].words, "6 blocks: μ 0.7 → 0.5");
     assert_eq!(changes[1].words, "6 interfaces: μ 0.7 → 0.5");
-    let blocks = changes
-        .iter()
-        .filter(|change| change.words.contains("block"));
+    let blocks = changes.iter().filter(|change| change.words.contains("block"));
     assert_eq!(blocks.count(), 1, "{changes:?}");
 }
 
@@ -358,30 +326,16 @@ fn an_equal_change_of_many_blocks_is_one_line() {
 fn a_reference_of_the_first_version_differs_only_in_what_it_states() {
     let found = held(&|_| {});
     let text = found.text().replace("drystone facts 2", "drystone facts 1");
-    let kept = text
-        .lines()
-        .filter(|line| !line.starts_with("load ") && !line.starts_with("limits "));
+    let kept = text.lines().filter(|line| !line.starts_with("load ") && !line.starts_with("limits "));
     let old: Vec<String> = kept
-        .map(|line| {
-            if line.starts_with("block ") {
-                line.replace(", μ 0.7", "")
-            } else {
-                line.to_owned()
-            }
-        })
+        .map(|line| if line.starts_with("block ") { line.replace(", μ 0.7", "") } else { line.to_owned() })
         .collect();
     let old = Facts::read(&old.join("\n")).expect("a facts file of version 1");
     assert!(old.changes(&found).is_empty(), "{:?}", old.changes(&found));
     let loaded = held(&|file| file["loads"][0]["force"] = serde_json::json!([1, -4]));
     let words: Vec<String> = old.changes(&loaded).into_iter().map(|c| c.words).collect();
-    assert!(
-        words[0].starts_with("all together: total force"),
-        "{words:?}"
-    );
-    assert!(
-        words.iter().all(|words| !words.contains("load")),
-        "{words:?}"
-    );
+    assert!(words[0].starts_with("all together: total force"), "{words:?}");
+    assert!(words.iter().all(|words| !words.contains("load")), "{words:?}");
 }
 
 /// The picture moved right by one pixel. The first column is repeated.
@@ -430,10 +384,7 @@ fn gallery() -> Vec<(String, Scene)> {
             let path = entry.expect("readable").path();
             if path.extension().is_some_and(|e| e == "json") {
                 let text = std::fs::read_to_string(&path).expect("readable");
-                scenes.push((
-                    path.display().to_string(),
-                    Scene::from_json(&text).expect("sound"),
-                ));
+                scenes.push((path.display().to_string(), Scene::from_json(&text).expect("sound")));
             }
         }
     }
@@ -474,11 +425,7 @@ fn a_difference_of_two_in_a_colour_is_a_change_but_not_of_one() {
             }
             p
         });
-        Picture::new(
-            expected.picture.width,
-            expected.picture.height,
-            pixels.collect(),
-        )
+        Picture::new(expected.picture.width, expected.picture.height, pixels.collect())
     };
     let by_one = Difference::new(&packed, &changed_by_up_to(1), PixelTolerance::default());
     assert!(by_one.is_none(), "{}", by_one.words());
@@ -495,10 +442,7 @@ fn a_single_changed_pixel_is_reported() {
     pixels[5 * expected.width as usize + 9] = [252, 255, 255, 255];
     let found = Picture::new(expected.width, expected.height, pixels);
     let difference = Difference::new(&packed, &found, PixelTolerance::default());
-    assert_eq!(
-        (difference.changed, difference.largest, difference.bounds),
-        (1, 3, Some([9, 5, 1, 1]))
-    );
+    assert_eq!((difference.changed, difference.largest, difference.bounds), (1, 3, Some([9, 5, 1, 1])));
     let image = difference.image(&packed);
     assert_eq!(image.pixel(9, 5), [0xd4, 0x00, 0x1a, 255], "marked in red");
     assert_eq!(image.pixel(12, 8), [0xf0, 0x70, 0x80, 255], "framed");
@@ -512,14 +456,9 @@ fn facts_are_read_back_as_they_were_written() {
         let facts = Facts::new(&analysis, DIGITS);
         let text = facts.text();
         assert_eq!(Facts::read(&text).as_ref(), Ok(&facts), "{name}");
-        assert_eq!(
-            Facts::read(&text.replace('\n', "\r\n")),
-            Ok(facts),
-            "{name} with other line ends"
-        );
+        assert_eq!(Facts::read(&text.replace('\n', "\r\n")), Ok(facts), "{name} with other line ends");
     }
-    let nasty =
-        lintel("a \"b\" \\ c: d, e 5 N\n\u{1b}", 1.0).replace("\"left\"", r#""x\": 1 N, \"y\\""#);
+    let nasty = lintel("a \"b\" \\ c: d, e 5 N\n\u{1b}", 1.0).replace("\"left\"", r#""x\": 1 N, \"y\\""#);
     let scene = Scene::from_json(&nasty).expect("sound");
     let analysis = Analysis::new(&scene);
     assert_eq!(analysis.verdict(), Verdict::Stable);

@@ -29,10 +29,7 @@ fn disc(x: f64, y: f64, radius: f64) -> Picture {
 }
 
 fn perceptual(threshold: f64) -> PixelTolerance {
-    PixelTolerance {
-        channel: 0,
-        perceptual: Some(threshold),
-    }
+    PixelTolerance { channel: 0, perceptual: Some(threshold) }
 }
 
 /// The second disc is moved or larger. The expected counts are those of pixelmatch 7 at the same threshold.
@@ -42,11 +39,7 @@ fn counts_are_those_of_pixelmatch() {
     for (other, threshold, changed, smoothed) in PIXELMATCH {
         let [x, y, r] = *other;
         let found = Difference::new(&base, &disc(x, y, r), perceptual(*threshold));
-        assert_eq!(
-            (found.changed, found.smoothed),
-            (*changed, *smoothed),
-            "{other:?} at {threshold}"
-        );
+        assert_eq!((found.changed, found.smoothed), (*changed, *smoothed), "{other:?} at {threshold}");
     }
 }
 
@@ -56,11 +49,7 @@ fn another_smoothing_of_the_same_edge_is_ignored_only_on_request() {
     let strict = Difference::new(&one, &other, PixelTolerance::default());
     assert!(strict.changed > 80, "{}", strict.words());
     let lenient = Difference::new(&one, &other, perceptual(0.1));
-    assert!(
-        lenient.is_none() && lenient.smoothed > 0,
-        "{}",
-        lenient.words()
-    );
+    assert!(lenient.is_none() && lenient.smoothed > 0, "{}", lenient.words());
     let moved = Difference::new(&one, &disc(35.0, 32.0, 16.0), perceptual(0.1));
     assert!(moved.changed > 50, "{}", moved.words());
 }

@@ -26,13 +26,7 @@ const FINE: usize = 60;
 impl Arch {
     pub fn semicircle(n: usize, thickness: f64, friction: f64) -> Self {
         let (embrace, on_the_line) = (180.0, false);
-        Self {
-            n,
-            thickness,
-            friction,
-            embrace,
-            on_the_line,
-        }
+        Self { n, thickness, friction, embrace, on_the_line }
     }
 
     fn point(&self, radius: f64, k: f64) -> [f64; 2] {
@@ -44,10 +38,7 @@ impl Arch {
 
     fn joint(&self, k: usize) -> [[f64; 2]; 2] {
         let half = self.thickness / 2.0;
-        [
-            self.point(1.0 - half, k as f64),
-            self.point(1.0 + half, k as f64),
-        ]
+        [self.point(1.0 - half, k as f64), self.point(1.0 + half, k as f64)]
     }
 
     /// The ground behind the joint at a springing. It is 0.3 thick.
@@ -55,10 +46,7 @@ impl Arch {
         let [inner, outer] = self.joint(k);
         let side = if k == 0 { -1.0 } else { 1.0 };
         let length = libm::hypot(outer[0] - inner[0], outer[1] - inner[1]);
-        let along = [
-            side * (outer[1] - inner[1]) / length,
-            -side * (outer[0] - inner[0]) / length,
-        ];
+        let along = [side * (outer[1] - inner[1]) / length, -side * (outer[0] - inner[0]) / length];
         let back = |p: [f64; 2]| [p[0] + 0.3 * along[0], p[1] + 0.3 * along[1]];
         json!({ "polygon": [inner, outer, back(outer), back(inner)] })
     }
@@ -95,9 +83,7 @@ fn on_the_line(thickness: f64, friction: f64) -> Value {
 }
 
 pub fn least_thickness() -> f64 {
-    limit([0.106, 0.109], 1e-7, |t| {
-        Arch::semicircle(FINE, t, 2.0).file()
-    })
+    limit([0.106, 0.109], 1e-7, |t| Arch::semicircle(FINE, t, 2.0).file())
 }
 
 pub fn least_thickness_on_the_line() -> f64 {
@@ -110,10 +96,7 @@ const THIN: f64 = 0.10741;
 /// The horizontal thrust of the thinnest arch, divided by weight per length times radius.
 pub fn thrust_of_the_thinnest() -> f64 {
     let frame = frame(&on_the_line(THIN, 2.0));
-    let crown = frame
-        .contacts
-        .iter()
-        .find(|c| c.interface.ends.iter().all(|p| p.x.abs() < 1e-9));
+    let crown = frame.contacts.iter().find(|c| c.interface.ends.iter().all(|p| p.x.abs() < 1e-9));
     let crown = crown.expect("an even number of voussoirs has a joint at the crown");
     crown.normal_forces.iter().sum::<f64>() / THIN
 }
@@ -142,10 +125,7 @@ fn resultant(contact: &Contact) -> [f64; 2] {
     let [p, q] = contact.interface.ends;
     let middle = p + (q - p) * 0.5;
     let at = contact.resultant.at;
-    [
-        libm::atan2(middle.x, middle.y).to_degrees(),
-        libm::hypot(at.x, at.y),
-    ]
+    [libm::atan2(middle.x, middle.y).to_degrees(), libm::hypot(at.x, at.y)]
 }
 
 /// The angle from the crown at which the line of thrust touches the intrados, degrees. It is the extremum of a
@@ -195,10 +175,8 @@ fn circle(radius: f64, from: f64, to: f64, parts: usize) -> Vec<[f64; 2]> {
 /// A semicircular arch with mean radius 1 and vertical joints, at most `cuts`.
 pub fn cut_vertically(thickness: f64, cuts: usize) -> Value {
     let (inner, outer) = (1.0 - thickness / 2.0, 1.0 + thickness / 2.0);
-    let mut at: Vec<f64> = (0..=cuts)
-        .map(|k| -libm::cos(PI * k as f64 / cuts as f64))
-        .filter(|x| x.abs() < 0.995 * inner)
-        .collect();
+    let mut at: Vec<f64> =
+        (0..=cuts).map(|k| -libm::cos(PI * k as f64 / cuts as f64)).filter(|x| x.abs() < 0.995 * inner).collect();
     let mut blocks = Vec::new();
     let half = at.len() / 2;
     at[half] = 0.0;

@@ -56,10 +56,7 @@ pub fn ladder() -> Value {
 pub fn ladder_on_its_wall() -> f64 {
     let frame = frame(&ladder());
     let wall = frame.contacts.iter().find(|c| c.resultant.at.y > 1.0);
-    wall.expect("the ladder touches the wall")
-        .resultant
-        .force
-        .norm()
+    wall.expect("the ladder touches the wall").resultant.force.norm()
 }
 
 /// tan 31° divided by the least friction on a plane of 34°.
@@ -76,18 +73,9 @@ pub fn toppling(newtons: f64) -> Value {
     let (mut steps, mut blocks) = (Vec::new(), Vec::new());
     for k in 0..16 {
         let (left, right, foot) = (10.0 * k as f64, 10.0 * (k + 1) as f64, k as f64);
-        let height = if k < 10 {
-            4.0 * (k + 1) as f64
-        } else {
-            40.0 - 6.2 * (k - 9) as f64
-        };
+        let height = if k < 10 { 4.0 * (k + 1) as f64 } else { 40.0 - 6.2 * (k - 9) as f64 };
         let head = foot + height;
-        let corners = [
-            rotated(left, foot),
-            rotated(right, foot),
-            rotated(right, head),
-            rotated(left, head),
-        ];
+        let corners = [rotated(left, foot), rotated(right, foot), rotated(right, head), rotated(left, head)];
         blocks.push(json!({ "id": format!("{}", k + 1), "polygon": corners }));
         steps.extend([corners[0], corners[1]]);
     }

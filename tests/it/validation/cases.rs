@@ -38,16 +38,7 @@ const fn row(
     within: f64,
     ours: fn() -> f64,
 ) -> Case {
-    Case {
-        group,
-        what,
-        unit,
-        published,
-        source,
-        seen,
-        within,
-        ours,
-    }
+    Case { group, what, unit, published, source, seen, within, ours }
 }
 
 use Unit::{Answer, Degrees, Newtons, Ratio};

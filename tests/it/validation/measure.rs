@@ -1,9 +1,7 @@
 //! How a value of drystone is computed: from a margin, from a verdict, or by bisection between two values.
 
 use drystone::Analysis;
-use drystone::analysis::{
-    FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict,
-};
+use drystone::analysis::{FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict};
 use serde_json::Value;
 
 use crate::structure::scene;
@@ -14,9 +12,7 @@ pub fn frame(file: &Value) -> FrameAnalysis {
 }
 
 fn margins(file: &Value, kind: MarginKind) -> Margins {
-    let options = Options::default()
-        .margins(true)
-        .margin_kinds(MarginKinds::new(&[kind]));
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[kind]));
     let mut frames = Analysis::with(scene(file), &options).frames;
     frames.remove(0).margins.expect("margins were requested")
 }
@@ -37,9 +33,7 @@ pub fn tilt(file: &Value) -> f64 {
 
 /// The largest horizontal load to the right, as a fraction of the weights.
 pub fn horizontal(file: &Value) -> f64 {
-    at(&margins(file, MarginKind::HorizontalLoad)
-        .horizontal_load
-        .right)
+    at(&margins(file, MarginKind::HorizontalLoad).horizontal_load.right)
 }
 
 /// 1 if the first frame stands only by wedging, otherwise 0.

@@ -24,22 +24,14 @@ type Picture = (&'static str, Kind, fn() -> Value);
 pub const PICTURES: &[Picture] = &[
     ("arch-thin", Kind::Mechanism, || arch(0.1065, 2.0)),
     ("arch-slides", Kind::Mechanism, || arch(0.25, 0.30)),
-    ("arch-vertical", Kind::Mechanism, || {
-        arches::cut_vertically(0.108, 30)
-    }),
-    ("arch-pushed", Kind::Mechanism, || {
-        pushed(arches::oppenheim(7), 0.38)
-    }),
-    ("arch-tilted", Kind::Mechanism, || {
-        tilted(arches::lact3(), 17.3)
-    }),
+    ("arch-vertical", Kind::Mechanism, || arches::cut_vertically(0.108, 30)),
+    ("arch-pushed", Kind::Mechanism, || pushed(arches::oppenheim(7), 0.38)),
+    ("arch-tilted", Kind::Mechanism, || tilted(arches::lact3(), 17.3)),
     ("wall-1", Kind::Mechanism, || pushed(walls::ferris(1), 0.65)),
     ("wall-3", Kind::Mechanism, || pushed(walls::ferris(3), 0.41)),
     ("stack-4", Kind::Forces, || stacks::best(4, -1e-3)),
     ("stack-6", Kind::Forces, || stacks::best(6, -1e-3)),
-    ("columns", Kind::Mechanism, || {
-        pushed(blocks::frame_of_columns(), 0.21)
-    }),
+    ("columns", Kind::Mechanism, || pushed(blocks::frame_of_columns(), 0.21)),
     ("ladder", Kind::Forces, blocks::ladder),
     ("toppling", Kind::Mechanism, || {
         let mut file = blocks::toppling(0.0);
@@ -63,19 +55,13 @@ pub fn drawn(name: &str, kind: Kind, file: &Value) -> String {
 
 /// The link definitions at the end of the page, one for each picture.
 pub fn links() -> String {
-    PICTURES
-        .iter()
-        .map(|(name, ..)| format!("[{name}]: ../../assets/validation/{name}.svg\n"))
-        .collect()
+    PICTURES.iter().map(|(name, ..)| format!("[{name}]: ../../assets/validation/{name}.svg\n")).collect()
 }
 
 /// A link definition that contains the picture itself. It is needed because rustdoc does not copy pictures. If a name
 /// has several definitions, rustdoc uses the first one.
 pub fn inline(name: &str, svg: &str) -> String {
-    format!(
-        "[{name}]: data:image/svg+xml;base64,{}\n",
-        base64(svg.as_bytes())
-    )
+    format!("[{name}]: data:image/svg+xml;base64,{}\n", base64(svg.as_bytes()))
 }
 
 fn base64(bytes: &[u8]) -> String {
@@ -86,11 +72,7 @@ fn base64(bytes: &[u8]) -> String {
         let bits = part(0) << 16 | part(1) << 8 | part(2);
         for k in 0..4 {
             let letter = LETTERS[(bits >> (18 - 6 * k)) as usize & 63];
-            text.push(if k <= three.len() {
-                letter as char
-            } else {
-                '='
-            });
+            text.push(if k <= three.len() { letter as char } else { '=' });
         }
     }
     text

@@ -103,9 +103,5 @@ pub const SOURCES: &[(&str, &str, &str)] = &[
         "Vallat, *Physics simulator*, chapter of a thesis, 2023",
         "values computed with the program of the author",
     ),
-    (
-        "Weisstein",
-        "E. W. Weisstein, *Book stacking problem*, MathWorld",
-        "values found on this page of MathWorld",
-    ),
+    ("Weisstein", "E. W. Weisstein, *Book stacking problem*, MathWorld", "values found on this page of MathWorld"),
 ];

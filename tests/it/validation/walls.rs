@@ -29,9 +29,7 @@ const FIVE: &[f64] = &[1.0, 1.0, 1.0, 1.0, 1.0];
 const FIVE_HALVES: &[f64] = &[0.5, 1.0, 1.0, 1.0, 1.0, 0.5];
 
 fn running_bond(courses: usize) -> Value {
-    let rows: Vec<&[f64]> = (0..courses)
-        .map(|k| if k % 2 == 0 { FIVE_HALVES } else { FIVE })
-        .collect();
+    let rows: Vec<&[f64]> = (0..courses).map(|k| if k % 2 == 0 { FIVE_HALVES } else { FIVE }).collect();
     wall(&rows)
 }
 
@@ -42,8 +40,7 @@ pub fn ferris(number: usize) -> Value {
         2 => running_bond(10),
         3 => {
             let (a, b): (&[f64], &[f64]) = (&[1.0; 4], &[0.5, 1.0, 1.0, 1.0, 0.5]);
-            let (c, d): (&[f64], &[f64]) =
-                (&[0.5, 1.0, -1.0, 1.0, 0.5], &[1.0, 0.5, -1.0, 0.5, 1.0]);
+            let (c, d): (&[f64], &[f64]) = (&[0.5, 1.0, -1.0, 1.0, 0.5], &[1.0, 0.5, -1.0, 0.5, 1.0]);
             wall(&[a, b, a, c, d, c, d, c, a, b, a])
         }
         4 => {

@@ -29,21 +29,16 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
             (answer.robots.iter().map(|r| r.limit_used)).fold(0.0, f64::max),
         ];
         let numbers = numbers.map(|number| number.to_string()).join(",");
-        format!(
-            "{start},{name},{},{title},{verdict},{numbers},\n",
-            number + 1
-        )
+        format!("{start},{name},{},{title},{verdict},{numbers},\n", number + 1)
     };
     frames.map(row).collect()
 }
 
 /// Returns the CSV row of a scene that is not valid. The row contains only the first problem of the scene.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
-    let words = problems.first().map_or(String::new(), |problem| {
-        match (problem.line, problem.message.is_empty()) {
-            (0, _) => problem.message.clone(),
-            (line, _) => format!("line {line}: {}", problem.message),
-        }
+    let words = problems.first().map_or(String::new(), |problem| match (problem.line, problem.message.is_empty()) {
+        (0, _) => problem.message.clone(),
+        (line, _) => format!("line {line}: {}", problem.message),
     });
     let between = ",".repeat(HEADER.matches(',').count() - 1);
     format!("{}{between}{}\n", place(origin), cell(&words))

@@ -25,9 +25,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     let stdin = Path::new("-");
     let mut complaints = Vec::new();
     if paths.iter().filter(|p| *p == stdin).count() > 1 {
-        complaints.push(CliError::CommandLine(
-            "standard input (-) can be read only once".into(),
-        ));
+        complaints.push(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let mut files = Vec::new();
     for path in paths {
@@ -52,24 +50,14 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     let list = files.iter().map(|path| match path == stdin {
         true => Input::lines(None, Box::new(io::stdin())),
         false if is_whole(path) => Input::Whole(path.clone()),
-        false => Input::Lines {
-            file: Some(path.clone()),
-            reader: None,
-        },
+        false => Input::Lines { file: Some(path.clone()), reader: None },
     });
-    Ok(Inputs {
-        list: list.collect(),
-        bytes,
-        files,
-    })
+    Ok(Inputs { list: list.collect(), bytes, files })
 }
 
 /// Returns the file and the line from which one scene of the input was read.
 pub(super) fn origin(record: &Record) -> Origin {
-    Origin {
-        file: record.file.as_ref().map(|f| f.display().to_string()),
-        line: record.line,
-    }
+    Origin { file: record.file.as_ref().map(|f| f.display().to_string()), line: record.line }
 }
 
 /// Returns the file and the line of one scene of the input as text for messages, such as `scenes.ndjson, line 3`.
@@ -104,16 +92,12 @@ fn stem(path: &Path) -> String {
 }
 
 fn size(path: &Path) -> Option<u64> {
-    fs::metadata(path)
-        .ok()
-        .filter(fs::Metadata::is_file)
-        .map(|found| found.len())
+    fs::metadata(path).ok().filter(fs::Metadata::is_file).map(|found| found.len())
 }
 
 /// True if the name of a file ends in `.json`: the file then contains a single scene, and not one scene per line.
 fn is_whole(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
 }
 
 fn is_scenes(path: &Path) -> bool {
@@ -125,10 +109,7 @@ fn is_scenes(path: &Path) -> bool {
 /// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
 /// Returns an error if nothing is at `path`, or if the folder has no scene files.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let not_read = |why: String| CliError::NotRead {
-        what: path.display().to_string(),
-        why,
-    };
+    let not_read = |why: String| CliError::NotRead { what: path.display().to_string(), why };
     if path == Path::new("-") {
         return Ok(vec![path.to_owned()]);
     }
@@ -146,9 +127,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     }
     files.sort();
     match files.is_empty() {
-        true => Err(not_read(
-            "the folder has no .json, .ndjson or .jsonl file".into(),
-        )),
+        true => Err(not_read("the folder has no .json, .ndjson or .jsonl file".into())),
         false => Ok(files),
     }
 }

@@ -44,11 +44,7 @@ impl Output {
     /// Opens standard output or a file. With `--resume`, the answers that an earlier run has written to the file are
     /// checked against the first scenes in `records`. These scenes are removed from `records`, and new answers follow
     /// the old ones.
-    pub fn open(
-        target: &Target<'_>,
-        inputs: &[PathBuf],
-        records: &mut Records,
-    ) -> Result<Output, CliError> {
+    pub fn open(target: &Target<'_>, inputs: &[PathBuf], records: &mut Records) -> Result<Output, CliError> {
         let Some(path) = target.path else {
             return Ok(Output::new(Box::new(io::stdout()), None));
         };
@@ -58,16 +54,10 @@ impl Output {
         if target.resume && resume::has_content(path)? {
             let checked = resume::check(path, &target.settings, records)?;
             let (file, log) = resume::reopen(path, &checked)?;
-            return Ok(Output {
-                resume: Some(log),
-                done: checked.answers,
-                ..Output::new(Box::new(file), Some(path))
-            });
+            return Ok(Output { resume: Some(log), done: checked.answers, ..Output::new(Box::new(file), Some(path)) });
         }
-        let not_written = |error: io::Error| CliError::NotWritten {
-            what: path.display().to_string(),
-            why: error.to_string(),
-        };
+        let not_written =
+            |error: io::Error| CliError::NotWritten { what: path.display().to_string(), why: error.to_string() };
         let file = File::create(path).map_err(not_written)?;
         if target.form == Form::Csv {
             let mut output = Output::new(Box::new(file), Some(path));
@@ -80,10 +70,7 @@ impl Output {
             true => Some(ResumeFile::create(path, &target.settings)?),
             false => None,
         };
-        Ok(Output {
-            resume: log,
-            ..Output::new(Box::new(file), Some(path))
-        })
+        Ok(Output { resume: log, ..Output::new(Box::new(file), Some(path)) })
     }
 
     fn new(stream: Box<dyn Write>, path: Option<&Path>) -> Output {
@@ -125,13 +112,8 @@ impl Output {
         match written.and_then(|()| self.stream.flush()) {
             Ok(()) => Ok(ControlFlow::Continue(())),
             // A reader closes the pipe when it has read enough, so this is not an error.
-            Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => {
-                Ok(ControlFlow::Break(()))
-            }
-            Err(error) => Err(CliError::NotWritten {
-                what: self.name.clone(),
-                why: error.to_string(),
-            }),
+            Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => Ok(ControlFlow::Break(())),
+            Err(error) => Err(CliError::NotWritten { what: self.name.clone(), why: error.to_string() }),
         }
     }
 }

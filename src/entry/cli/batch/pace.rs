@@ -67,8 +67,7 @@ impl<'t> BatchProgress<'t> {
         self.read_before = self.read.load(Ordering::Relaxed);
         self.start = Instant::now();
         if scenes > 0 {
-            self.terminal
-                .note(&format!("{scenes} scenes are answered already"));
+            self.terminal.note(&format!("{scenes} scenes are answered already"));
         }
     }
 
@@ -118,17 +117,10 @@ impl<'t> BatchProgress<'t> {
         let rate = done as f64 / seconds.max(1e-9);
         let read = self.read.load(Ordering::Relaxed);
         let left = self.all.and_then(|all| {
-            let (own, rest) = (
-                read.checked_sub(self.read_before)? as f64,
-                all.checked_sub(read)? as f64,
-            );
+            let (own, rest) = (read.checked_sub(self.read_before)? as f64, all.checked_sub(read)? as f64);
             (own > 0.0).then(|| format!(", {} left", span(seconds * rest / own)))
         });
-        format!(
-            "{} scenes, {rate:.0} a second{}",
-            self.before + done,
-            left.unwrap_or_default()
-        )
+        format!("{} scenes, {rate:.0} a second{}", self.before + done, left.unwrap_or_default())
     }
 }
 
@@ -156,12 +148,8 @@ mod tests {
 
     #[test]
     fn times_are_written_in_at_most_two_units() {
-        for (seconds, words) in [
-            (0.4, "0 s"),
-            (59.6, "1 min 0 s"),
-            (3_725.0, "1 h 2 min"),
-            (200_000.0, "55 h 33 min"),
-        ] {
+        for (seconds, words) in [(0.4, "0 s"), (59.6, "1 min 0 s"), (3_725.0, "1 h 2 min"), (200_000.0, "55 h 33 min")]
+        {
             assert_eq!(span(seconds), words);
         }
     }

@@ -31,11 +31,7 @@ impl PictureOutput {
             true => Arc::new(missing_glyphs::legible(&analysis.scene, &self.fonts)),
             false => Arc::clone(&analysis.scene),
         };
-        let shown = Analysis {
-            scene: legible,
-            frames: analysis.frames.clone(),
-            notes: Vec::new(),
-        };
+        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new() };
         let drawing = figure::forces(&shown, &self.options);
         match self.picture.bytes(drawing, self.format, &self.fonts) {
             Ok(bytes) => {
@@ -43,9 +39,7 @@ impl PictureOutput {
                 destination::write(&[file], Existing::Replace)?;
                 Ok(PictureOutcome::Drawn(name))
             }
-            Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => {
-                Ok(PictureOutcome::Refused(why))
-            }
+            Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => Ok(PictureOutcome::Refused(why)),
             Err(other) => Err(other),
         }
     }

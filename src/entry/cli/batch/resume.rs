@@ -105,11 +105,7 @@ impl ResumeFile {
             Ok(file)
         });
         match created {
-            Ok(file) => Ok(ResumeFile {
-                file,
-                path,
-                waiting: String::new(),
-            }),
+            Ok(file) => Ok(ResumeFile { file, path, waiting: String::new() }),
             Err(error) => Err(not_written(&path, &error)),
         }
     }
@@ -137,17 +133,11 @@ fn entry(scene: u64, line: &[u8]) -> String {
 }
 
 fn not_written(path: &Path, error: &io::Error) -> CliError {
-    CliError::NotWritten {
-        what: path.display().to_string(),
-        why: error.to_string(),
-    }
+    CliError::NotWritten { what: path.display().to_string(), why: error.to_string() }
 }
 
 fn not_read(path: &Path, error: &io::Error) -> CliError {
-    CliError::NotRead {
-        what: path.display().to_string(),
-        why: error.to_string(),
-    }
+    CliError::NotRead { what: path.display().to_string(), why: error.to_string() }
 }
 
 /// The answers that an earlier run has written, checked against the scenes in the input.
@@ -167,34 +157,22 @@ pub(super) struct Checked {
 /// # Errors
 /// Returns an error for the first difference, or if a file cannot be read. The message for a difference also says what
 /// to do.
-pub(super) fn check(
-    output: &Path,
-    settings: &Settings,
-    records: &mut Records,
-) -> Result<Checked, CliError> {
+pub(super) fn check(output: &Path, settings: &Settings, records: &mut Records) -> Result<Checked, CliError> {
     let name = output.display();
     let path = ResumeFile::path_for(output);
     let (mut entries, header_bytes) = open_entries(output, &path, settings)?;
     let file = File::open(output).map_err(|error| not_read(output, &error))?;
     let mut lines = BufReader::with_capacity(BUFFER_BYTES, file);
-    let mut checked = Checked {
-        answers: 0,
-        bytes: 0,
-        resume_bytes: header_bytes,
-    };
+    let mut checked = Checked { answers: 0, bytes: 0, resume_bytes: header_bytes };
     let (mut line, mut entry_line) = (Vec::new(), Vec::new());
     loop {
         line.clear();
         entry_line.clear();
-        lines
-            .read_until(b'\n', &mut line)
-            .map_err(|error| not_read(output, &error))?;
+        lines.read_until(b'\n', &mut line).map_err(|error| not_read(output, &error))?;
         if !line.ends_with(b"\n") {
             return Ok(checked);
         }
-        entries
-            .read_until(b'\n', &mut entry_line)
-            .map_err(|error| not_read(&path, &error))?;
+        entries.read_until(b'\n', &mut entry_line).map_err(|error| not_read(&path, &error))?;
         let number = checked.answers + 1;
         if entry_line.len() != ENTRY_BYTES {
             return Err(refused(&format!(
@@ -217,11 +195,7 @@ pub(super) fn check(
 
 /// Opens the resume file of an output, reads its header, and checks that this run has the same options. Returns a
 /// reader of the entries, and the length of the header in bytes.
-fn open_entries(
-    output: &Path,
-    path: &Path,
-    settings: &Settings,
-) -> Result<(BufReader<File>, u64), CliError> {
+fn open_entries(output: &Path, path: &Path, settings: &Settings) -> Result<(BufReader<File>, u64), CliError> {
     let name = output.display();
     let file = match File::open(path) {
         Ok(file) => file,
@@ -235,17 +209,12 @@ fn open_entries(
     };
     let mut entries = BufReader::with_capacity(BUFFER_BYTES, file);
     let Some(header) = read_header(&mut entries) else {
-        return Err(refused(&format!(
-            "{} is not a file that drystone batch wrote",
-            path.display()
-        )));
+        return Err(refused(&format!("{} is not a file that drystone batch wrote", path.display())));
     };
     let differences = settings.differences(&header);
     if !differences.is_empty() {
         let differences = differences.join("; ");
-        return Err(refused(&format!(
-            "{name} was made with other options: {differences}. Use the same options"
-        )));
+        return Err(refused(&format!("{name} was made with other options: {differences}. Use the same options")));
     }
     Ok((entries, header.len() as u64))
 }
@@ -253,9 +222,7 @@ fn open_entries(
 /// Returns the error for an output that `--resume` cannot continue. `why` is the reason; the message also says what to
 /// do.
 fn refused(why: &str) -> CliError {
-    CliError::CommandLine(format!(
-        "{why}. Give another output, or leave out --resume to answer every scene again"
-    ))
+    CliError::CommandLine(format!("{why}. Give another output, or leave out --resume to answer every scene again"))
 }
 
 /// Checks that an output line is unchanged since it was written, and that it answers the scene in `record`.
@@ -270,9 +237,7 @@ fn check_line_matches(line: &[u8], entry_line: &[u8], record: &Record) -> Result
     let now = input::origin(record);
     let then = Origin::of_line(line).unwrap_or_default();
     if now != then {
-        return Err(format!(
-            "answers {then}, but the input has {now} at this place"
-        ));
+        return Err(format!("answers {then}, but the input has {now} at this place"));
     }
     if found[..16] != expected[..16] {
         return Err(format!("answers another scene than {now} now contains"));
@@ -286,11 +251,7 @@ pub(super) fn reopen(output: &Path, checked: &Checked) -> Result<(File, ResumeFi
     let path = ResumeFile::path_for(output);
     let file = cut(&path, checked.resume_bytes).map_err(|error| not_written(&path, &error))?;
     let answers = cut(output, checked.bytes).map_err(|error| not_written(output, &error))?;
-    let resume = ResumeFile {
-        file,
-        path,
-        waiting: String::new(),
-    };
+    let resume = ResumeFile { file, path, waiting: String::new() };
     Ok((answers, resume))
 }
 

@@ -3,12 +3,7 @@ use super::*;
 fn problem(text: &str, needle: &str) -> Problem {
     let start = text.find(needle).expect("there");
     let line = text[..start].matches('\n').count() + 1;
-    let column = text[..start]
-        .chars()
-        .rev()
-        .take_while(|c| *c != '\n')
-        .count()
-        + 1;
+    let column = text[..start].chars().rev().take_while(|c| *c != '\n').count() + 1;
     Problem {
         code: Code::Negative,
         path: "blocks[1].weight".into(),
@@ -45,27 +40,17 @@ fn a_problem_is_shown_with_its_line_and_position() {
     let shown = shown(text, &[problem(text, "-3")]);
     assert!(shown.contains("a.json:3:13"), "{shown}");
     assert!(shown.contains("3 │   \"weight\": -3"), "{shown}");
-    assert!(
-        shown.contains("blocks[1].weight") && shown.contains("give 0 or more"),
-        "{shown}"
-    );
+    assert!(shown.contains("blocks[1].weight") && shown.contains("give 0 or more"), "{shown}");
 }
 
 #[test]
 fn a_long_line_is_shown_around_the_problem_only() {
-    let text = format!(
-        "{{ {}\"weight\": -3 {} }}",
-        "\"x\": 1, ".repeat(500),
-        ", \"y\": 2".repeat(500)
-    );
+    let text = format!("{{ {}\"weight\": -3 {} }}", "\"x\": 1, ".repeat(500), ", \"y\": 2".repeat(500));
     let shown = shown(&text, &[problem(&text, "-3")]);
     assert!(shown.len() < 400, "{shown}");
     let lines: Vec<&str> = shown.lines().collect();
     let caret = lines[2].find('^').expect("marked");
-    let column = lines[1]
-        .char_indices()
-        .position(|(i, _)| i == lines[1].find("-3").expect("shown"))
-        .expect("there");
+    let column = lines[1].char_indices().position(|(i, _)| i == lines[1].find("-3").expect("shown")).expect("there");
     assert_eq!(caret, column, "{shown}");
 }
 
@@ -74,11 +59,7 @@ fn a_long_line_is_shown_around_the_problem_only() {
 fn a_problem_fits_the_terminal_and_is_marked_at_its_position() {
     let lines = [
         "{ \"weight\": -3 }".to_owned(),
-        format!(
-            "{{ \"{}\": 1, \"weight\": -3, \"x\": [{}] }}",
-            "石材".repeat(12),
-            "0, ".repeat(30)
-        ),
+        format!("{{ \"{}\": 1, \"weight\": -3, \"x\": [{}] }}", "石材".repeat(12), "0, ".repeat(30)),
         format!("{}\"weight\": -3", " ".repeat(70)),
         format!("\"weight\": -3{}", ", \"y\": 2".repeat(500)),
     ];
@@ -92,15 +73,11 @@ fn a_problem_fits_the_terminal_and_is_marked_at_its_position() {
             let mut page = Page::default();
             page.block(&shown);
             let lines: Vec<&str> = shown.lines().collect();
-            let piece = lines
-                .iter()
-                .position(|l| l.contains("-3") && !l.contains("N"));
+            let piece = lines.iter().position(|l| l.contains("-3") && !l.contains("N"));
             let piece = piece.unwrap_or_else(|| panic!("{width}: {shown}"));
             assert!(seen(lines[piece]) <= width, "{width}: {shown}");
             let place = lines[piece].find("-3").map(|at| seen(&lines[piece][..at]));
-            let mark = lines[piece + 1]
-                .find(['^', '┬'])
-                .map(|at| seen(&lines[piece + 1][..at]));
+            let mark = lines[piece + 1].find(['^', '┬']).map(|at| seen(&lines[piece + 1][..at]));
             let off = mark.zip(place).map(|(mark, place)| mark.abs_diff(place));
             // ariadne draws the arrow from the middle of the marked text.
             assert!(off <= Some(1) && off.is_some(), "{width}: {shown}");
@@ -121,21 +98,9 @@ fn thirty_problems_are_shown_and_the_rest_is_counted() {
 #[test]
 fn spans_at_the_end_of_the_text_or_beyond_it_cause_no_panic() {
     let text = "{\n\"ä\":\n";
-    for (start, end) in [
-        (0, 0),
-        (7, 7),
-        (8, 8),
-        (9, 12),
-        (4, 5),
-        (0, 9),
-        (3, 3),
-        (100, 3),
-    ] {
+    for (start, end) in [(0, 0), (7, 7), (8, 8), (9, 12), (4, 5), (0, 9), (3, 3), (100, 3)] {
         let mut wrong = problem("-3", "-3");
         wrong.span = Some(start..end);
-        assert!(
-            shown(text, &[wrong]).contains("a weight of -3 N"),
-            "{start}..{end}"
-        );
+        assert!(shown(text, &[wrong]).contains("a weight of -3 N"), "{start}..{end}");
     }
 }

@@ -51,23 +51,17 @@ pub(super) enum ScaleArg {
 pub(super) fn stone(typed: &str) -> Result<Stone, String> {
     Stone::from_name(typed).ok_or_else(|| {
         let names = STONES.map(|stone| stone.name);
-        format!(
-            "the known materials are {}; for others give --density and --friction",
-            names.join(", ")
-        )
+        format!("the known materials are {}; for others give --density and --friction", names.join(", "))
     })
 }
 
 /// Parses a scale: `1:50` is a ratio, and `0.02` is the number of metres per unit of the drawing.
 pub(super) fn scale(typed: &str) -> Result<ScaleArg, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
-    let wrong =
-        || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
+    let wrong = || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
     match typed.split_once(':') {
         Some((drawn, real)) => match (number(drawn), number(real)) {
-            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => {
-                Ok(ScaleArg::Ratio(real / drawn))
-            }
+            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => Ok(ScaleArg::Ratio(real / drawn)),
             _ => Err(wrong()),
         },
         None => number(typed).map(ScaleArg::Metres).ok_or_else(wrong),

@@ -43,22 +43,14 @@ impl Render {
                     drawn.push(target.clone());
                     pictures.push(picture);
                     if !sketch.problems.list.is_empty() {
-                        complaints.push(CliError::Scene {
-                            name: name(path),
-                            problems: sketch.problems,
-                        });
+                        complaints.push(CliError::Scene { name: name(path), problems: sketch.problems });
                     }
                 }
                 Err(fault) => complaints.push(fault),
             }
         }
-        self.write_sketches(destination, drawn, pictures, terminal)
-            .map_err(one)?;
-        if complaints.is_empty() {
-            Ok(ExitStatus::Done)
-        } else {
-            Err(complaints)
-        }
+        self.write_sketches(destination, drawn, pictures, terminal).map_err(one)?;
+        if complaints.is_empty() { Ok(ExitStatus::Done) } else { Err(complaints) }
     }
 
     /// Reads one scene and draws its outlines. The outer error, such as a file that cannot be read, ends the command.
@@ -70,10 +62,7 @@ impl Render {
         format: Format,
         fonts: &Fonts,
     ) -> Result<Result<(Sketch, Vec<u8>), CliError>, CliError> {
-        let bytes = read(path).map_err(|error| CliError::NotRead {
-            what: name(path),
-            why: error.to_string(),
-        })?;
+        let bytes = read(path).map_err(|error| CliError::NotRead { what: name(path), why: error.to_string() })?;
         let sketched = isolated(path, || {
             let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
             let drawing = figure::broken(&sketch, options);

@@ -29,9 +29,7 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
     let output = format!("figure.{ending}");
     let head = ["figure", "scene.json", "-o", output.as_str()];
     let line = head.into_iter().chain(words.iter().map(String::as_str));
-    let render = Line::try_parse_from(line)
-        .map_err(|error| trimmed(&error.render().to_string()))?
-        .render;
+    let render = Line::try_parse_from(line).map_err(|error| trimmed(&error.render().to_string()))?.render;
     if render.panels || render.pages || render.watch || render.strict || render.frame.is_some() {
         let why = "the options panels, pages, watch, strict and frame are available on the command line only";
         return Err(why.into());
@@ -40,9 +38,7 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
         let known = Format::ALL.map(Format::ending).join(", ");
         format!("there is no format {ending}; a figure is one of {known}")
     })?;
-    render
-        .check_kind(format)
-        .map_err(|error| words_of(&error))?;
+    render.check_kind(format).map_err(|error| words_of(&error))?;
     let fonts = render.picture.fonts().map_err(|error| words_of(&error))?;
     Ok((render, format, fonts))
 }
@@ -52,28 +48,17 @@ fn parsed(words: &[String], ending: &str) -> Result<(Render, Format, Fonts), Str
 ///
 /// # Errors
 /// Returns a message if `render` does not accept the words, or if the picture cannot be written.
-pub(crate) fn figure(
-    words: &[String],
-    ending: &str,
-    analysis: &Analysis,
-) -> Result<Vec<u8>, String> {
+pub(crate) fn figure(words: &[String], ending: &str, analysis: &Analysis) -> Result<Vec<u8>, String> {
     let (render, format, fonts) = parsed(words, ending)?;
     let drawn = || {
         let theme = render.look.theme()?;
         let options = render.options(theme);
         let mut analysis = analysis.clone();
         let analysis_options = render.with_requests(&Options::default(), &analysis.scene)?;
-        if render
-            .kind
-            .panels()
-            .is_some_and(|kind| kind.lacks(&analysis, &analysis_options))
-        {
+        if render.kind.panels().is_some_and(|kind| kind.lacks(&analysis, &analysis_options)) {
             analysis = render.analysed(&analysis.scene, &analysis_options);
         }
-        let source = Source {
-            path: "the scene".into(),
-            scene: (*analysis.scene).clone(),
-        };
+        let source = Source { path: "the scene".into(), scene: (*analysis.scene).clone() };
         let options = render.zoomed(&source, &options)?;
         if render.picture.draws_words(format) && missing_glyphs::lacks(&analysis.scene, &fonts) {
             analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();

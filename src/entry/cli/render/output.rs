@@ -111,23 +111,13 @@ pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<Cl
             Err(complaint) => complaints.push(complaint),
         }
     }
-    if complaints.is_empty() {
-        Ok(good)
-    } else {
-        Err(complaints)
-    }
+    if complaints.is_empty() { Ok(good) } else { Err(complaints) }
 }
 
 /// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`. For a single frame, returns only
 /// its verdict.
 pub(super) fn summary(analysis: &Analysis) -> String {
-    let count = |verdict| {
-        analysis
-            .frames
-            .iter()
-            .filter(|f| f.verdict == verdict)
-            .count()
-    };
+    let count = |verdict| analysis.frames.iter().filter(|f| f.verdict == verdict).count();
     let parts: Vec<String> = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided]
         .into_iter()
         .filter(|v| count(*v) > 0)

@@ -43,9 +43,7 @@ impl Render {
         });
         let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, analysis_options));
         let title = |number: usize| match scenes[number].title.as_str() {
-            title if title.is_empty() || scenes[0].title == scenes[1].title => {
-                sources[number].stem()
-            }
+            title if title.is_empty() || scenes[0].title == scenes[1].title => sources[number].stem(),
             title => title.to_owned(),
         };
         let last = |analysis: &Analysis| analysis.frames.len() - 1;
@@ -54,11 +52,7 @@ impl Render {
             let names = sources.map(Source::name);
             CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
-        let joined = Analysis {
-            scene: Arc::new(scene),
-            frames,
-            notes: Vec::new(),
-        };
+        let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new() };
         let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {
             bytes: vec![self.picture.bytes(drawing, format, fonts)?],

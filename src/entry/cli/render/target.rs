@@ -17,11 +17,7 @@ pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {
 }
 
 /// Returns the path of each scene's figure, in the order of the scenes. The list is empty for standard output.
-pub(super) fn paths(
-    destination: &Destination,
-    scenes: &[&Path],
-    format: Format,
-) -> Result<Vec<PathBuf>, CliError> {
+pub(super) fn paths(destination: &Destination, scenes: &[&Path], format: Format) -> Result<Vec<PathBuf>, CliError> {
     match destination {
         Destination::Stdout => Ok(Vec::new()),
         Destination::File(path) => Ok(vec![path.clone()]),
@@ -31,9 +27,7 @@ pub(super) fn paths(
                 let path = folder.join(format!("{}.{}", stem(scene), format.ending()));
                 if let Some(first) = paths.iter().position(|p| *p == path) {
                     let (a, b, shown) = (name(scenes[first]), name(scene), path.display());
-                    return Err(CliError::CommandLine(format!(
-                        "{a} and {b} would both become {shown}; rename one"
-                    )));
+                    return Err(CliError::CommandLine(format!("{a} and {b} would both become {shown}; rename one")));
                 }
                 paths.push(path);
             }

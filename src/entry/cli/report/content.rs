@@ -7,22 +7,12 @@ use crate::output::fonts::Fonts;
 use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
 
 /// Returns the report entry of one scene, or of two scenes that are compared. Returns `None` if there is no scene.
-pub(super) fn entry(
-    read: &[(Source, String)],
-    analyses: &[Analysis],
-    report_options: &ReportOptions,
-) -> Option<Entry> {
+pub(super) fn entry(read: &[(Source, String)], analyses: &[Analysis], report_options: &ReportOptions) -> Option<Entry> {
     let names: Vec<String> = read.iter().map(|(s, _)| shown(s)).collect();
-    let file = |i: usize| File {
-        name: &names[i],
-        text: &read[i].1,
-    };
+    let file = |i: usize| File { name: &names[i], text: &read[i].1 };
     match analyses {
         [was, is] => {
-            let side = |i: usize, analysis| Side {
-                file: file(i),
-                analysis,
-            };
+            let side = |i: usize, analysis| Side { file: file(i), analysis };
             Some(compared([side(0, was), side(1, is)], report_options))
         }
         [one, ..] => Some(Entry::new(file(0), one, report_options)),

@@ -20,10 +20,8 @@ pub(super) fn script(path: &Path) -> Result<String, CliError> {
         false => path.to_owned(),
     };
     let shown = path.display();
-    let script = fs::read_to_string(&path).map_err(|error| CliError::NotRead {
-        what: shown.to_string(),
-        why: format!("{error}; {MADE}"),
-    })?;
+    let script = fs::read_to_string(&path)
+        .map_err(|error| CliError::NotRead { what: shown.to_string(), why: format!("{error}; {MADE}") })?;
     let version = env!("CARGO_PKG_VERSION");
     let found = script
         .strip_prefix("// drystone ")
@@ -31,13 +29,9 @@ pub(super) fn script(path: &Path) -> Result<String, CliError> {
         .filter(|(_, rest)| !rest.contains("</script") && !rest.contains("<!--"));
     match found {
         Some((own, _)) if own == version => Ok(script),
-        Some((own, _)) if own.len() < 40 && !own.contains('\n') => {
-            Err(CliError::CommandLine(format!(
-                "{shown} belongs to drystone {own}, and this is drystone {version}; {MADE} for its own version"
-            )))
-        }
-        _ => Err(CliError::CommandLine(format!(
-            "{shown} is not the script of interactive figures, {NAME}; {MADE}"
+        Some((own, _)) if own.len() < 40 && !own.contains('\n') => Err(CliError::CommandLine(format!(
+            "{shown} belongs to drystone {own}, and this is drystone {version}; {MADE} for its own version"
         ))),
+        _ => Err(CliError::CommandLine(format!("{shown} is not the script of interactive figures, {NAME}; {MADE}"))),
     }
 }

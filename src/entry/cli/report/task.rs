@@ -39,19 +39,13 @@ impl Report {
                 Err(complaint) => complaints.push(complaint),
             }
         }
-        if complaints.is_empty() {
-            Ok((tasks, Vec::new()))
-        } else {
-            Err(complaints)
-        }
+        if complaints.is_empty() { Ok((tasks, Vec::new())) } else { Err(complaints) }
     }
 
     fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
         let [a, b] = self.scenes.as_slice() else {
-            return Err(refuse(
-                "--compare needs two scenes, or two folders of scenes",
-            ));
+            return Err(refuse("--compare needs two scenes, or two folders of scenes"));
         };
         match (a.is_dir(), b.is_dir()) {
             (false, false) => Ok((vec![Task::Two([a.clone(), b.clone()])], Vec::new())),
@@ -76,15 +70,11 @@ impl Report {
                     }
                 }
                 if tasks.is_empty() {
-                    return Err(refuse(
-                        "--compare finds no .json file with the same path in both folders",
-                    ));
+                    return Err(refuse("--compare finds no .json file with the same path in both folders"));
                 }
                 Ok((tasks, notes))
             }
-            _ => Err(refuse(
-                "--compare needs two files or two folders, not one of each",
-            )),
+            _ => Err(refuse("--compare needs two files or two folders, not one of each")),
         }
     }
 }
@@ -99,10 +89,7 @@ impl Task {
 
     pub(super) fn name(&self) -> String {
         let names = self.paths().into_iter();
-        names
-            .map(|p| p.display().to_string())
-            .collect::<Vec<_>>()
-            .join(" → ")
+        names.map(|p| p.display().to_string()).collect::<Vec<_>>().join(" → ")
     }
 }
 
@@ -121,9 +108,7 @@ fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
             let entry = entry.map_err(|e| unread(&folder, &e))?;
             let kind = entry.file_type().map_err(|e| unread(&entry.path(), &e))?;
             let path = entry.path();
-            let json = path
-                .extension()
-                .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+            let json = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
             if kind.is_dir() {
                 folders.push(path);
             } else if json && path.is_file() {

@@ -29,10 +29,7 @@ const MAX_CHUNK_BYTES: usize = 4096;
 
 /// Asks for each snapshot that differs whether to accept it: `y` accepts it, `n` and `s` keep the reference, and `q`
 /// ends the review. Returns an error if an accepted snapshot could not be written.
-pub(super) fn ask(
-    terminal: &Terminal,
-    report: &mut CheckOutcome,
-) -> Result<ExitStatus, Vec<CliError>> {
+pub(super) fn ask(terminal: &Terminal, report: &mut CheckOutcome) -> Result<ExitStatus, Vec<CliError>> {
     let pictures = pictures(terminal);
     let total = report.failing().count();
     let mut number = 0;
@@ -102,9 +99,7 @@ fn pictures(terminal: &Terminal) -> Pictures {
     match program.as_str() {
         "iTerm.app" | "WezTerm" => Pictures::Inline,
         "ghostty" => Pictures::Kitty,
-        _ if !value("KITTY_WINDOW_ID").is_empty() || value("TERM") == "xterm-kitty" => {
-            Pictures::Kitty
-        }
+        _ if !value("KITTY_WINDOW_ID").is_empty() || value("TERM") == "xterm-kitty" => Pictures::Kitty,
         _ => Pictures::None,
     }
 }
@@ -149,9 +144,6 @@ mod tests {
             .map(|(_, data)| data.trim_end().trim_end_matches("\x1b\\"))
             .collect();
         assert_eq!(STANDARD.decode(data).expect("base 64"), png);
-        assert_eq!(
-            (kitty.matches("m=1").count(), kitty.matches("m=0").count()),
-            (3, 1)
-        );
+        assert_eq!((kitty.matches("m=1").count(), kitty.matches("m=0").count()), (3, 1));
     }
 }

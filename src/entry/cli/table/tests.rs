@@ -23,16 +23,8 @@ fn the_explanation_fits_every_width() {
         let page = explained(width);
         let found: Vec<&str> = page.text().lines().collect();
         let widest = found.iter().map(|line| seen(line)).max();
-        assert!(
-            widest <= Some(width.unwrap_or(78).min(78)),
-            "{}",
-            page.text()
-        );
-        assert!(
-            found
-                .iter()
-                .all(|line| line.is_char_boundary(10) && !line[9..].starts_with("  "))
-        );
+        assert!(widest <= Some(width.unwrap_or(78).min(78)), "{}", page.text());
+        assert!(found.iter().all(|line| line.is_char_boundary(10) && !line[9..].starts_with("  ")));
         assert!(found.len() <= most, "{}", page.text());
     }
 }
@@ -72,11 +64,8 @@ fn strange_names_and_many_robots_fit_a_terminal() {
     let square = |x: f64, y: f64| [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
     for name in names {
         let ids: Vec<String> = (0..9).map(|k| format!("{name}{k}")).collect();
-        let mut scene = Scene::builder()
-            .title(&name)
-            .friction(0.5)
-            .ground(square(-1.0, -1.0))
-            .ground(square(0.0, -1.0));
+        let mut scene =
+            Scene::builder().title(&name).friction(0.5).ground(square(-1.0, -1.0)).ground(square(0.0, -1.0));
         for (k, id) in (0_u8..).zip(&ids) {
             let polygon = square(0.75 * f64::from(k), f64::from(k));
             scene = scene.block(BlockEntry::new(id).polygon(polygon).weight(1.234_567_8e7));
@@ -87,9 +76,7 @@ fn strange_names_and_many_robots_fit_a_terminal() {
             scene = scene.robot(RobotEntry::new(id).limits(limits));
             held = held.hold(id, id);
         }
-        let scene = scene
-            .step(StepEntry::new(&name).place(&ids[..5]))
-            .step(held);
+        let scene = scene.step(StepEntry::new(&name).place(&ids[..5])).step(held);
         let scene = scene.build().expect("a valid scene");
         let options = Options::default().margins(true);
         assert_fits(&format!("{name}.json"), &Analysis::with(scene, &options));

@@ -5,10 +5,7 @@ use crate::geometry::snap::{Corner, Gaps};
 
 /// One node for each corner of one body. Corners of the same body are never merged, however close they are.
 fn nodes(places: &[[f64; 2]], gap: f64) -> Nodes {
-    let corner = |p: &[f64; 2]| Corner {
-        at: Point::new(p[0], p[1]),
-        curved: false,
-    };
+    let corner = |p: &[f64; 2]| Corner { at: Point::new(p[0], p[1]), curved: false };
     let ring = places.iter().map(corner).collect();
     Nodes::new(&[vec![ring]], Gaps::new(&[gap]), &[false])
 }
@@ -37,26 +34,14 @@ fn kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]]) -> Option<String> {
 }
 
 fn assert_kind(places: &[[f64; 2]], gap: f64, sides: &[[usize; 2]], wanted: &str) {
-    assert_eq!(
-        kind(places, gap, sides).as_deref(),
-        Some(wanted),
-        "{places:?}"
-    );
+    assert_eq!(kind(places, gap, sides).as_deref(), Some(wanted), "{places:?}");
 }
 
 #[test]
 fn the_line_runs_along_the_longest_side_if_all_nodes_lie_along_it() {
     // A side of length 4 that begins at x = 1, a shorter side near it, and a corner that is a quarter beyond either
     // end, or a quarter above or below.
-    let at = |end: f64, off: f64| {
-        [
-            [1.0, 2.0],
-            [5.0, 2.0],
-            [1.5, 2.0],
-            [4.0, 2.125],
-            [end, 2.0 + off],
-        ]
-    };
+    let at = |end: f64, off: f64| [[1.0, 2.0], [5.0, 2.0], [1.5, 2.0], [4.0, 2.125], [end, 2.0 + off]];
     let sides = [[2, 3], [0, 1]];
     for (end, off) in [(0.75, 0.0), (5.25, 0.0), (3.0, 0.25), (3.0, -0.25)] {
         let places = at(end, off);
@@ -71,12 +56,7 @@ fn the_line_runs_along_the_longest_side_if_all_nodes_lie_along_it() {
         assert_kind(&tilted(&places), 0.25, &sides, "closest");
     }
     // If two sides have the same length, the line runs along the first, whatever its direction.
-    assert_kind(
-        &[[0.0, 0.0], [4.0, 0.0], [0.0, 0.5], [4.0, 0.5]],
-        0.5,
-        &[[1, 0], [2, 3]],
-        "[1, 0]",
-    );
+    assert_kind(&[[0.0, 0.0], [4.0, 0.0], [0.0, 0.5], [4.0, 0.5]], 0.5, &[[1, 0], [2, 3]], "[1, 0]");
 }
 
 #[test]
@@ -113,19 +93,9 @@ fn a_fitted_line_is_made_horizontal_or_vertical_within_the_scatter_of_its_corner
         let places = row(rise, off);
         let far = places.map(|[x, y]| [x + 100.0, y - 0.5]);
         for places in [places, far] {
-            assert_kind(
-                &places,
-                1.0,
-                &sides,
-                if horizontal { "horizontal" } else { "closest" },
-            );
+            assert_kind(&places, 1.0, &sides, if horizontal { "horizontal" } else { "closest" });
             let across = transposed(&places);
-            assert_kind(
-                &across,
-                1.0,
-                &sides,
-                if horizontal { "vertical" } else { "closest" },
-            );
+            assert_kind(&across, 1.0, &sides, if horizontal { "vertical" } else { "closest" });
         }
     }
 }
@@ -147,18 +117,9 @@ fn the_closest_line_has_the_least_sum_of_squared_distances() {
             })
             .collect();
         let nodes = nodes(&places, 0.01);
-        let line = Line {
-            nodes: (0..5).collect(),
-            kind: LineKind::Closest,
-        };
+        let line = Line { nodes: (0..5).collect(), kind: LineKind::Closest };
         let fit = line.fit(&nodes);
-        let squares = |fit: &Fit| {
-            nodes
-                .all
-                .iter()
-                .map(|n| fit.distance(n.at) * fit.distance(n.at))
-                .sum::<f64>()
-        };
+        let squares = |fit: &Fit| nodes.all.iter().map(|n| fit.distance(n.at) * fit.distance(n.at)).sum::<f64>();
         let least = squares(&fit);
         assert!((fit.normal.norm() - 1.0).abs() < 1e-14);
         for by in [-1.0, -1e-3, 1e-3, 1.0] {
@@ -174,19 +135,13 @@ fn the_closest_line_has_the_least_sum_of_squared_distances() {
 
 /// A line through a point, with a normal that has the direction of `normal`.
 fn line(through: [f64; 2], normal: [f64; 2]) -> Fit {
-    Fit {
-        through: Point::new(through[0], through[1]),
-        normal: Vector::new(normal[0], normal[1]).normalize(),
-    }
+    Fit { through: Point::new(through[0], through[1]), normal: Vector::new(normal[0], normal[1]).normalize() }
 }
 
 fn steps_to(at: [f64; 2], lines: &[Fit], wanted: [f64; 2]) {
     let at = Point::new(at[0], at[1]);
     let found = at + least_squares_step(at, lines.iter());
-    assert!(
-        (found - Point::new(wanted[0], wanted[1])).norm() < 1e-12,
-        "{found} for {wanted:?}"
-    );
+    assert!((found - Point::new(wanted[0], wanted[1])).norm() < 1e-12, "{found} for {wanted:?}");
 }
 
 #[test]
@@ -195,22 +150,10 @@ fn a_step_leads_to_the_nearest_point_of_one_line_or_to_the_crossing_of_two() {
     steps_to([3.0, 5.0], &[line([9.0, 1.0], [-1.0, 0.0])], [9.0, 5.0]);
     // The lines y = x, and 3x + 4y = 25 from (8, 9).
     steps_to([3.0, 5.0], &[line([1.0, 1.0], [1.0, -1.0])], [4.0, 4.0]);
-    steps_to(
-        [8.0, 9.0],
-        &[line([3.0, 4.0], [3.0, 4.0])],
-        [8.0 - 3.0 * 1.4, 9.0 - 4.0 * 1.4],
-    );
+    steps_to([8.0, 9.0], &[line([3.0, 4.0], [3.0, 4.0])], [8.0 - 3.0 * 1.4, 9.0 - 4.0 * 1.4]);
     // x + y = 4 and x − 3y = −8 cross at (1, 3); x = 2 and x + 2y = 12 cross at (2, 5).
-    steps_to(
-        [9.0, -2.0],
-        &[line([4.0, 0.0], [1.0, 1.0]), line([-8.0, 0.0], [1.0, -3.0])],
-        [1.0, 3.0],
-    );
-    steps_to(
-        [0.0, 1.0],
-        &[line([2.0, 7.0], [1.0, 0.0]), line([12.0, 0.0], [1.0, 2.0])],
-        [2.0, 5.0],
-    );
+    steps_to([9.0, -2.0], &[line([4.0, 0.0], [1.0, 1.0]), line([-8.0, 0.0], [1.0, -3.0])], [1.0, 3.0]);
+    steps_to([0.0, 1.0], &[line([2.0, 7.0], [1.0, 0.0]), line([12.0, 0.0], [1.0, 2.0])], [2.0, 5.0]);
 }
 
 #[test]
@@ -218,24 +161,12 @@ fn a_step_towards_lines_without_a_common_point_leads_to_their_middle() {
     // Two horizontal lines and a vertical line; then pairs of parallel lines.
     let horizontal = |y: f64| line([0.0, y], [0.0, 1.0]);
     let vertical = |x: f64| line([x, 0.0], [1.0, 0.0]);
-    steps_to(
-        [5.0, 9.0],
-        &[horizontal(1.0), horizontal(3.0), vertical(-4.0)],
-        [-4.0, 2.0],
-    );
+    steps_to([5.0, 9.0], &[horizontal(1.0), horizontal(3.0), vertical(-4.0)], [-4.0, 2.0]);
     steps_to([5.0, 9.0], &[horizontal(1.0), horizontal(3.0)], [5.0, 2.0]);
     steps_to([5.0, 9.0], &[vertical(1.0), vertical(3.0)], [2.0, 9.0]);
     // x + y = 0 and x + y = 4 are equally far from x + y = 2.
-    steps_to(
-        [5.0, 1.0],
-        &[line([0.0, 0.0], [1.0, 1.0]), line([4.0, 0.0], [1.0, 1.0])],
-        [3.0, -1.0],
-    );
-    steps_to(
-        [5.0, 1.0],
-        &[line([0.0, 0.0], [1.0, -1.0]), line([2.0, 0.0], [1.0, -1.0])],
-        [3.5, 2.5],
-    );
+    steps_to([5.0, 1.0], &[line([0.0, 0.0], [1.0, 1.0]), line([4.0, 0.0], [1.0, 1.0])], [3.0, -1.0]);
+    steps_to([5.0, 1.0], &[line([0.0, 0.0], [1.0, -1.0]), line([2.0, 0.0], [1.0, -1.0])], [3.5, 2.5]);
     // If the angle of two lines is slightly more than 0.01 rad, the step leads to their crossing, 98 m away. If it is
     // slightly less, the lines count as parallel.
     let crossing = |sine: f64| {
@@ -248,9 +179,7 @@ fn a_step_towards_lines_without_a_common_point_leads_to_their_middle() {
 
 /// The numbers of the nodes on each line, sorted. A side is given by its ends and the other nodes on it.
 fn lines_of(nodes: &Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Vec<usize>> {
-    let on = sides
-        .iter()
-        .map(|(ends, on)| (*ends, on.iter().copied().collect()));
+    let on = sides.iter().map(|(ends, on)| (*ends, on.iter().copied().collect()));
     let Lines(lines) = Lines::new(nodes, &on.collect());
     lines.into_iter().map(|line| line.nodes).collect()
 }
@@ -268,24 +197,16 @@ fn sides_that_share_two_nodes_have_one_line() {
     assert_eq!(lines_of(&row, &later), [[0, 1, 2, 3, 4, 5]]);
     // The sides form a bend of more than the gap, so each side keeps its own line. In the first case the second side
     // has no line.
-    let bent = nodes(
-        &[[0.0, 0.0], [4.0, 0.0], [8.0, 0.5], [6.0, 0.0], [2.0, 0.0]],
-        0.0625,
-    );
+    let bent = nodes(&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.5], [6.0, 0.0], [2.0, 0.0]], 0.0625);
     let sides = [([0, 3], &[4, 1][..]), ([1, 2], &[3])];
     assert_eq!(lines_of(&bent, &sides), [[0, 1, 3, 4]]);
-    let wide = nodes(
-        &[[0.0, 0.0], [4.0, 0.0], [8.0, 1.0], [6.0, 0.25], [2.0, 0.0]],
-        0.25,
-    );
+    let wide = nodes(&[[0.0, 0.0], [4.0, 0.0], [8.0, 1.0], [6.0, 0.25], [2.0, 0.0]], 0.25);
     assert_eq!(lines_of(&wide, &sides), [vec![0, 1, 3, 4], vec![1, 2, 3]]);
 }
 
 /// The positions of the nodes after they have been moved onto the lines of the sides.
 fn settled(mut nodes: Nodes, sides: &[([usize; 2], &[usize])]) -> Vec<Point> {
-    let on = sides
-        .iter()
-        .map(|(ends, on)| (*ends, on.iter().copied().collect()));
+    let on = sides.iter().map(|(ends, on)| (*ends, on.iter().copied().collect()));
     Lines::new(&nodes, &on.collect()).settle(&mut nodes);
     nodes.all.iter().map(|node| node.at).collect()
 }
@@ -302,39 +223,12 @@ fn lie_at(found: &[Point], wanted: &[[f64; 2]]) {
 fn corners_move_to_their_line_or_to_the_crossing_of_two_lines() {
     // A horizontal joint and a vertical joint, each along one side. The corner that belongs to both joints lies off
     // both lines.
-    let drawn = [
-        [0.0, 0.0],
-        [8.0, 0.0],
-        [3.0, -3.0],
-        [3.0, 3.0],
-        [3.01, 0.02],
-        [5.0, -0.01],
-        [2.98, 1.0],
-    ];
+    let drawn = [[0.0, 0.0], [8.0, 0.0], [3.0, -3.0], [3.0, 3.0], [3.01, 0.02], [5.0, -0.01], [2.98, 1.0]];
     let sides = [([0, 1], &[4, 5][..]), ([2, 3], &[4, 6])];
     let found = settled(nodes(&drawn, 0.04), &sides);
-    lie_at(
-        &found,
-        &[
-            [0.0, 0.0],
-            [8.0, 0.0],
-            [3.0, -3.0],
-            [3.0, 3.0],
-            [3.0, 0.0],
-            [5.0, 0.0],
-            [3.0, 1.0],
-        ],
-    );
+    lie_at(&found, &[[0.0, 0.0], [8.0, 0.0], [3.0, -3.0], [3.0, 3.0], [3.0, 0.0], [5.0, 0.0], [3.0, 1.0]]);
     let found = settled(nodes(&tilted(&drawn), 0.04), &sides);
-    let straight = [
-        [0.0, 0.0],
-        [8.0, 0.0],
-        [3.0, -3.0],
-        [3.0, 3.0],
-        [3.0, 0.0],
-        [5.0, 0.0],
-        [3.0, 1.0],
-    ];
+    let straight = [[0.0, 0.0], [8.0, 0.0], [3.0, -3.0], [3.0, 3.0], [3.0, 0.0], [5.0, 0.0], [3.0, 1.0]];
     lie_at(&found, &tilted(&straight));
 }
 
@@ -344,10 +238,7 @@ fn fixed_nodes_stay_and_the_others_move_to_them() {
     // fixed.
     let drawn = [[0.0, 0.0], [4.0, 0.0], [2.0, 0.01], [6.0, 0.01]];
     let sides = [([0, 1], &[2][..]), ([2, 3], &[1])];
-    lie_at(
-        &settled(nodes(&drawn, 0.04), &sides),
-        &drawn.map(|[x, _]| [x, 0.005]),
-    );
+    lie_at(&settled(nodes(&drawn, 0.04), &sides), &drawn.map(|[x, _]| [x, 0.005]));
     let mut fixed = nodes(&drawn, 0.04);
     fixed.all[2].fixed = true;
     lie_at(&settled(fixed, &sides), &drawn.map(|[x, _]| [x, 0.01]));
@@ -363,17 +254,8 @@ fn no_corner_moves_farther_than_two_gaps() {
             [reach * cos, side * reach * sin]
         };
         let apart = 0.01 / libm::sin(angle / 2.0);
-        let places = [
-            ray(1.0, -5.0),
-            ray(1.0, 5.0),
-            ray(-1.0, -5.0),
-            ray(-1.0, 5.0),
-            [apart, 0.0],
-        ];
-        settled(
-            nodes(&places, 0.0101),
-            &[([0, 1], &[4][..]), ([2, 3], &[4])],
-        )[4]
+        let places = [ray(1.0, -5.0), ray(1.0, 5.0), ray(-1.0, -5.0), ray(-1.0, 5.0), [apart, 0.0]];
+        settled(nodes(&places, 0.0101), &[([0, 1], &[4][..]), ([2, 3], &[4])])[4]
     };
     assert!(at(core::f64::consts::FRAC_PI_2).coords.norm() < 1e-12);
     assert!((at(0.4).x - 0.01 / libm::sin(0.2)).abs() < 1e-15);

@@ -5,10 +5,7 @@ use crate::geometry::snap::Corner;
 
 /// Bodies of one ring each.
 fn bodies(all: &[&[[f64; 2]]]) -> Vec<Rings> {
-    let corner = |p: &[f64; 2]| Corner {
-        at: Point::new(p[0], p[1]),
-        curved: false,
-    };
+    let corner = |p: &[f64; 2]| Corner { at: Point::new(p[0], p[1]), curved: false };
     let ring = |corners: &&[[f64; 2]]| vec![corners.iter().map(corner).collect()];
     all.iter().map(ring).collect()
 }
@@ -28,39 +25,21 @@ fn free(places: &[f64], gaps: &[f64]) -> (Nodes, Vec<usize>) {
 
 #[test]
 fn corners_are_merged_up_to_and_including_the_smaller_gap() {
-    for (gaps, one) in [
-        ([0.25, 0.25], true),
-        ([0.25, 9.0], true),
-        ([9.0, 0.25], true),
-        ([0.125, 9.0], false),
-        ([9.0, 0.125], false),
-    ] {
+    for (gaps, one) in
+        [([0.25, 0.25], true), ([0.25, 9.0], true), ([9.0, 0.25], true), ([0.125, 9.0], false), ([9.0, 0.125], false)]
+    {
         // Exactly a quarter apart.
         let (nodes, numbers) = free(&[1.0, 1.25], &gaps);
         assert_eq!(numbers, if one { [0, 0] } else { [0, 1] }, "{gaps:?}");
         assert_eq!(nodes.all.len(), if one { 1 } else { 2 });
         assert_eq!(nodes.exact, !one);
         assert_eq!(nodes.all[0].gap, if one { 0.25 } else { gaps[0] });
-        assert_eq!(
-            nodes.all[0].at,
-            Point::new(1.0, 7.0),
-            "the earlier body stays"
-        );
+        assert_eq!(nodes.all[0].at, Point::new(1.0, 7.0), "the earlier body stays");
     }
     // The distance counts in any direction.
-    for [x, y] in [
-        [0.0, 0.25],
-        [0.0, -0.25],
-        [-0.25, 0.0],
-        [0.15, 0.2],
-        [-0.15, -0.2],
-    ] {
+    for [x, y] in [[0.0, 0.25], [0.0, -0.25], [-0.25, 0.0], [0.15, 0.2], [-0.15, -0.2]] {
         let both = bodies(&[&[[3.0, 5.0]], &[[3.0 + x, 5.0 + y]]]);
-        let count = |gap: f64| {
-            Nodes::new(&both, Gaps::new(&[gap; 2]), &[false; 2])
-                .all
-                .len()
-        };
+        let count = |gap: f64| Nodes::new(&both, Gaps::new(&[gap; 2]), &[false; 2]).all.len();
         assert_eq!((count(0.251), count(0.249)), (1, 2));
     }
 }
@@ -100,10 +79,7 @@ fn of_pairs_at_the_same_distance_the_earlier_bodies_are_merged() {
 
 #[test]
 fn corners_of_one_body_are_not_merged() {
-    let both = bodies(&[
-        &[[0.0, 0.0], [0.5, 0.0], [9.0, 9.0]],
-        &[[0.25, 0.0], [0.25, 0.125], [-9.0, 9.0]],
-    ]);
+    let both = bodies(&[&[[0.0, 0.0], [0.5, 0.0], [9.0, 9.0]], &[[0.25, 0.0], [0.25, 0.125], [-9.0, 9.0]]]);
     let nodes = Nodes::new(&both, Gaps::new(&[1.0; 2]), &[false; 2]);
     let numbers = [0, 1].map(|body| [0, 1, 2].map(|corner| nodes.number(body, 0, corner)));
     // Each of the first two corners is merged with a corner of the other body, not with each other.

@@ -4,16 +4,8 @@ use super::*;
 
 #[test]
 fn the_area_of_an_anticlockwise_ring_is_positive() {
-    let at = |x: f64, y: f64| Corner {
-        at: Point::new(x, y),
-        curved: false,
-    };
-    let mut ring = vec![
-        at(11.0, -5.0),
-        at(14.0, -5.0),
-        at(14.0, -3.0),
-        at(9.0, -1.0),
-    ];
+    let at = |x: f64, y: f64| Corner { at: Point::new(x, y), curved: false };
+    let mut ring = vec![at(11.0, -5.0), at(14.0, -5.0), at(14.0, -3.0), at(9.0, -1.0)];
     // A box of 5 by 4 minus two triangles: 2 · 4 / 2 and 5 · 2 / 2.
     assert_eq!(area(&ring), 11.0);
     ring.reverse();
@@ -28,16 +20,7 @@ fn beside_first(bodies: &[Rings], gaps: &[f64], kept: &[bool]) -> Vec<(usize, us
     let sides = sides(bodies, &nodes);
     let found = nodes_near_sides(&nodes, &sides, gaps, kept);
     let of_first = found.iter().filter(|b| b.side.body == 0);
-    of_first
-        .map(|b| {
-            (
-                nodes.bodies(&nodes.all[b.node])[0],
-                b.side.corner,
-                b.reach,
-                b.off,
-            )
-        })
-        .collect()
+    of_first.map(|b| (nodes.bodies(&nodes.all[b.node])[0], b.side.corner, b.reach, b.off)).collect()
 }
 
 /// A box of 4 by 1, and a triangle whose tip is (x, y).
@@ -57,13 +40,7 @@ fn a_node_is_near_a_side_between_its_ends_and_within_the_smaller_gap() {
         }
     }
     for gaps in [[0.125, 0.125], [9.0, 0.125], [0.125, 9.0]] {
-        for (x, y) in [
-            (1.5, 1.25),
-            (1.5, 0.75),
-            (4.25, 0.5),
-            (-0.25, 0.5),
-            (2.0, -0.25),
-        ] {
+        for (x, y) in [(1.5, 1.25), (1.5, 0.75), (4.25, 0.5), (-0.25, 0.5), (2.0, -0.25)] {
             assert!(beside_first(&box_and_tip(x, y), &gaps, &free).is_empty());
         }
     }
@@ -110,27 +87,13 @@ fn a_body_is_damaged_if_its_ring_is_reversed_or_loses_half_its_area() {
     let to = |after: Rings| worse([rectangle(0.0, 0.0, 2.0, 2.0), far()], [after, far()]);
     assert_eq!(to(rectangle(0.0, 0.0, 2.0, 1.0)), [0]);
     assert_eq!(to(rectangle(0.0, 0.0, 2.0, 1.01)), NONE);
-    assert_eq!(
-        to(rectangle(0.0, 0.0, 3.0, 3.0)),
-        NONE,
-        "a larger body is not damaged"
-    );
+    assert_eq!(to(rectangle(0.0, 0.0, 3.0, 3.0)), NONE, "a larger body is not damaged");
     assert_eq!(to(rectangle(0.0, 0.0, -2.0, 2.0)), [0]);
-    let crossed = [
-        (0.0, 0.0),
-        (2.0, 0.0),
-        (0.0, 2.0),
-        (3.0, 3.0),
-        (0.0, 3.0),
-        (3.0, 1.0),
-    ];
+    let crossed = [(0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (3.0, 3.0), (0.0, 3.0), (3.0, 1.0)];
     assert_eq!(to(ring(&crossed)), [0], "no longer an outline");
     // A body drawn clockwise is judged in the same way.
     let clockwise = |h: f64| rectangle(2.0, 0.0, -2.0, h);
-    assert_eq!(
-        worse([far(), clockwise(2.0)], [far(), clockwise(2.0)]),
-        NONE
-    );
+    assert_eq!(worse([far(), clockwise(2.0)], [far(), clockwise(2.0)]), NONE);
     assert_eq!(worse([far(), clockwise(2.0)], [far(), clockwise(0.9)]), [1]);
     // A hole counts like an outline.
     let holed = |w: f64| {
@@ -144,12 +107,7 @@ fn a_body_is_damaged_if_its_ring_is_reversed_or_loses_half_its_area() {
 
 #[test]
 fn a_body_is_damaged_if_it_overlaps_its_neighbour_more_than_before() {
-    let deep = |by: f64| {
-        [
-            rectangle(0.0, 0.0, 2.0, 1.0),
-            rectangle(0.0, 1.0 - by, 2.0, 1.0),
-        ]
-    };
+    let deep = |by: f64| [rectangle(0.0, 0.0, 2.0, 1.0), rectangle(0.0, 1.0 - by, 2.0, 1.0)];
     // The overlap may grow by a thousandth of the smaller gap, which is a millionth.
     for (before, after, wrong) in [
         (0.0, 1e-5, true),
@@ -162,11 +120,7 @@ fn a_body_is_damaged_if_it_overlaps_its_neighbour_more_than_before() {
         (0.1, 0.0, false),
     ] {
         let found = worse(deep(before), deep(after));
-        assert_eq!(
-            found,
-            if wrong { vec![0, 1] } else { vec![] },
-            "{before} {after}"
-        );
+        assert_eq!(found, if wrong { vec![0, 1] } else { vec![] }, "{before} {after}");
     }
 }
 
@@ -177,10 +131,7 @@ fn sides_go_round_every_ring() {
     let bodies = [rectangle(-9.0, -9.0, 1.0, 1.0), rings];
     let nodes = Nodes::new(&bodies, Gaps::new(&[0.1; 2]), &[false; 2]);
     let all = sides(&bodies, &nodes);
-    let named: Vec<_> = all[4..]
-        .iter()
-        .map(|s| (s.body, s.ring, s.corner, s.ends))
-        .collect();
+    let named: Vec<_> = all[4..].iter().map(|s| (s.body, s.ring, s.corner, s.ends)).collect();
     let wanted = [
         (1, 0, 0, [4, 5]),
         (1, 0, 1, [5, 6]),

@@ -22,22 +22,15 @@ fn the_bound_is_exact_for_twelve_generators_and_from_least_squares_for_more() {
     // One generator is oblique, so that the least squares would give another result.
     forces[4] = [1.0, 1.0, 1.0];
     let point = [2.0, 1.0, 0.5];
-    assert_eq!(
-        zonotope_gauge_bound(&forces, point),
-        Some(zonotope_gauge(&forces, point))
-    );
+    assert_eq!(zonotope_gauge_bound(&forces, point), Some(zonotope_gauge(&forces, point)));
     forces[4] = along(0, 1.0);
     forces.extend([along(1, 2.0), along(1, 2.0)]);
     for way in ways() {
         let turned: Vec<Vec3> = forces.iter().map(|v| way(*v)).collect();
-        for (point, most) in [
-            ([1.0, 0.0, 0.0], 0.2),
-            ([0.0, -4.0, 0.0], 0.5),
-            ([0.0, 0.0, 2.0], 0.4),
-            ([1.0, 4.0, -2.0], 0.5),
-        ] {
-            let scale =
-                zonotope_gauge_bound(&turned, way(point)).expect("generators that span space");
+        for (point, most) in
+            [([1.0, 0.0, 0.0], 0.2), ([0.0, -4.0, 0.0], 0.5), ([0.0, 0.0, 2.0], 0.4), ([1.0, 4.0, -2.0], 0.5)]
+        {
+            let scale = zonotope_gauge_bound(&turned, way(point)).expect("generators that span space");
             assert!((scale / most - 1.0).abs() < 1.1e-5, "{scale} for {most}");
             assert!(scale >= zonotope_gauge(&turned, way(point)));
         }
@@ -66,24 +59,14 @@ fn least_squares_give_no_bound_for_nearly_flat_zonotopes() {
             let mut forces = Vec::new();
             for k in 0..3 {
                 let mut g = [0.0; 3];
-                g[k] = if k == axis {
-                    thick * 8e-9_f64.sqrt()
-                } else {
-                    1.0
-                };
+                g[k] = if k == axis { thick * 8e-9_f64.sqrt() } else { 1.0 };
                 forces.extend([g; 20]);
             }
-            assert_eq!(
-                zonotope_gauge_bound(&forces, [1.0, 0.0, 0.0]).is_some(),
-                some
-            );
+            assert_eq!(zonotope_gauge_bound(&forces, [1.0, 0.0, 0.0]).is_some(), some);
         }
     }
     assert_eq!(zonotope_gauge_bound(&[[0.0; 3]; 20], [1.0, 0.0, 0.0]), None);
-    assert_eq!(
-        zonotope_gauge_bound(&[[f64::NAN; 3]; 20], [1.0, 0.0, 0.0]),
-        None
-    );
+    assert_eq!(zonotope_gauge_bound(&[[f64::NAN; 3]; 20], [1.0, 0.0, 0.0]), None);
 }
 
 #[test]
@@ -93,17 +76,12 @@ fn the_least_squares_bound_is_never_below_the_gauge() {
         let g: Vec<Vec3> = (0..20).map(|_| triple(&mut seed)).collect();
         let amounts: Vec<f64> = g.iter().map(|_| chance(&mut seed)).collect();
         let point = combined(&g, &amounts);
-        let (quick, least) = (
-            zonotope_gauge_bound(&g, point).expect("generators that span space"),
-            zonotope_gauge(&g, point),
-        );
+        let (quick, least) =
+            (zonotope_gauge_bound(&g, point).expect("generators that span space"), zonotope_gauge(&g, point));
         // The bound's coefficients are the shortest vector that gives the point. Their largest is therefore no larger
         // than the norm of the given coefficients.
         let length: f64 = amounts.iter().map(|a| a * a).sum::<f64>().sqrt();
-        assert!(
-            least <= quick && quick <= 1.1 * length,
-            "{least} {quick} {length}"
-        );
+        assert!(least <= quick && quick <= 1.1 * length, "{least} {quick} {length}");
         assert!(quick <= 4.0 * least, "{least} {quick}");
     }
 }
@@ -151,13 +129,7 @@ fn reducing_hundreds_of_generators_never_makes_the_gauge_smaller() {
 
 #[test]
 fn parallel_and_opposite_generators_are_added_up() {
-    let found = reduced(vec![
-        [1.0, 2.0, 2.0],
-        [0.0; 3],
-        [3.0, 0.0, 0.0],
-        [-2.0, -4.0, -4.0],
-        [0.5, 0.0, 0.0],
-    ]);
+    let found = reduced(vec![[1.0, 2.0, 2.0], [0.0; 3], [3.0, 0.0, 0.0], [-2.0, -4.0, -4.0], [0.5, 0.0, 0.0]]);
     assert_eq!(found, [[3.0, 6.0, 6.0], [3.5, 0.0, 0.0]]);
     // Directions that differ by a millionth of a degree are not parallel.
     assert_eq!(reduced(vec![[1.0, 0.0, 0.0], [1.0, 2e-8, 0.0]]).len(), 2);
@@ -168,26 +140,14 @@ fn parallel_and_opposite_generators_are_added_up() {
 fn of_more_than_forty_generators_the_pairs_that_lose_least_are_added_up() {
     let mut seed = 13;
     let unit = |v: Vec3| v.map(|x| x / norm(v));
-    let apart: Vec<Vec3> = (0..MAX_GENERATORS)
-        .map(|_| unit(triple(&mut seed)))
-        .collect();
-    assert_eq!(
-        reduced(apart.clone()),
-        apart,
-        "forty generators are not merged"
-    );
+    let apart: Vec<Vec3> = (0..MAX_GENERATORS).map(|_| unit(triple(&mut seed))).collect();
+    assert_eq!(reduced(apart.clone()), apart, "forty generators are not merged");
     // Only small generators that are perpendicular to others, and small differences between neighbours, are lost.
     // Generators of different directions are not merged.
     let few = &apart[..15];
     let mut all = few.to_vec();
-    all.extend(
-        few.iter()
-            .map(|g| cross(*g, triple(&mut seed)).map(|x| 1e-7 * x)),
-    );
-    all.extend(
-        few.iter()
-            .map(|g| [g[0], g[1] + 1e-7, g[2] - 1e-7].map(|x| -x)),
-    );
+    all.extend(few.iter().map(|g| cross(*g, triple(&mut seed)).map(|x| 1e-7 * x)));
+    all.extend(few.iter().map(|g| [g[0], g[1] + 1e-7, g[2] - 1e-7].map(|x| -x)));
     let kept = reduced(all);
     assert_eq!(kept.len(), MAX_GENERATORS);
     let total = few.iter().map(|g| g.map(|x| 2.0 * x)).collect::<Vec<_>>();
@@ -243,18 +203,7 @@ fn a_cell_contains_similar_directions() {
         let sine = norm(cross(g, other)) / (norm(g) * norm(other));
         assert!(sine < 2f64.sqrt() / 3.0, "{g:?} {other:?}");
     }
-    assert!(
-        first.iter().all(Option::is_some),
-        "every cell contains a direction"
-    );
+    assert!(first.iter().all(Option::is_some), "every cell contains a direction");
     // A direction along an edge of a face belongs to one of the outermost cells.
-    assert_eq!(
-        [
-            direction_cell([1.0, 1.0, 1.0]),
-            direction_cell([-1.0, 1.0, 1.0])
-        ]
-        .iter()
-        .max(),
-        Some(&107)
-    );
+    assert_eq!([direction_cell([1.0, 1.0, 1.0]), direction_cell([-1.0, 1.0, 1.0])].iter().max(), Some(&107));
 }

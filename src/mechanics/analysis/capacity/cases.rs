@@ -18,9 +18,7 @@
 //! are not linear, such as the position of a corner.
 
 use super::refine;
-use super::region::{
-    SAME_DIRECTION, bounded_polygon, clipped, corners, opposite, set_edges, sides, square,
-};
+use super::region::{SAME_DIRECTION, bounded_polygon, clipped, corners, opposite, set_edges, sides, square};
 use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
 use crate::assembly::Assembly;
 use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
@@ -54,14 +52,8 @@ pub(super) fn intersected(
     }
     let count = changed.len();
     match all.pop() {
-        Some(only) if all.is_empty() => Ok(LoadCapacity {
-            cases: count,
-            ..only
-        }),
-        Some(last) if last.shape() == CapacityShape::Empty => Ok(LoadCapacity {
-            cases: count,
-            ..last
-        }),
+        Some(only) if all.is_empty() => Ok(LoadCapacity { cases: count, ..only }),
+        Some(last) if last.shape() == CapacityShape::Empty => Ok(LoadCapacity { cases: count, ..last }),
         Some(last) => {
             all.push(last);
             intersection(&all)
@@ -133,21 +125,14 @@ fn intersection(all: &[LoadCapacity]) -> Result<LoadCapacity, CapacityError> {
         None => intersect_to_polygon(&planes, centre, far).ok_or(CapacityError::Undecided)?,
     };
     let tolerance = 1e-7 * size;
-    let vertices = corners(&forces, &rays, tolerance)
-        .into_iter()
-        .map(|k| CapacityVertex {
-            force: forces[k],
-            torque: 0.0,
-            contacts: Vec::new(),
-            proof: None,
-        });
-    let mut capacity = LoadCapacity {
-        vertices: vertices.collect(),
-        rays,
-        edges: Vec::new(),
-        cases: all.len(),
-        ..all[0].clone()
-    };
+    let vertices = corners(&forces, &rays, tolerance).into_iter().map(|k| CapacityVertex {
+        force: forces[k],
+        torque: 0.0,
+        contacts: Vec::new(),
+        proof: None,
+    });
+    let mut capacity =
+        LoadCapacity { vertices: vertices.collect(), rays, edges: Vec::new(), cases: all.len(), ..all[0].clone() };
     if capacity.shape() == CapacityShape::Empty {
         // Each case has a nonempty set of carried forces, but the sets have no force in common.
         capacity.mechanism = lines.first().map_or(Vec::new(), |l| l.mechanism.clone());
@@ -163,16 +148,11 @@ fn intersect_parallel(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector
     let Some((normal, _)) = planes.first() else {
         return Some((Vec::new(), axes().to_vec()));
     };
-    if planes
-        .iter()
-        .any(|(other, _)| cross(*normal, *other).abs() > SAME_DIRECTION)
-    {
+    if planes.iter().any(|(other, _)| cross(*normal, *other).abs() > SAME_DIRECTION) {
         return None;
     }
     let limit = |sign: f64| {
-        let same = planes
-            .iter()
-            .filter(|(other, _)| sign * other.dot(normal) > 0.0);
+        let same = planes.iter().filter(|(other, _)| sign * other.dot(normal) > 0.0);
         same.map(|(_, limit)| *limit).reduce(f64::min)
     };
     // The set is the forces F with −below ≤ normal · F ≤ above.
@@ -188,11 +168,7 @@ fn intersect_parallel(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector
 /// Returns the intersection of half-planes as forces and rays. The boundaries of at least two half-planes must meet.
 /// The forces include all corners; the list of forces is empty if the intersection is empty. `None` if the corners are
 /// so far from `centre`, compared with `far`, that they cannot be distinguished from rays.
-fn intersect_to_polygon(
-    planes: &[(Vector, f64)],
-    centre: Vector,
-    far: f64,
-) -> Option<(Vec<Vector>, Vec<Vector>)> {
+fn intersect_to_polygon(planes: &[(Vector, f64)], centre: Vector, far: f64) -> Option<(Vec<Vector>, Vec<Vector>)> {
     let mut ring = square(centre, 0.5 * far);
     for (normal, limit) in planes {
         ring = clipped(&ring, *normal, *limit);
@@ -240,12 +216,7 @@ fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec
         [a, b] => {
             let along = b - a;
             let across = quarter_turn(along);
-            vec![
-                side(a, across),
-                side(a, -across),
-                side(a, -along),
-                side(b, along),
-            ]
+            vec![side(a, across), side(a, -across), side(a, -along), side(b, along)]
         }
         ref ring => (0..ring.len())
             .map(|k| {

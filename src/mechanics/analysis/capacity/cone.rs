@@ -43,13 +43,7 @@ pub(super) fn sample_set(probe: &Probe) -> Option<SampledSet> {
     let mut start = Vec::new();
     for angle in axes {
         match probe.farthest(unit(angle), None) {
-            Farthest::At {
-                carried: Some(carried),
-                half_plane,
-            } => start.push(Sample {
-                carried,
-                half_plane,
-            }),
+            Farthest::At { carried: Some(carried), half_plane } => start.push(Sample { carried, half_plane }),
             Farthest::At { carried: None, .. } => start.push(sample(probe, unit(angle), None)?),
             Farthest::Unbounded => break,
             Farthest::None => return None,
@@ -73,10 +67,7 @@ pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
         .map(|corner| {
             let carried = probe.carried(&corner.forces)?;
             let half_plane = probe.half_plane(carried.force, corner.normal, &corner.motion);
-            Some(Sample {
-                carried,
-                half_plane,
-            })
+            Some(Sample { carried, half_plane })
         })
         .collect();
     let Some([first_far, last_far]) = far else {
@@ -122,9 +113,7 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
         let shares = shares.chain(NEAR_OUTER.into_iter().rev().map(|share| 1.0 - share));
         let angles = shares.map(|share| from + (to - from) * share);
         let mut inside: Vec<Sample> = match to - from > SAME_ANGLE {
-            true => angles
-                .filter_map(|a| sample(probe, unit(a), None))
-                .collect(),
+            true => angles.filter_map(|a| sample(probe, unit(a), None)).collect(),
             false => Vec::new(),
         };
         let norms = inside.iter().map(|s| s.carried.force.norm());
@@ -205,9 +194,7 @@ impl Cone {
     fn normals(self) -> Vec<(f64, f64)> {
         match self {
             Cone::Everything => Vec::new(),
-            Cone::Line(a) => [a + FRAC_PI_2, a + 3.0 * FRAC_PI_2]
-                .map(|n| (n, n))
-                .to_vec(),
+            Cone::Line(a) => [a + FRAC_PI_2, a + 3.0 * FRAC_PI_2].map(|n| (n, n)).to_vec(),
             Cone::Between(from, to) => vec![(to + FRAC_PI_2, from + 3.0 * FRAC_PI_2)],
         }
     }

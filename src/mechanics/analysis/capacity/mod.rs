@@ -46,11 +46,7 @@ impl Analysis {
     /// # Errors
     /// Returns an error if there is no such frame, if the block is not placed in it, if the request is not valid, or if
     /// no proof was found.
-    pub fn capacity(
-        &self,
-        frame: usize,
-        request: &CapacityRequest,
-    ) -> Result<LoadCapacity, CapacityError> {
+    pub fn capacity(&self, frame: usize, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
         capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
     }
 
@@ -59,12 +55,7 @@ impl Analysis {
     ///
     /// The fastest point has speed 1. If the capacity belongs to several cases, or if the force acts at two points, the
     /// result is the motion that proves the edge.
-    pub fn edge_mechanism(
-        &self,
-        frame: usize,
-        capacity: &LoadCapacity,
-        edge: usize,
-    ) -> Vec<Motion> {
+    pub fn edge_mechanism(&self, frame: usize, capacity: &LoadCapacity, edge: usize) -> Vec<Motion> {
         let (Some(found), Some(edge)) = (self.frames.get(frame), capacity.edges.get(edge)) else {
             return Vec::new();
         };
@@ -76,23 +67,14 @@ impl Analysis {
         let ends: Vec<Vector> = ends.map(|end| capacity.vertices[*end].force).collect();
         let middle = ends.iter().sum::<Vector>() / ends.len().max(1) as f64;
         let size = edge.limit.abs().max(middle.norm()).max(1e-3 * found.weight);
-        let scene = self.scene.with_force(
-            capacity.block,
-            capacity.at[0],
-            middle + edge.normal * (1e-3 * size),
-        );
+        let scene = self.scene.with_force(capacity.block, capacity.at[0], middle + edge.normal * (1e-3 * size));
         self.elementary_mechanisms(&scene, found, &edge.mechanism)
     }
 }
 
 /// Computes the capacity of each frame if the options request it. Adds a notice if a point of the force lies outside
 /// the block. Also adds a notice if the computation fails, unless the block is not placed in this frame.
-pub(super) fn add_capacities(
-    scene: &Scene,
-    interfaces: &Interfaces,
-    frames: &mut [FrameAnalysis],
-    options: &Options,
-) {
+pub(super) fn add_capacities(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
     let Some(request) = &options.capacity else {
         return;
     };
@@ -150,11 +132,7 @@ pub(crate) fn capacity_of(
     if !found.placed.contains(&request.block) {
         return Err(CapacityError::NotPlaced);
     }
-    let context = FrameContext {
-        scene,
-        frame: found,
-        interfaces: &interfaces.in_frame(scene, found),
-    };
+    let context = FrameContext { scene, frame: found, interfaces: &interfaces.in_frame(scene, found) };
     let (mut assembly, _) = effect::assemble(&context);
     // If the additional force replaces the force of a robot, the force limits of this robot are set to 0. Its torque
     // limit stays.
@@ -163,22 +141,14 @@ pub(crate) fn capacity_of(
     if let Some(grip) = tool.and_then(|hold| grips.find(|grip| grip.robot == hold.robot)) {
         (grip.limits.fx, grip.limits.fy) = (0.0, 0.0);
     }
-    let capacity = cases::intersected(&assembly, &request.cases, |changed| {
-        capacity_of_assembly(changed, request.block, &points)
-    })?;
-    Ok(LoadCapacity {
-        robot: tool.map(|hold| hold.robot),
-        ..capacity
-    })
+    let capacity =
+        cases::intersected(&assembly, &request.cases, |changed| capacity_of_assembly(changed, request.block, &points))?;
+    Ok(LoadCapacity { robot: tool.map(|hold| hold.robot), ..capacity })
 }
 
 /// Computes the set of forces that a block can carry in one assembly. The set is empty if another component, which does
 /// not contain the block, falls.
-fn capacity_of_assembly(
-    assembly: &Assembly,
-    block: BlockId,
-    points: &[Point],
-) -> Result<LoadCapacity, CapacityError> {
+fn capacity_of_assembly(assembly: &Assembly, block: BlockId, points: &[Point]) -> Result<LoadCapacity, CapacityError> {
     let (mut own, mut falls) = (None, None);
     for component in assembly.components() {
         if let Some(body) = component.bodies.iter().position(|b| b.block == block) {
@@ -186,11 +156,7 @@ fn capacity_of_assembly(
             continue;
         }
         // The component does not contain the block. It must stand without the additional force.
-        match decide_verdict(
-            &component,
-            LimitDistance::Unknown,
-            &mut ProofCache::default(),
-        ) {
+        match decide_verdict(&component, LimitDistance::Unknown, &mut ProofCache::default()) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => falls = Some(motion),
             (Verdict::Undecided, _) => return Err(undecided()),
@@ -214,11 +180,7 @@ fn capacity_of_assembly(
         Some(found) => exact(found).ok_or_else(undecided),
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
         // Decide the component with an unlimited grip at the point: if it falls even then, the set is empty.
-        None => match decide_verdict(
-            &probe.held,
-            LimitDistance::Unknown,
-            &mut ProofCache::default(),
-        ) {
+        None => match decide_verdict(&probe.held, LimitDistance::Unknown, &mut ProofCache::default()) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided()),
         },

@@ -94,15 +94,7 @@ impl Probe {
         let torque = if has_torque { f64::INFINITY } else { 0.0 };
         let held = with_grip(given, body, at, [f64::INFINITY, f64::INFINITY, torque]);
         let program = Program::new(&held, Scale::from_assembly(given));
-        Probe {
-            given: given.clone(),
-            held,
-            program,
-            body,
-            at,
-            has_torque,
-            proves: true,
-        }
+        Probe { given: given.clone(), held, program, body, at, has_torque, proves: true }
     }
 
     /// Returns the same probe without loads, for the recession cone. Any multiple of a force that the block carries
@@ -123,10 +115,7 @@ impl Probe {
         }
         let points = [self.at; 2];
         let count = if self.has_torque { 2 } else { 1 };
-        Probe {
-            proves: false,
-            ..Probe::new(&given, self.body, &points[..count])
-        }
+        Probe { proves: false, ..Probe::new(&given, self.body, &points[..count]) }
     }
 
     /// Returns the load of the most heavily loaded body of the component, N; 1 if there are no loads.
@@ -157,19 +146,12 @@ impl Probe {
         // conditioning: equilibration and iterative refinement. If its force has no proof either, try forces slightly
         // inside the limit.
         match first {
-            Farthest::At {
-                carried,
-                half_plane,
-            } if self.proves && !self.agree(&carried, &half_plane) => {
+            Farthest::At { carried, half_plane } if self.proves && !self.agree(&carried, &half_plane) => {
                 match self.farthest_in(&program, direction, true) {
-                    Farthest::At {
-                        carried: again,
-                        half_plane: closer,
-                    } => self.best(direction, [carried, again], [half_plane, closer]),
-                    _ => Farthest::At {
-                        carried,
-                        half_plane,
-                    },
+                    Farthest::At { carried: again, half_plane: closer } => {
+                        self.best(direction, [carried, again], [half_plane, closer])
+                    }
+                    _ => Farthest::At { carried, half_plane },
                 }
             }
             other => other,
@@ -207,10 +189,7 @@ impl Probe {
         };
         let half_planes = half_planes.into_iter().flatten();
         let half_plane = half_planes.min_by(|a, b| beyond(a).total_cmp(&beyond(b)));
-        Farthest::At {
-            carried,
-            half_plane,
-        }
+        Farthest::At { carried, half_plane }
     }
 
     fn farthest_in(&self, program: &Program, direction: Vector, is_retry: bool) -> Farthest {
@@ -227,10 +206,7 @@ impl Probe {
                         },
                         half_plane: self.half_plane(near, direction, &motion),
                     },
-                    false => Farthest::At {
-                        carried: Some(self.unproved(near)),
-                        half_plane: None,
-                    },
+                    false => Farthest::At { carried: Some(self.unproved(near)), half_plane: None },
                 }
             }
             Support::Unbounded => Farthest::Unbounded,
@@ -240,12 +216,7 @@ impl Probe {
 
     fn unproved(&self, force: Vector) -> CarriedForce {
         let forces = Forces::zero(&self.given);
-        CarriedForce {
-            force,
-            torque: 0.0,
-            proof: check_forces(&self.given, &forces),
-            forces,
-        }
+        CarriedForce { force, torque: 0.0, proof: check_forces(&self.given, &forces), forces }
     }
 
     /// Proves the force that the additional grip exerts in a solution of the program. `None` if this solution has no
@@ -253,12 +224,7 @@ impl Probe {
     pub fn carried(&self, amounts: &Amounts) -> Option<CarriedForce> {
         let (mut forces, proof) = proved_forces(&self.held, &self.program, amounts)?;
         let own = forces.grips.pop()?;
-        Some(CarriedForce {
-            force: own.force,
-            torque: own.torque,
-            forces,
-            proof,
-        })
+        Some(CarriedForce { force: own.force, torque: own.torque, forces, proof })
     }
 
     /// Proves a carried force near the farthest force. Decides the component under the farthest force, then under
@@ -270,12 +236,7 @@ impl Probe {
         let under = |inside: f64| {
             let force = farthest - direction * (inside * size);
             let (forces, proof) = decided_forces(&self.with_force(force))?;
-            Some(CarriedForce {
-                force,
-                torque: 0.0,
-                forces,
-                proof,
-            })
+            Some(CarriedForce { force, torque: 0.0, forces, proof })
         };
         let near = match self.has_torque {
             true => None,
@@ -285,12 +246,7 @@ impl Probe {
             let (mut forces, proof) = decided_forces(&self.held)?;
             let own = forces.grips.pop()?;
             let is_as_far = direction.dot(&(farthest - own.force)) <= MAX_SHARE_INSIDE * size;
-            is_as_far.then_some(CarriedForce {
-                force: own.force,
-                torque: own.torque,
-                forces,
-                proof,
-            })
+            is_as_far.then_some(CarriedForce { force: own.force, torque: own.torque, forces, proof })
         })
     }
 
@@ -303,8 +259,8 @@ impl Probe {
         let program = Program::new(&beyond, self.program.scale);
         // Motions from the simplex method have only rounding errors. Motions from an interior-point method need a
         // correction.
-        let (motion, proof) = proved_exact_motion(&beyond, &program, y)
-            .or_else(|| proved_motion(&beyond, &program, y))?;
+        let (motion, proof) =
+            proved_exact_motion(&beyond, &program, y).or_else(|| proved_motion(&beyond, &program, y))?;
         let own = &motion[self.body];
         let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
         let speed = velocity.norm();

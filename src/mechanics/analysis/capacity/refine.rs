@@ -42,9 +42,7 @@ pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
 pub(super) fn size(samples: &[Sample]) -> f64 {
     let extent = |axis: usize| {
         let values = samples.iter().map(|s| s.carried.force[axis]);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         (high - low).max(0.0)
     };
     extent(0).max(extent(1))
@@ -54,43 +52,21 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
 /// was proved. `reach` is the largest magnitude of each component of the force, N.
 pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Option<Sample> {
     // If this direction gives no proof, try slightly rotated directions. Their forces belong to the set, too.
-    [0.0, 1e-3, -1e-3, 2e-2, -2e-2]
-        .into_iter()
-        .find_map(|angle| {
-            let (sin, cos) = libm::sincos(angle);
-            let turned = Vector::new(
-                cos * direction.x - sin * direction.y,
-                sin * direction.x + cos * direction.y,
-            );
-            match probe.farthest(turned, reach) {
-                Farthest::At {
-                    carried: Some(carried),
-                    half_plane,
-                } => Some(Sample {
-                    carried,
-                    half_plane,
-                }),
-                _ => None,
-            }
-        })
+    [0.0, 1e-3, -1e-3, 2e-2, -2e-2].into_iter().find_map(|angle| {
+        let (sin, cos) = libm::sincos(angle);
+        let turned = Vector::new(cos * direction.x - sin * direction.y, sin * direction.x + cos * direction.y);
+        match probe.farthest(turned, reach) {
+            Farthest::At { carried: Some(carried), half_plane } => Some(Sample { carried, half_plane }),
+            _ => None,
+        }
+    })
 }
 
 /// Adds samples between neighbouring samples until all edges between them are known. The directions of `start` run
 /// anticlockwise. If `is_closed`, the last sample is also a neighbour of the first. Returns all samples, anticlockwise
 /// too.
-pub(super) fn refine(
-    probe: &Probe,
-    start: Vec<Sample>,
-    is_closed: bool,
-    reach: Option<f64>,
-) -> Vec<Sample> {
-    let mut search = Search {
-        probe,
-        reach,
-        tolerance: tolerance(probe, size(&start)),
-        count: 0,
-        samples: Vec::new(),
-    };
+pub(super) fn refine(probe: &Probe, start: Vec<Sample>, is_closed: bool, reach: Option<f64>) -> Vec<Sample> {
+    let mut search = Search { probe, reach, tolerance: tolerance(probe, size(&start)), count: 0, samples: Vec::new() };
     let pairs = match is_closed {
         true => start.len(),
         false => start.len().saturating_sub(1),
@@ -140,10 +116,7 @@ impl Search<'_> {
         let farther = cross(chord, force - a) / -length;
         // The distance of the new force from the boundary of its own half-plane is the error of its linear program.
         // Such an error must not become a new vertex.
-        let error = next
-            .half_plane
-            .as_ref()
-            .map_or(0.0, |half_plane| half_plane.beyond(force).abs());
+        let error = next.half_plane.as_ref().map_or(0.0, |half_plane| half_plane.beyond(force).abs());
         if farther <= self.tolerance + (2.0 * error).min(NOISE_PER_TOLERANCE * self.tolerance) {
             // The chord is an edge, because the new force is not farther out. Keep the new sample if it contains the
             // half-plane of this edge.

@@ -10,26 +10,14 @@ use crate::scene::BlockId;
 const RAY_LENGTH_PER_SIZE: f64 = 1e4;
 
 /// Builds the capacity of a block from samples of its boundary: vertices, edges and error bound.
-pub(super) fn capacity(
-    set: cone::SampledSet,
-    probe: &Probe,
-    block: BlockId,
-    at: &[Point],
-) -> LoadCapacity {
+pub(super) fn capacity(set: cone::SampledSet, probe: &Probe, block: BlockId, at: &[Point]) -> LoadCapacity {
     let cone::SampledSet { samples, rays } = set;
     let size = refine::size(&samples);
     let tolerance = refine::tolerance(probe, size);
     let forces: Vec<Vector> = samples.iter().map(|s| s.carried.force).collect();
     let corners = corners(&forces, &rays, tolerance);
-    let vertices: Vec<CapacityVertex> = corners
-        .iter()
-        .map(|k| vertex(&samples[*k], probe))
-        .collect();
-    let lines: Vec<CapacityEdge> = samples
-        .iter()
-        .filter_map(|s| s.half_plane.as_ref())
-        .map(edge_of)
-        .collect();
+    let vertices: Vec<CapacityVertex> = corners.iter().map(|k| vertex(&samples[*k], probe)).collect();
+    let lines: Vec<CapacityEdge> = samples.iter().filter_map(|s| s.half_plane.as_ref()).map(edge_of).collect();
     let mut capacity = LoadCapacity {
         block,
         at: at.to_vec(),
@@ -57,14 +45,9 @@ pub(super) fn set_edges(capacity: &mut LoadCapacity, lines: &[CapacityEdge], siz
         };
         let chord = to - from;
         let outward = Vector::new(chord.y, -chord.x);
-        let faces = lines
-            .iter()
-            .filter(|line| from == to || line.normal.dot(&outward) > 0.0);
+        let faces = lines.iter().filter(|line| from == to || line.normal.dot(&outward) > 0.0);
         if let Some(line) = faces.min_by(|a, b| off(a).total_cmp(&off(b))) {
-            edges.push(CapacityEdge {
-                ends,
-                ..line.clone()
-            });
+            edges.push(CapacityEdge { ends, ..line.clone() });
         }
     }
     capacity.gap = gap(&corners, &capacity.rays, lines, size);
@@ -101,11 +84,7 @@ fn edge_of(line: &HalfPlane) -> CapacityEdge {
 /// Returns the sides of a convex set, anticlockwise. Each side is given by the indices of its two vertices, `None`
 /// where the side is unbounded, and by two points on it. On an unbounded side, one of these points is a corner, and the
 /// other lies at the distance `size` from it.
-pub(super) fn sides(
-    corners: &[Vector],
-    rays: &[Vector],
-    size: f64,
-) -> Vec<([Option<usize>; 2], Vector, Vector)> {
+pub(super) fn sides(corners: &[Vector], rays: &[Vector], size: f64) -> Vec<([Option<usize>; 2], Vector, Vector)> {
     let count = corners.len();
     let mut sides = Vec::new();
     if count == 0 {
@@ -144,9 +123,7 @@ pub(super) fn sides(
 /// strip; with three, it is a half-plane to the left of the first ray.
 pub(super) fn opposite(rays: &[Vector]) -> Option<Vector> {
     match rays {
-        [first, .., last] if rays.len() < 4 => {
-            ((first + last).norm() <= SAME_DIRECTION).then_some(*first)
-        }
+        [first, .., last] if rays.len() < 4 => ((first + last).norm() <= SAME_DIRECTION).then_some(*first),
         _ => None,
     }
 }
@@ -172,11 +149,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
     }
     let extent = forces.iter().map(|f| (f - forces[0]).norm());
     let far = RAY_LENGTH_PER_SIZE * extent.fold(1e6 * tolerance, f64::max);
-    let mut points: Vec<(Vector, Option<usize>)> = forces
-        .iter()
-        .enumerate()
-        .map(|(k, f)| (*f, Some(k)))
-        .collect();
+    let mut points: Vec<(Vector, Option<usize>)> = forces.iter().enumerate().map(|(k, f)| (*f, Some(k))).collect();
     for ray in rays {
         points.extend(forces.iter().map(|f| (f + ray * far, None)));
     }
@@ -187,9 +160,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
     let first = (0..ring.len()).find(|k| is_far(*k) && !is_far(k + 1));
     let count = ring.len();
     let start = first.map_or(0, |k| k + 1);
-    (0..count)
-        .filter_map(|k| ring[(start + k) % count].1)
-        .collect()
+    (0..count).filter_map(|k| ring[(start + k) % count].1).collect()
 }
 
 /// Returns the convex hull of points, anticlockwise, by Andrew's monotone chain (1979). Each point keeps its tag.
@@ -232,9 +203,7 @@ fn simplify(ring: &mut Vec<(Vector, Option<usize>)>, tolerance: f64) {
                 _ => to_segment(at, before, after),
             }
         };
-        let lowest = (0..count)
-            .filter(|k| ring[*k].1.is_some())
-            .min_by(|a, b| height(a).total_cmp(&height(b)));
+        let lowest = (0..count).filter(|k| ring[*k].1.is_some()).min_by(|a, b| height(a).total_cmp(&height(b)));
         match lowest.filter(|k| height(k) <= 0.25 * tolerance) {
             Some(k) => ring.remove(k),
             None => break,
@@ -261,12 +230,7 @@ pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector
 /// Returns the four corners of a square around a force, anticlockwise. `half` is half the length of a side.
 pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     let corner = |x: f64, y: f64| centre + Vector::new(x, y) * half;
-    vec![
-        corner(-1.0, -1.0),
-        corner(1.0, -1.0),
-        corner(1.0, 1.0),
-        corner(-1.0, 1.0),
-    ]
+    vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
 }
 
 /// Returns the error bound of a set, N: the largest distance between the set and a force that satisfies all half-planes
@@ -280,10 +244,7 @@ fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -
         outer = clipped(&outer, line.normal, line.limit);
     }
     let inner = bounded_polygon(corners, rays, 100.0 * size);
-    outer
-        .iter()
-        .map(|force| distance(&inner, *force))
-        .fold(0.0, f64::max)
+    outer.iter().map(|force| distance(&inner, *force)).fold(0.0, f64::max)
 }
 
 /// Returns the distance between a force and a convex polygon; 0 if the force lies inside.
@@ -320,11 +281,7 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
     }
     let extent = corners.iter().map(|f| (f - force).norm());
     let extent = extent.fold(0.0, f64::max);
-    let ring = bounded_polygon(
-        corners,
-        rays,
-        RAY_LENGTH_PER_SIZE * extent.max(f64::MIN_POSITIVE),
-    );
+    let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent.max(f64::MIN_POSITIVE));
     distance(&ring, force) <= 1e-9 * extent
 }
 
@@ -337,8 +294,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
     let is_along = |ray: &Vector| (ray - direction).norm() <= SAME_DIRECTION;
     let is_between = match rays {
         [first, second] if cross(*first, *second) > SAME_DIRECTION => {
-            cross(*first, direction) >= -SAME_DIRECTION
-                && cross(direction, *second) >= -SAME_DIRECTION
+            cross(*first, direction) >= -SAME_DIRECTION && cross(direction, *second) >= -SAME_DIRECTION
         }
         [_, inward, _] => direction.dot(inward) >= -SAME_DIRECTION,
         _ => rays.len() > 3,
@@ -346,10 +302,7 @@ pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f
     if is_between || rays.iter().any(is_along) {
         return f64::INFINITY;
     }
-    let extent = corners
-        .iter()
-        .map(|f| f.norm())
-        .fold(f64::MIN_POSITIVE, f64::max);
+    let extent = corners.iter().map(|f| f.norm()).fold(f64::MIN_POSITIVE, f64::max);
     let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent);
     let along = |force: &Vector| force.dot(&direction);
     if ring.len() < 3 {

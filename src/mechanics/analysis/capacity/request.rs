@@ -77,11 +77,7 @@ impl CapacityRequest {
     /// Creates the request for a force at the default point of a block: the grip point if a robot holds the block,
     /// otherwise the centroid.
     pub fn of_block(block: BlockId) -> CapacityRequest {
-        CapacityRequest {
-            block,
-            at: ForceAt::Default,
-            cases: Cases::default(),
-        }
+        CapacityRequest { block, at: ForceAt::Default, cases: Cases::default() }
     }
 
     /// Returns the default request for a scene. It uses the block of the first robot, in the last frame in which a
@@ -94,9 +90,7 @@ impl CapacityRequest {
             let height = |id: &BlockId| scene.blocks[id.0].centroid.y;
             placed.max_by(|a, b| height(a).total_cmp(&height(b)).then(b.cmp(a)))
         };
-        held.map(|hold| hold.block)
-            .or_else(highest)
-            .map(CapacityRequest::of_block)
+        held.map(|hold| hold.block).or_else(highest).map(CapacityRequest::of_block)
     }
 
     /// Returns the same request with the force at another point of the block.
@@ -153,10 +147,7 @@ impl Cases {
     #[must_use]
     pub fn horizontal_load(self, from: f64, to: f64) -> Cases {
         let horizontal_load = Some([from, to]);
-        Cases {
-            horizontal_load,
-            ..self
-        }
+        Cases { horizontal_load, ..self }
     }
 
     /// Returns these cases with a range of friction coefficients, which apply to all interfaces.
@@ -171,11 +162,7 @@ impl Cases {
     /// # Errors
     /// Returns an error if a range is not valid, or if a range of tilts is wider than [`Cases::WIDEST_TILT`].
     pub fn check(&self) -> Result<(), CapacityError> {
-        let ranges = [
-            ("tilt", self.tilt),
-            ("horizontal", self.horizontal_load),
-            ("friction", self.friction),
-        ];
+        let ranges = [("tilt", self.tilt), ("horizontal", self.horizontal_load), ("friction", self.friction)];
         for (name, range) in ranges {
             let Some([from, to]) = range else { continue };
             let wrong = |why: &str| {
@@ -219,20 +206,9 @@ impl Scene {
     }
 
     /// Returns a copy of the scene with one more load: a force, N, at a point of a block.
-    pub(in crate::mechanics::analysis) fn with_force(
-        &self,
-        block: BlockId,
-        at: Point,
-        force: Vector,
-    ) -> Scene {
+    pub(in crate::mechanics::analysis) fn with_force(&self, block: BlockId, at: Point, force: Vector) -> Scene {
         let mut scene = self.clone();
-        scene.loads.push(crate::scene::Load {
-            block,
-            at,
-            force,
-            torque: 0.0,
-            at_centroid: false,
-        });
+        scene.loads.push(crate::scene::Load { block, at, force, torque: 0.0, at_centroid: false });
         scene
     }
 }

@@ -11,11 +11,7 @@ use crate::text::{line, nearest};
 ///
 /// # Errors
 /// Returns a message for the user if a text is not valid, or if the scene has no such block.
-pub(crate) fn typed_capacity(
-    scene: &Scene,
-    typed: &str,
-    for_all: Option<&str>,
-) -> Result<CapacityRequest, String> {
+pub(crate) fn typed_capacity(scene: &Scene, typed: &str, for_all: Option<&str>) -> Result<CapacityRequest, String> {
     let cases = for_all.map_or(Ok(Cases::default()), cases)?;
     cases.check().map_err(|why| format!("--for-all: {why}"))?;
     // The name of a block may contain @, so the whole text is first tried as a name.
@@ -26,9 +22,7 @@ pub(crate) fn typed_capacity(
         Some((name, places)) => (name, Some(places)),
         None => (typed, None),
     };
-    let block = scene
-        .block_named(name)
-        .ok_or_else(|| unknown(scene, name))?;
+    let block = scene.block_named(name).ok_or_else(|| unknown(scene, name))?;
     let request = CapacityRequest::of_block(block).cases(cases);
     match places {
         None => Ok(request),
@@ -67,10 +61,7 @@ fn force_at(places: &str, unit: Unit) -> Result<ForceAt, String> {
     };
     match places.split_once("..") {
         None => point(places).map(ForceAt::Point),
-        Some((a, b)) => point(a)
-            .zip(point(b))
-            .filter(|(a, b)| a != b)
-            .map(|(a, b)| ForceAt::Contact([a, b])),
+        Some((a, b)) => point(a).zip(point(b)).filter(|(a, b)| a != b).map(|(a, b)| ForceAt::Contact([a, b])),
     }
     .ok_or_else(wrong)
 }
@@ -81,22 +72,13 @@ fn cases(typed: &str) -> Result<Cases, String> {
     let mut cases = Cases::default();
     for part in typed.split(',') {
         let (name, values) = part.split_once('=').ok_or_else(|| {
-            format!(
-                "--for-all: {} has no range; write for example tilt=±2 or friction=0.5..0.7",
-                line(part)
-            )
+            format!("--for-all: {} has no range; write for example tilt=±2 or friction=0.5..0.7", line(part))
         })?;
-        let range = range(values.trim()).ok_or_else(|| {
-            format!(
-                "--for-all: {} is not a range; write for example ±2 or 0.5..0.7",
-                line(values)
-            )
-        })?;
+        let range = range(values.trim())
+            .ok_or_else(|| format!("--for-all: {} is not a range; write for example ±2 or 0.5..0.7", line(values)))?;
         match name.trim() {
             "tilt" => cases.tilt = Some(range),
-            "horizontal" | "horizontal_load" | "horizontal-load" => {
-                cases.horizontal_load = Some(range)
-            }
+            "horizontal" | "horizontal_load" | "horizontal-load" => cases.horizontal_load = Some(range),
             "friction" => cases.friction = Some(range),
             other => {
                 return Err(format!(

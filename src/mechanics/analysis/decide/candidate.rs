@@ -18,13 +18,7 @@ pub(in crate::mechanics::analysis) struct Candidate<'a> {
 impl<'a> Candidate<'a> {
     /// Creates a candidate for an assembly. Forces and velocities are in the units of `scale`.
     pub fn new(assembly: &'a Assembly, scale: Scale, options: Options) -> Candidate<'a> {
-        Candidate {
-            component: Component {
-                scale,
-                ..Component::new(assembly, options)
-            },
-            options,
-        }
+        Candidate { component: Component { scale, ..Component::new(assembly, options) }, options }
     }
 
     /// Returns *stable* if the forces `amounts` balance every body. Returns *unstable* if the motion along the
@@ -43,19 +37,12 @@ impl<'a> Candidate<'a> {
         }
         let assembly = self.component.assembly;
         for assembly in assembly.components() {
-            let part = Component {
-                scale: self.component.scale,
-                ..Component::new(&assembly, self.options)
-            };
+            let part = Component { scale: self.component.scale, ..Component::new(&assembly, self.options) };
             let part_motion = assembly.bodies.iter();
-            let part_motion: Vec<Motion> = part_motion
-                .map(|b| motion_of_block(&motions, b.block))
-                .collect();
+            let part_motion: Vec<Motion> = part_motion.map(|b| motion_of_block(&motions, b.block)).collect();
             let proof = part.check_mechanism(&part_motion);
             let moves = matches!(proof, Proof::Mechanism { power, .. } if power > 0.0);
-            if moves
-                && part.accepts_motion(&part_motion, &proof)
-                && part.exceeds_force_tolerance(&part_motion, &proof)
+            if moves && part.accepts_motion(&part_motion, &proof) && part.exceeds_force_tolerance(&part_motion, &proof)
             {
                 return Some(Verdict::Unstable);
             }
@@ -68,10 +55,6 @@ impl<'a> Candidate<'a> {
 fn motion_of_block(motions: &[Motion], block: BlockId) -> Motion {
     match motions.binary_search_by_key(&block, |motion| motion.block) {
         Ok(index) => motions[index],
-        Err(_) => Motion {
-            block,
-            velocity: Vector::zeros(),
-            spin: 0.0,
-        },
+        Err(_) => Motion { block, velocity: Vector::zeros(), spin: 0.0 },
     }
 }

@@ -40,9 +40,7 @@ impl Component<'_> {
         }
         // The first solver settings were tried before, so they are skipped. Exception: if a large component was decided
         // by least residual, they were not tried to the end.
-        let skipped = usize::from(
-            program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual,
-        );
+        let skipped = usize::from(program.blocks < LARGE_PROGRAM_BLOCKS || decision.method != Method::LeastResidual);
         for settings in self.settings.iter().skip(skipped) {
             if is_late() {
                 break;
@@ -59,16 +57,9 @@ impl Component<'_> {
                     false => self.rebalance_locally(program, &amounts, &mut decision.effort),
                 };
                 if let RebalanceOutcome::Stands(outcome, proof) = outcome {
-                    let (force_bound, least_force) =
-                        self.bound_force_sum(solved.witness.as_deref(), &outcome);
+                    let (force_bound, least_force) = self.bound_force_sum(solved.witness.as_deref(), &outcome);
                     if least_force {
-                        return Decision {
-                            amounts: outcome,
-                            force_bound,
-                            least_force,
-                            proof,
-                            ..decision
-                        };
+                        return Decision { amounts: outcome, force_bound, least_force, proof, ..decision };
                     }
                 }
             }
@@ -102,9 +93,7 @@ impl Component<'_> {
             let least_adhesion = least_adhesion_in(program, *settings);
             decision.effort = decision.effort.plus(least_adhesion.effort);
             if least_adhesion.balanced == Some(true)
-                && self
-                    .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
-                    .1
+                && self.prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion).1
             {
                 decision.amounts = least_adhesion.forces;
                 decision.adhesion = Some(least_adhesion.adhesion);
@@ -117,10 +106,7 @@ impl Component<'_> {
     /// Adds the least adhesion and its mechanism to a decision. Tries the solver settings in order. If the program
     /// finds forces that balance every body without adhesion, the verdict becomes stable.
     fn with_failures(&self, program: &Program, mut decision: Decision) -> Decision {
-        let mut solved_before = decision
-            .least_adhesion
-            .take()
-            .filter(|s| s.balanced.is_some());
+        let mut solved_before = decision.least_adhesion.take().filter(|s| s.balanced.is_some());
         for settings in &self.settings {
             let least_adhesion = solved_before.take().unwrap_or_else(|| {
                 let least_adhesion = least_adhesion_in(program, *settings);
@@ -139,11 +125,9 @@ impl Component<'_> {
             }
             // A large component keeps the motion that proved the verdict: correcting another motion takes a third of
             // the total time.
-            let keeps_motion =
-                program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
+            let keeps_motion = program.blocks >= LARGE_PROGRAM_BLOCKS && !decision.mechanism.is_empty();
             let motion = least_adhesion.motion.filter(|_| !keeps_motion);
-            let proved_motion =
-                motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
+            let proved_motion = motion.and_then(|y| self.prove_motion(program, &y, &mut decision.effort));
             // If the program gives the forces a cost, its motion violates contacts slightly. The earlier motion is then
             // kept.
             if let (Some((mechanism, proof)), false) = (proved_motion, least_adhesion.priced) {
@@ -151,10 +135,7 @@ impl Component<'_> {
             }
             // Use this result if it balances every body, or if no earlier result gave an adhesion.
             let has_adhesion = least_adhesion.balanced == Some(true);
-            let holds = has_adhesion
-                && self
-                    .prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion)
-                    .1;
+            let holds = has_adhesion && self.prove_with_adhesion(&least_adhesion.forces, &least_adhesion.adhesion).1;
             if holds || decision.adhesion.is_none() {
                 decision.adhesion_cannot_hold = least_adhesion.balanced == Some(false);
                 decision.amounts = least_adhesion.forces;

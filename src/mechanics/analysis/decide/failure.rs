@@ -19,12 +19,7 @@ impl Component<'_> {
     /// units.
     pub(super) fn failures(&self, adhesion: &Amounts) -> Vec<Failure> {
         let unit = self.scale.force;
-        let largest = adhesion
-            .normal
-            .iter()
-            .flatten()
-            .chain(&adhesion.friction)
-            .chain(adhesion.grip.iter().flatten());
+        let largest = adhesion.normal.iter().flatten().chain(&adhesion.friction).chain(adhesion.grip.iter().flatten());
         // Compute the largest adhesion in the component, N.
         let largest = unit * largest.fold(0.0, |m: f64, v| m.max(v.abs()));
         let bodies = self.assembly.bodies.iter();
@@ -34,9 +29,7 @@ impl Component<'_> {
         // body.
         let min_amount = |on: usize, from: Option<usize>| {
             let both = [Some(on), from].into_iter().flatten();
-            let loaded = both
-                .map(|body| weights[body])
-                .filter(|weight| *weight > 0.0);
+            let loaded = both.map(|body| weights[body]).filter(|weight| *weight > 0.0);
             let lighter = loaded.fold(f64::INFINITY, f64::min);
             (MIN_SHARE_OF_LOAD * lighter).min(MIN_SHARE_OF_LARGEST * largest) / unit
         };
@@ -65,11 +58,7 @@ impl Component<'_> {
         let (unit, bodies) = (self.scale.force, contact.bodies);
         let pulls = contact.points.into_iter().zip(pulls);
         for (at, pull) in pulls.filter(|p| p.1.abs() > min_amount) {
-            failures.push(Failure::Tension {
-                bodies,
-                at,
-                force: contact.normal * (-pull * unit),
-            });
+            failures.push(Failure::Tension { bodies, at, force: contact.normal * (-pull * unit) });
         }
         if friction.abs() > min_amount {
             failures.push(Failure::Friction {
@@ -92,20 +81,10 @@ impl Component<'_> {
         let unit = self.scale.force;
         let (robot, block, at) = (grip.robot, self.assembly.bodies[grip.body].block, grip.at);
         if x.abs() > min_amount || y.abs() > min_amount {
-            failures.push(Failure::RobotForce {
-                robot,
-                block,
-                at,
-                force: Vector::new(x, y) * unit,
-            });
+            failures.push(Failure::RobotForce { robot, block, at, force: Vector::new(x, y) * unit });
         }
         if m.abs() > min_amount {
-            failures.push(Failure::RobotTorque {
-                robot,
-                block,
-                at,
-                torque: m * unit * self.scale.length,
-            });
+            failures.push(Failure::RobotTorque { robot, block, at, torque: m * unit * self.scale.length });
         }
     }
 
@@ -123,17 +102,12 @@ impl Component<'_> {
         // Each adhesive force acts on one body as a load. The opposite force acts on the other body.
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
-            body.listed = body
-                .listed
-                .plus(load_about(body.centroid, at, force, torque));
+            body.listed = body.listed.plus(load_about(body.centroid, at, force, torque));
         };
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
             let pulls = contact.points.into_iter().zip(adhesion.normal[k]);
             let pulls = pulls.map(|(at, pull)| (at, contact.normal * (-pull * unit)));
-            let friction = (
-                contact.ends[0],
-                contact.tangent() * (adhesion.friction[k] * unit),
-            );
+            let friction = (contact.ends[0], contact.tangent() * (adhesion.friction[k] * unit));
             for (at, force) in pulls.chain([friction]) {
                 act(contact.on, at, force, 0.0);
                 if let Some(from) = contact.from {
@@ -150,17 +124,9 @@ impl Component<'_> {
 
     /// Converts the forces `amounts` to newtons. Also returns whether they balance every body together with the
     /// adhesion.
-    pub(super) fn prove_with_adhesion(
-        &self,
-        amounts: &Amounts,
-        adhesion: &Amounts,
-    ) -> (Forces, bool) {
+    pub(super) fn prove_with_adhesion(&self, amounts: &Amounts, adhesion: &Amounts) -> (Forces, bool) {
         let held = self.with_adhesion(adhesion);
-        let component = Component {
-            assembly: &held,
-            settings: self.settings.clone(),
-            ..*self
-        };
+        let component = Component { assembly: &held, settings: self.settings.clone(), ..*self };
         let proved = component.prove_forces(amounts);
         let balanced = component.accepts(&proved.proof);
         (proved.forces, balanced)

@@ -46,9 +46,7 @@ impl Component<'_> {
                 return proved;
             }
             let imbalances = proof::imbalances(self.assembly, &proved.forces);
-            let unbalanced_count = imbalances
-                .iter()
-                .filter(|imbalances| **imbalances > self.threshold.imbalance);
+            let unbalanced_count = imbalances.iter().filter(|imbalances| **imbalances > self.threshold.imbalance);
             let unbalanced_count = unbalanced_count.count();
             if best.as_ref().is_none_or(|best| unbalanced_count < best.0) {
                 best = Some((unbalanced_count, proved));
@@ -66,11 +64,7 @@ impl Component<'_> {
 
     /// Returns a lower bound on the sum of balancing forces, N, and whether the forces `amounts` reach this bound. The
     /// bound follows from the motion `witness` (program units); without `witness` it is `None`.
-    pub fn bound_force_sum(
-        &self,
-        witness: Option<&[f64]>,
-        amounts: &Amounts,
-    ) -> (Option<f64>, bool) {
+    pub fn bound_force_sum(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
         let Some(witness) = witness else {
             return (None, false);
         };
@@ -113,16 +107,8 @@ impl Component<'_> {
             Noise::OfTheWhole => (1e-13 * heaviest, demand * heaviest),
             Noise::OfEachBody => {
                 let load = gross_load(self.assembly, &self.assembly.bodies[body]);
-                let rounding_limit = demand
-                    * if load > 0.0 {
-                        load
-                    } else {
-                        1e-7 * gross_forces[body]
-                    };
-                (
-                    (1e-13 * gross_forces[body]).min(rounding_limit),
-                    rounding_limit,
-                )
+                let rounding_limit = demand * if load > 0.0 { load } else { 1e-7 * gross_forces[body] };
+                ((1e-13 * gross_forces[body]).min(rounding_limit), rounding_limit)
             }
             Noise::None => (0.0, 0.0),
         };
@@ -137,10 +123,7 @@ impl Component<'_> {
             let friction_limit = contact.friction * pressed;
             let friction = (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit);
             let friction_noise = friction_noise.min(1e-10 * friction_limit.min(pressed));
-            ContactForces {
-                normal,
-                friction: clean(friction, friction_noise),
-            }
+            ContactForces { normal, friction: clean(friction, friction_noise) }
         });
         let grips = self.assembly.grips.iter().zip(&amounts.grip);
         let grips = grips.map(|(grip, [x, y, m])| {
@@ -158,10 +141,7 @@ impl Component<'_> {
                 torque: torque.clamp(-torque_limit, torque_limit),
             }
         });
-        Forces {
-            contacts: contacts.collect(),
-            grips: grips.collect(),
-        }
+        Forces { contacts: contacts.collect(), grips: grips.collect() }
     }
 
     /// Returns the sum of the magnitudes of all forces on each body, N: its load, contact forces and robot forces.
@@ -228,9 +208,6 @@ mod tests {
             assert!((bound.expect("a bound") - 2.0).abs() < 1e-12);
             assert_eq!(found_least, is_least, "{robot}");
         }
-        assert_eq!(
-            component.bound_force_sum(None, &pressed(0.0)),
-            (None, false)
-        );
+        assert_eq!(component.bound_force_sum(None, &pressed(0.0)), (None, false));
     }
 }

@@ -19,16 +19,12 @@ pub(in crate::mechanics::analysis) fn proved_forces(
 ) -> Option<(Forces, Proof)> {
     let component = in_scale_of(assembly, program);
     let found = component.prove_forces(amounts);
-    component
-        .accepts(&found.proof)
-        .then_some((found.forces, found.proof))
+    component.accepts(&found.proof).then_some((found.forces, found.proof))
 }
 
 /// Decides a component, and returns forces in newtons that balance it, with their proof. `None` if the component falls
 /// or is undecided.
-pub(in crate::mechanics::analysis) fn decided_forces(
-    assembly: &Assembly,
-) -> Option<(Forces, Proof)> {
+pub(in crate::mechanics::analysis) fn decided_forces(assembly: &Assembly) -> Option<(Forces, Proof)> {
     let component = Component::new(assembly, VERDICT_ONLY);
     let program = Program::new(assembly, component.scale);
     let decision = decide_without_non_binding_limits(&component, &program);
@@ -36,9 +32,7 @@ pub(in crate::mechanics::analysis) fn decided_forces(
         return None;
     }
     let found = component.prove_forces(&decision.amounts);
-    component
-        .accepts(&found.proof)
-        .then_some((found.forces, found.proof))
+    component.accepts(&found.proof).then_some((found.forces, found.proof))
 }
 
 /// Corrects the velocities `y`, the result of a linear program, so that they violate no contact. Returns the corrected
@@ -74,8 +68,5 @@ pub(in crate::mechanics::analysis) fn proved_exact_motion(
 const MAX_ROUNDING: f64 = 1e-13;
 
 fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {
-    Component {
-        scale: program.scale,
-        ..Component::new(assembly, VERDICT_ONLY)
-    }
+    Component { scale: program.scale, ..Component::new(assembly, VERDICT_ONLY) }
 }

@@ -43,8 +43,7 @@ impl Component<'_> {
             (_, motion) = self.to_motions(&repair_motion(program, &unit, effort)?);
             proof = self.check_mechanism(&motion);
         }
-        self.accepts_motion(&motion, &proof)
-            .then_some((motion, proof))
+        self.accepts_motion(&motion, &proof).then_some((motion, proof))
     }
 
     /// True if a proof shows that no admissible forces can stop a motion. The proof must exclude even forces that are
@@ -62,10 +61,7 @@ impl Component<'_> {
     /// True if the power of the loads along a motion, minus the power that robots absorb, is larger than the power of
     /// any imbalance that a proof by forces accepts. Then no proof by forces can contradict the motion.
     pub(super) fn exceeds_force_tolerance(&self, motion: &[Motion], proof: &Proof) -> bool {
-        let speed_sum: f64 = motion
-            .iter()
-            .map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length)
-            .sum();
+        let speed_sum: f64 = motion.iter().map(|m| m.velocity.norm() + m.spin.abs() * self.assembly.length).sum();
         let heaviest = self.assembly.heaviest_load();
         let load = proof::moving_load(self.assembly, motion);
         matches!(proof, Proof::Mechanism { power, .. } if power * load > 2.0 * Proof::IMBALANCE_TOL * heaviest * speed_sum)
@@ -85,11 +81,7 @@ impl Component<'_> {
         }
         let velocity = total.normalize();
         let bodies = self.assembly.bodies.iter();
-        let mechanism = bodies.map(|body| Motion {
-            block: body.block,
-            velocity,
-            spin: 0.0,
-        });
+        let mechanism = bodies.map(|body| Motion { block: body.block, velocity, spin: 0.0 });
         let mechanism: Vec<Motion> = mechanism.collect();
         let proof = self.check_mechanism(&mechanism);
         Some((mechanism, proof))
@@ -120,9 +112,7 @@ impl Component<'_> {
 /// Scales a motion so that its fastest point has speed 1. Returns the speed before scaling.
 pub(super) fn to_speed_one(assembly: &Assembly, motion: &mut [Motion]) -> f64 {
     let bodies = assembly.bodies.iter();
-    let speeds = bodies
-        .zip(&*motion)
-        .map(|(body, motion)| fastest(body, motion));
+    let speeds = bodies.zip(&*motion).map(|(body, motion)| fastest(body, motion));
     let speed = speeds.fold(0.0, f64::max);
     if speed > 0.0 {
         for motion in motion {

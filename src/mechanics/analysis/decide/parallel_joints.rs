@@ -23,16 +23,8 @@ impl Component<'_> {
     /// Computes the forces of least sum of two simpler programs: one with nearly parallel joints made exactly
     /// parallel, and one without slight loads. Then changes these forces as little as possible, so that they balance
     /// in the real program.
-    pub(super) fn reduce_force_sum(
-        &self,
-        program: &Program,
-        found: LeastForce,
-        effort: &mut Effort,
-    ) -> LeastForce {
-        let simpler = [
-            program.with_parallel_joints(),
-            program.without_slight_loads(),
-        ];
+    pub(super) fn reduce_force_sum(&self, program: &Program, found: LeastForce, effort: &mut Effort) -> LeastForce {
+        let simpler = [program.with_parallel_joints(), program.without_slight_loads()];
         let mut best = found;
         for simpler in simpler.into_iter().flatten() {
             match self.least_force_near(program, &simpler, effort) {
@@ -45,12 +37,7 @@ impl Component<'_> {
 
     /// Returns the forces of least sum of the program `simpler`, changed to balance the loads of `program`. `None` if
     /// no such forces are found, or if their proof is too weak.
-    fn least_force_near(
-        &self,
-        program: &Program,
-        simpler: &Program,
-        effort: &mut Effort,
-    ) -> Option<LeastForce> {
+    fn least_force_near(&self, program: &Program, simpler: &Program, effort: &mut Effort) -> Option<LeastForce> {
         let wanted = |s: &&SolverSettings| s.choice != Choice::Any;
         let settings = self.settings.iter().find(wanted)?;
         let attempt = Strategy::Force(*settings).attempt(simpler);
@@ -61,11 +48,6 @@ impl Component<'_> {
             return None;
         }
         let (force_bound, least_force) = self.bound_force_sum(attempt.witness.as_deref(), &amounts);
-        Some(LeastForce {
-            amounts,
-            proof,
-            force_bound,
-            least_force,
-        })
+        Some(LeastForce { amounts, proof, force_bound, least_force })
     }
 }

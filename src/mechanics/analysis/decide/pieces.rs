@@ -33,8 +33,7 @@ impl Component<'_> {
             // 1. Join bodies that move nearly as one rigid body.
             let piece = rigid_pieces(self.assembly, motion, tolerance);
             let merged = self.assembly.merged(&piece);
-            if merged.bodies.is_empty() || MIN_BODIES_PER_PIECE * merged.bodies.len() > motion.len()
-            {
+            if merged.bodies.is_empty() || MIN_BODIES_PER_PIECE * merged.bodies.len() > motion.len() {
                 return None;
             }
             // 2. Correct the mean motion of each piece, in a smaller program.
@@ -44,8 +43,7 @@ impl Component<'_> {
             // 3. Convert the result to a motion of every body, and prove it.
             let body_motions = self.body_motions(&merged, &piece, &y);
             let proof = self.check_mechanism(&body_motions);
-            self.accepts_motion(&body_motions, &proof)
-                .then_some((body_motions, proof))
+            self.accepts_motion(&body_motions, &proof).then_some((body_motions, proof))
         })
     }
 
@@ -61,11 +59,7 @@ impl Component<'_> {
                     let arm = body.centroid - merged.bodies[k].centroid;
                     velocity = Vector::new(y[3 * k], y[3 * k + 1]) + quarter_turn(arm) * spin;
                 }
-                Motion {
-                    block: body.block,
-                    velocity,
-                    spin,
-                }
+                Motion { block: body.block, velocity, spin }
             })
             .collect();
         to_speed_one(self.assembly, &mut motion);
@@ -115,12 +109,7 @@ fn rigid_pieces(assembly: &Assembly, motion: &[Motion], tolerance: f64) -> Vec<O
 }
 
 /// Returns the mean velocity and spin of the bodies of each piece: three numbers for each piece, in program units.
-fn mean_velocities(
-    piece: &[Option<usize>],
-    motion: &[Motion],
-    count: usize,
-    length: f64,
-) -> Vec<f64> {
+fn mean_velocities(piece: &[Option<usize>], motion: &[Motion], count: usize, length: f64) -> Vec<f64> {
     let (mut sum, mut members) = (vec![0.0; 3 * count], vec![0.0; count]);
     for (piece, motion) in piece.iter().zip(motion) {
         if let Some(k) = *piece {

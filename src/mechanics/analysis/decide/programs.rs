@@ -71,12 +71,7 @@ impl Component<'_> {
     /// before the deadline, the decision is undecided.
     pub fn decide_by_programs(&self, program: &Program) -> Decision {
         let mut progress = Progress::default();
-        let strategies = Strategy::in_order(
-            program,
-            &self.settings,
-            self.limit_distance,
-            self.complete_result,
-        );
+        let strategies = Strategy::in_order(program, &self.settings, self.limit_distance, self.complete_result);
         for strategy in strategies {
             // After the deadline, stop and report the last attempt: even setting up the next program takes time.
             if progress.last.is_some() && is_late() {
@@ -85,9 +80,8 @@ impl Component<'_> {
             // Solve one program, then try to prove its forces, then its motion.
             let attempt = strategy.attempt(program);
             progress.effort = progress.effort.plus(attempt.effort);
-            progress.least_force_failed |= strategy.is_full_least_force()
-                && attempt.forces.is_none()
-                && attempt.motion.is_none();
+            progress.least_force_failed |=
+                strategy.is_full_least_force() && attempt.forces.is_none() && attempt.motion.is_none();
             let decided = self
                 .decide_by_forces(program, strategy, &attempt, &mut progress)
                 .or_else(|| self.decide_by_motion(program, strategy, &attempt, &mut progress));
@@ -121,12 +115,7 @@ impl Component<'_> {
                 // Check how close the sum of the forces is to the least sum.
                 let witness = attempt.witness.as_deref();
                 let (force_bound, least_force) = self.bound_force_sum(witness, &amounts);
-                let mut found = LeastForce {
-                    amounts,
-                    proof,
-                    force_bound,
-                    least_force,
-                };
+                let mut found = LeastForce { amounts, proof, force_bound, least_force };
                 // If joints are nearly parallel, the program of least force may end without a result. Then simpler
                 // programs reduce the sum.
                 if !least_force && progress.least_force_failed {
@@ -168,9 +157,7 @@ impl Component<'_> {
         let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut progress.effort));
         // A motion decides alone if its power is larger than the power of any imbalance that a proof by forces accepts.
-        let is_strong = proved
-            .as_ref()
-            .is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
+        let is_strong = proved.as_ref().is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
         let (mechanism, proof) = proved.or(progress.weak_motion.take())?;
         // Otherwise the motion is weak. It decides only if a program shows that no forces balance the loads.
         if !is_strong && !strategy.excludes_balance(attempt) {
@@ -181,10 +168,7 @@ impl Component<'_> {
             verdict: Verdict::Unstable,
             mechanism,
             proof,
-            least_adhesion: attempt
-                .least_adhesion
-                .clone()
-                .or(progress.least_adhesion.take()),
+            least_adhesion: attempt.least_adhesion.clone().or(progress.least_adhesion.take()),
             ..progress.decision(program, strategy)
         })
     }
@@ -205,14 +189,10 @@ impl Component<'_> {
         let weak = progress.weak_motion.map(|(_, proof)| proof);
         let motion = attempt.as_ref().and_then(|a| a.motion.as_ref());
         // The reason for the undecided verdict reports the errors of the forces and of the motion.
-        let unproved_motion =
-            weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
+        let unproved_motion = weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
         Decision {
             verdict: Verdict::Undecided,
-            doubt: Some(UndecidedReason::Unproved {
-                forces: proof,
-                motion: unproved_motion,
-            }),
+            doubt: Some(UndecidedReason::Unproved { forces: proof, motion: unproved_motion }),
             amounts,
             proof,
             ..decision
@@ -233,10 +213,7 @@ impl Decision {
             adhesion: None,
             adhesion_cannot_hold: false,
             mechanism: Vec::new(),
-            proof: Proof::Mechanism {
-                power: 0.0,
-                worst_violation: 0.0,
-            },
+            proof: Proof::Mechanism { power: 0.0, worst_violation: 0.0 },
             method,
             least_force_failed: false,
             least_adhesion: None,
@@ -272,19 +249,9 @@ mod tests {
         });
         let component = Component::new(&assembly, Options::default());
         let program = Program::new(&assembly, Scale::from_assembly(&assembly));
-        let motion = Motion {
-            block: BlockId(0),
-            velocity: crate::geometry::Vector::new(1.0, 0.0),
-            spin: 0.0,
-        };
-        let weak = Proof::Mechanism {
-            power: 1e-9,
-            worst_violation: 0.0,
-        };
-        let progress = Progress {
-            weak_motion: Some((vec![motion], weak)),
-            ..Progress::default()
-        };
+        let motion = Motion { block: BlockId(0), velocity: crate::geometry::Vector::new(1.0, 0.0), spin: 0.0 };
+        let weak = Proof::Mechanism { power: 1e-9, worst_violation: 0.0 };
+        let progress = Progress { weak_motion: Some((vec![motion], weak)), ..Progress::default() };
         let decision = component.without_proof(&program, progress);
         assert_eq!(decision.verdict, Verdict::Undecided);
         assert!(decision.mechanism.is_empty());

@@ -36,10 +36,7 @@ impl ProofCache {
             self.forces.remove(0);
         }
         let points = assembly.contacts.iter().map(|contact| contact.points);
-        self.forces.push(CachedForces {
-            forces,
-            points: points.collect(),
-        });
+        self.forces.push(CachedForces { forces, points: points.collect() });
     }
 
     /// Stores a motion, which has one entry for each body. The oldest motion is removed if the cache is full.
@@ -68,9 +65,7 @@ impl ProofCache {
         let mut latest_first = self.forces.iter().rev();
         latest_first.any(|cached| {
             let forces = cached.transfer_to(component.assembly);
-            forces.is_some_and(|forces| {
-                component.accepts(&proof::check_forces(component.assembly, &forces))
-            })
+            forces.is_some_and(|forces| component.accepts(&proof::check_forces(component.assembly, &forces)))
         })
     }
 
@@ -80,8 +75,7 @@ impl ProofCache {
         let mut latest_first = self.motions.iter().rev();
         let proves = |motion: &&Vec<Motion>| {
             let proof = component.check_mechanism(motion);
-            component.accepts_motion(motion, &proof)
-                && component.exceeds_force_tolerance(motion, &proof)
+            component.accepts_motion(motion, &proof) && component.exceeds_force_tolerance(motion, &proof)
         };
         latest_first.find(proves).cloned()
     }
@@ -95,8 +89,7 @@ impl CachedForces {
         let contacts = assembly.contacts.iter().zip(&self.points);
         for (contact_forces, (contact, points)) in forces.contacts.iter_mut().zip(contacts) {
             if contact.points != *points {
-                contact_forces.normal =
-                    transfer_normal_forces(contact_forces, points, &contact.points)?;
+                contact_forces.normal = transfer_normal_forces(contact_forces, points, &contact.points)?;
             }
         }
         Some(forces)
@@ -105,11 +98,7 @@ impl CachedForces {
 
 /// Returns the two normal forces at the points `to` that have the same resultant as those at the points `from`. `None`
 /// if one of them would be tension.
-fn transfer_normal_forces(
-    contact_forces: &ContactForces,
-    from: &[Point; 2],
-    to: &[Point; 2],
-) -> Option<[f64; 2]> {
+fn transfer_normal_forces(contact_forces: &ContactForces, from: &[Point; 2], to: &[Point; 2]) -> Option<[f64; 2]> {
     let [first, second] = contact_forces.normal;
     let sum = first + second;
     let along = to[1] - to[0];
@@ -141,34 +130,15 @@ mod tests {
     /// The resultant of 2 N at 0 m and 6 N at 4 m lies at 3 m.
     #[test]
     fn normal_forces_move_to_other_points_with_the_same_resultant() {
-        let contact_forces = ContactForces {
-            normal: [2.0, 6.0],
-            friction: 1.0,
-        };
+        let contact_forces = ContactForces { normal: [2.0, 6.0], friction: 1.0 };
         let stretch = |from: f64, to: f64| [Point::new(from, 1.0), Point::new(to, 1.0)];
         let given = stretch(0.0, 4.0);
-        let found = transfer_normal_forces(&contact_forces, &given, &stretch(0.5, 3.5))
-            .expect("between the points");
+        let found = transfer_normal_forces(&contact_forces, &given, &stretch(0.5, 3.5)).expect("between the points");
         assert!((found[0] - 4.0 / 3.0).abs() < 1e-14 && (found[1] - 20.0 / 3.0).abs() < 1e-14);
-        assert_eq!(
-            transfer_normal_forces(&contact_forces, &given, &stretch(1.0, 3.0)),
-            Some([0.0, 8.0])
-        );
-        assert_eq!(
-            transfer_normal_forces(&contact_forces, &given, &stretch(1.5, 2.5)),
-            None
-        );
-        assert_eq!(
-            transfer_normal_forces(&contact_forces, &given, &stretch(2.0, 2.0)),
-            None
-        );
-        let middle = ContactForces {
-            normal: [4.0, 4.0],
-            ..contact_forces
-        };
-        assert_eq!(
-            transfer_normal_forces(&middle, &given, &stretch(2.0, 2.0)),
-            Some([4.0, 4.0])
-        );
+        assert_eq!(transfer_normal_forces(&contact_forces, &given, &stretch(1.0, 3.0)), Some([0.0, 8.0]));
+        assert_eq!(transfer_normal_forces(&contact_forces, &given, &stretch(1.5, 2.5)), None);
+        assert_eq!(transfer_normal_forces(&contact_forces, &given, &stretch(2.0, 2.0)), None);
+        let middle = ContactForces { normal: [4.0, 4.0], ..contact_forces };
+        assert_eq!(transfer_normal_forces(&middle, &given, &stretch(2.0, 2.0)), Some([4.0, 4.0]));
     }
 }

@@ -61,12 +61,7 @@ pub(super) struct FallingPart {
 impl Component<'_> {
     /// Corrects forces until they balance every body, or proves that some bodies fall. Returns
     /// [`RebalanceOutcome::Undecided`] if neither succeeds.
-    pub fn rebalance_locally(
-        &self,
-        program: &Program,
-        amounts: &Amounts,
-        effort: &mut Effort,
-    ) -> RebalanceOutcome {
+    pub fn rebalance_locally(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> RebalanceOutcome {
         let largest_load = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * largest_load {
             return RebalanceOutcome::Undecided;
@@ -74,10 +69,7 @@ impl Component<'_> {
         let mut amounts = amounts.clone();
         let failing = |proved: &ProvedForces| -> Vec<bool> {
             let imbalance = proof::imbalances(self.assembly, &proved.forces);
-            imbalance
-                .iter()
-                .map(|imbalance| *imbalance > self.threshold.imbalance)
-                .collect()
+            imbalance.iter().map(|imbalance| *imbalance > self.threshold.imbalance).collect()
         };
         let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
         let mut all_at_once = true;
@@ -100,9 +92,7 @@ impl Component<'_> {
             // Step 2: change all forces as little as possible. If this fails once, do not try it again.
             if all_at_once {
                 match rebalance_absolute(program, &amounts, effort) {
-                    Some(improved)
-                        if count(&failing(&self.prove_forces(&improved))) < count(&fails) =>
-                    {
+                    Some(improved) if count(&failing(&self.prove_forces(&improved))) < count(&fails) => {
                         amounts = improved;
                         continue;
                     }
@@ -148,12 +138,7 @@ impl Component<'_> {
 
     /// Corrects the forces on one set of bodies, while all other bodies are fixed. If this fails, decides whether the
     /// set falls.
-    fn rebalance_part(
-        &self,
-        part: &Substructure,
-        amounts: &Amounts,
-        effort: &mut Effort,
-    ) -> PartOutcome {
+    fn rebalance_part(&self, part: &Substructure, amounts: &Amounts, effort: &mut Effort) -> PartOutcome {
         let component = Component {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
@@ -170,8 +155,7 @@ impl Component<'_> {
         let program = Program::new(&part.assembly, component.scale);
         let part_amounts_before = self.part_amounts(amounts, part, component.scale);
         let imbalance = |amounts: &Amounts| {
-            let imbalance =
-                proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
+            let imbalance = proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
             imbalance.into_iter().fold(0.0, f64::max)
         };
         if let Some(improved) = rebalance_absolute(&program, &part_amounts_before, effort)
@@ -187,11 +171,9 @@ impl Component<'_> {
         }
         if let Some(found) = component.in_closed_form(&program) {
             return match found.verdict {
-                Verdict::Unstable => PartOutcome::Falls(PartFall {
-                    mechanism: found.mechanism,
-                    amounts: None,
-                    adhesion: None,
-                }),
+                Verdict::Unstable => {
+                    PartOutcome::Falls(PartFall { mechanism: found.mechanism, amounts: None, adhesion: None })
+                }
                 _ => PartOutcome::Undecided,
             };
         }
@@ -221,11 +203,7 @@ impl Component<'_> {
             .assembly
             .bodies
             .iter()
-            .map(|body| Motion {
-                block: body.block,
-                velocity: Vector::zeros(),
-                spin: 0.0,
-            })
+            .map(|body| Motion { block: body.block, velocity: Vector::zeros(), spin: 0.0 })
             .collect();
         let mut adhesion = Some(Amounts::zero(program));
         for (part, fall) in falling {
@@ -244,12 +222,7 @@ impl Component<'_> {
         if !self.accepts_motion(&mechanism, &proof) {
             return RebalanceOutcome::Undecided;
         }
-        RebalanceOutcome::Falls(FallingPart {
-            mechanism,
-            proof,
-            amounts,
-            adhesion,
-        })
+        RebalanceOutcome::Falls(FallingPart { mechanism, proof, amounts, adhesion })
     }
 
     /// Selects the forces that act on a part, and converts them to the units of `scale`.
@@ -294,16 +267,8 @@ fn in_units(amounts: &Amounts, from: Scale, to: Scale) -> Amounts {
     let force = from.force / to.force;
     let torque = force * from.length / to.length;
     Amounts {
-        normal: amounts
-            .normal
-            .iter()
-            .map(|pair| pair.map(|v| v * force))
-            .collect(),
+        normal: amounts.normal.iter().map(|pair| pair.map(|v| v * force)).collect(),
         friction: amounts.friction.iter().map(|v| v * force).collect(),
-        grip: amounts
-            .grip
-            .iter()
-            .map(|[x, y, m]| [x * force, y * force, m * torque])
-            .collect(),
+        grip: amounts.grip.iter().map(|[x, y, m]| [x * force, y * force, m * torque]).collect(),
     }
 }

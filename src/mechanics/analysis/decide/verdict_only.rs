@@ -23,19 +23,14 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     if cached.0 != Verdict::Undecided || is_late() {
         return cached;
     }
-    let component = Component {
-        limit_distance,
-        ..Component::new(assembly, VERDICT_ONLY)
-    };
+    let component = Component { limit_distance, ..Component::new(assembly, VERDICT_ONLY) };
     let program = Program::new(assembly, component.scale);
     if let Some(found) = component.in_closed_form(&program) {
         return (found.verdict, found.mechanism);
     }
     let decision = decide_without_non_binding_limits(&component, &program);
     match decision.verdict {
-        Verdict::Stable => {
-            cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces)
-        }
+        Verdict::Stable => cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces),
         Verdict::Unstable => cache.add_motion(decision.mechanism.clone()),
         Verdict::Undecided => {}
     }
@@ -45,10 +40,7 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
 /// Returns the error of the most accurate known forces that balance an assembly, as `Proof::force_error` defines it.
 /// Known forces are those in the cache, and those that the balance equations alone determine. `None` if no such forces
 /// are known.
-pub(in crate::mechanics::analysis) fn least_force_error(
-    assembly: &Assembly,
-    cache: &ProofCache,
-) -> Option<f64> {
+pub(in crate::mechanics::analysis) fn least_force_error(assembly: &Assembly, cache: &ProofCache) -> Option<f64> {
     let component = Component::new(assembly, VERDICT_ONLY);
     let program = Program::new(assembly, component.scale);
     let determinate = component.in_closed_form(&program);
@@ -77,17 +69,11 @@ pub(in crate::mechanics::analysis) fn verdict_from_cache(
 }
 
 /// The options for margins and capacities, which need only the verdict.
-pub(super) const VERDICT_ONLY: Options = Options {
-    verdict_only: true,
-    ..Options::PLAIN
-};
+pub(super) const VERDICT_ONLY: Options = Options { verdict_only: true, ..Options::PLAIN };
 
 /// Computes only the verdict of a component. First ignores the limits of robots that are far above the loads. Uses all
 /// limits if this gives no decision.
-pub(super) fn decide_without_non_binding_limits(
-    component: &Component,
-    program: &Program,
-) -> Decision {
+pub(super) fn decide_without_non_binding_limits(component: &Component, program: &Program) -> Decision {
     // A motion that stronger robots cannot stop is a mechanism with the real limits, too.
     if let Some(generous) = program.without_non_binding_limits() {
         let decision = component.decide_by_programs(&generous);
@@ -118,10 +104,7 @@ pub(in crate::mechanics::analysis) fn add_limit_to_cache(
     results: &LimitResults,
     cache: &mut ProofCache,
 ) -> Option<Forces> {
-    let component = |assembly| Component {
-        scale: results.program.scale,
-        ..Component::new(assembly, VERDICT_ONLY)
-    };
+    let component = |assembly| Component { scale: results.program.scale, ..Component::new(assembly, VERDICT_ONLY) };
     if let Some((y, assembly)) = results.motion {
         let mut effort = Effort::default();
         let found = component(assembly).prove_motion(results.program, y, &mut effort);

@@ -45,9 +45,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
                 let wedged = Wedged::new(assembly, component.scale, &self_stress);
                 return (Some(true), Wedging::OnlyByWedging(shown), Some(wedged));
             }
-            SelfStressCheck::Undecided(doubt) => {
-                answer = (None, Wedging::Undecided(doubt.to_string()), None)
-            }
+            SelfStressCheck::Undecided(doubt) => answer = (None, Wedging::Undecided(doubt.to_string()), None),
         }
     }
     answer
@@ -61,27 +59,16 @@ fn describe<'n>(
     body: impl Fn(usize) -> &'n str,
     face: impl Fn(usize) -> String,
 ) -> String {
-    let moving = self_stress
-        .moving_blocks()
-        .map(|block| body(block).to_string());
-    let mut words = format!(
-        "as the springs give way, these blocks move: {}",
-        first_names(moving)
-    );
+    let moving = self_stress.moving_blocks().map(|block| body(block).to_string());
+    let mut words = format!("as the springs give way, these blocks move: {}", first_names(moving));
     if self_stress.presses_nothing {
         words.push_str(" (they press no contact)");
     }
     let faces = first_names(self_stress.contacts.iter().map(|contact| face(*contact)));
     if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
-        words.push_str(&format!(
-            "; in every balance, the normal forces at {faces} sum to {} or more",
-            force(least)
-        ));
+        words.push_str(&format!("; in every balance, the normal forces at {faces} sum to {} or more", force(least)));
     }
-    words.push_str(&format!(
-        "; cases of pressing and sliding ruled out: {}",
-        self_stress.ruled_out.len()
-    ));
+    words.push_str(&format!("; cases of pressing and sliding ruled out: {}", self_stress.ruled_out.len()));
     words
 }
 

@@ -37,33 +37,20 @@ impl Threshold {
     /// Creates the search for the smallest value from 0 to `max_value` at which the component stands, such as its least
     /// friction.
     pub fn smallest_stable(max_value: f64) -> Threshold {
-        Threshold {
-            stable_side: StableSide::Above,
-            typical: 1.0,
-            max_value,
-        }
+        Threshold { stable_side: StableSide::Above, typical: 1.0, max_value }
     }
 
     /// Creates the search for the largest value from 0 to `max_value` at which the component stands, such as its
     /// largest kernel.
     pub fn largest_stable(max_value: f64) -> Threshold {
-        Threshold {
-            stable_side: StableSide::Below,
-            ..Threshold::smallest_stable(max_value)
-        }
+        Threshold { stable_side: StableSide::Below, ..Threshold::smallest_stable(max_value) }
     }
 
     /// Returns the interval of values at which the component stands: from 0 to `end`, or from `end` upwards.
     fn interval(&self, end: End) -> Interval {
         match self.stable_side {
-            StableSide::Below => Interval::Between {
-                low: End::natural(0.0),
-                high: end,
-            },
-            StableSide::Above => Interval::Between {
-                low: end,
-                high: End::Unbounded,
-            },
+            StableSide::Below => Interval::Between { low: End::natural(0.0), high: end },
+            StableSide::Above => Interval::Between { low: end, high: End::Unbounded },
         }
     }
 
@@ -120,11 +107,7 @@ impl Threshold {
         };
         // Find the threshold with Newton's method. Then compute verdicts at values just below and just above it.
         let root = self.newton_root(trial, setting, [inside, outside]);
-        let mut bracket = Bracket {
-            inside,
-            outside,
-            mechanism: None,
-        };
+        let mut bracket = Bracket { inside, outside, mechanism: None };
         if let Some(root) = root {
             self.enclose(trial, setting, &mut bracket, root);
         }
@@ -139,11 +122,7 @@ impl Threshold {
     /// stable only within the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some
     /// loads are slight.
     fn sharpened(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, end: End) -> End {
-        let End::At {
-            mut value,
-            mut mechanism,
-        } = end
-        else {
+        let End::At { mut value, mut mechanism } = end else {
             return end;
         };
         for _ in 0..Self::MAX_SHARPENINGS {
@@ -168,16 +147,8 @@ impl Threshold {
 
     /// Computes verdicts on both sides of `root`, the threshold according to Newton's method, as near to it as
     /// possible. Narrows the bracket to these values.
-    fn enclose(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        bracket: &mut Bracket,
-        root: f64,
-    ) {
-        let within = |value: &f64, bracket: &Bracket| {
-            (value - bracket.inside) * (value - bracket.outside) < 0.0
-        };
+    fn enclose(&self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, bracket: &mut Bracket, root: f64) {
+        let within = |value: &f64, bracket: &Bracket| (value - bracket.inside) * (value - bracket.outside) < 0.0;
         for value in self.test_values(root, Side::Inside) {
             if within(&value, bracket) && bracket.test(trial, setting, value) == Verdict::Stable {
                 break;
@@ -210,22 +181,15 @@ impl Threshold {
         let is_zero = |value: f64| value < Self::MIN_OFFSET * self.typical;
         let width = |bracket: &Bracket| {
             let size = bracket.inside.max(bracket.outside);
-            (bracket.inside - bracket.outside).abs()
-                / size.max(Self::MIN_TYPICAL_SHARE * self.typical)
+            (bracket.inside - bracket.outside).abs() / size.max(Self::MIN_TYPICAL_SHARE * self.typical)
         };
-        let is_around = |bracket: &Bracket, root: &f64| {
-            (root - bracket.inside) * (root - bracket.outside) <= 0.0
+        let is_around = |bracket: &Bracket, root: &f64| (root - bracket.inside) * (root - bracket.outside) <= 0.0;
+        let is_narrow_enough = |bracket: &Bracket| match root.filter(|root| is_around(bracket, root)) {
+            Some(_) => width(bracket) <= Self::BRACKET_TOL,
+            None => width(bracket) <= Self::MIN_OFFSET,
         };
-        let is_narrow_enough =
-            |bracket: &Bracket| match root.filter(|root| is_around(bracket, root)) {
-                Some(_) => width(bracket) <= Self::BRACKET_TOL,
-                None => width(bracket) <= Self::MIN_OFFSET,
-            };
         let mut is_decided = true;
-        while is_decided
-            && !is_narrow_enough(&bracket)
-            && !is_zero(bracket.inside.max(bracket.outside))
-        {
+        while is_decided && !is_narrow_enough(&bracket) && !is_zero(bracket.inside.max(bracket.outside)) {
             let middle = 0.5 * (bracket.inside + bracket.outside);
             is_decided = bracket.test(trial, setting, middle) != Verdict::Undecided;
         }
@@ -234,40 +198,25 @@ impl Threshold {
             return End::natural(0.0);
         }
         let root = root.filter(|root| is_around(&bracket, root));
-        let is_close = width(&bracket)
-            <= if root.is_some() {
-                Self::BRACKET_TOL
-            } else {
-                2.0 * Self::MIN_OFFSET
-            };
+        let is_close = width(&bracket) <= if root.is_some() { Self::BRACKET_TOL } else { 2.0 * Self::MIN_OFFSET };
         let is_confirmed = is_close || is_zero(bracket.inside.max(bracket.outside));
         let reaches_max = self.reaches_max(&bracket);
         match bracket.mechanism.filter(|_| is_confirmed) {
             Some(mechanism) => {
                 let value = root.unwrap_or(bracket.inside);
-                End::At {
-                    value: if is_zero(value) { 0.0 } else { value },
-                    mechanism,
-                }
+                End::At { value: if is_zero(value) { 0.0 } else { value }, mechanism }
             }
             // The verdict is undecided only within 1e-6 of the largest value, so the interval ends at the largest
             // value.
-            None if reaches_max && self.stands_just_below_max(trial, setting) => {
-                End::natural(self.max_value)
-            }
-            None => End::Unconfirmed {
-                stands: bracket.inside,
-                beyond: bracket.outside,
-            },
+            None if reaches_max && self.stands_just_below_max(trial, setting) => End::natural(self.max_value),
+            None => End::Unconfirmed { stands: bracket.inside, beyond: bracket.outside },
         }
     }
 
     /// True if no fall was found up to the largest value: the search is for the largest admissible value, and the
     /// bracket ends at `max_value` without a mechanism.
     fn reaches_max(&self, bracket: &Bracket) -> bool {
-        self.stable_side == StableSide::Below
-            && bracket.outside == self.max_value
-            && bracket.mechanism.is_none()
+        self.stable_side == StableSide::Below && bracket.outside == self.max_value && bracket.mechanism.is_none()
     }
 
     /// True if the component stands at a value that is 1e-6 (relative) below the largest value.
@@ -279,36 +228,28 @@ impl Threshold {
     /// Returns values at growing distances from `threshold`, on the side where the component stands (`Inside`)
     /// or falls (`Beyond`).
     pub(super) fn test_values(&self, threshold: f64, side: Side) -> impl Iterator<Item = f64> {
-        let scale = if threshold > 0.0 {
-            threshold
-        } else {
-            self.typical
-        };
+        let scale = if threshold > 0.0 { threshold } else { self.typical };
         let sign = match (self.stable_side, side) {
             (StableSide::Below, Side::Beyond) | (StableSide::Above, Side::Inside) => scale,
             _ => -scale,
         };
         let max_offset = match side {
             Side::Inside => Self::MAX_OFFSET,
-            Side::Beyond => {
-                Self::MAX_OFFSET * (Self::MIN_TYPICAL_SHARE * self.typical / scale).max(1.0)
-            }
+            Side::Beyond => Self::MAX_OFFSET * (Self::MIN_TYPICAL_SHARE * self.typical / scale).max(1.0),
         };
         let max_value = match self.stable_side {
             StableSide::Below => self.max_value,
             StableSide::Above => f64::INFINITY,
         };
         let mut is_clamped = false;
-        std::iter::successors(Some(Self::MIN_OFFSET), |step| {
-            Some(step * Self::OFFSET_GROWTH)
-        })
-        .take_while(move |step| *step <= max_offset)
-        .map(move |step| (threshold + sign * step).clamp(0.0, max_value))
-        // Steps that pass 0 or `max_value` are clamped to this limit. Return the limit once, then stop.
-        .take_while(move |value| {
-            let last = *value == 0.0 || *value == max_value;
-            !std::mem::replace(&mut is_clamped, last)
-        })
+        std::iter::successors(Some(Self::MIN_OFFSET), |step| Some(step * Self::OFFSET_GROWTH))
+            .take_while(move |step| *step <= max_offset)
+            .map(move |step| (threshold + sign * step).clamp(0.0, max_value))
+            // Steps that pass 0 or `max_value` are clamped to this limit. Return the limit once, then stop.
+            .take_while(move |value| {
+                let last = *value == 0.0 || *value == max_value;
+                !std::mem::replace(&mut is_clamped, last)
+            })
     }
 }
 

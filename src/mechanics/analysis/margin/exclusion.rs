@@ -20,27 +20,17 @@ pub struct Exclusion {
 impl Exclusion {
     /// Creates the exclusion of all values: the frame falls by this motion at every value of the parameter.
     pub(super) fn everywhere(mechanism: Vec<Motion>) -> Exclusion {
-        Exclusion {
-            from: None,
-            to: None,
-            mechanism,
-        }
+        Exclusion { from: None, to: None, mechanism }
     }
 
     /// Creates the exclusion of all values below `to`, where the frame falls by this motion.
     pub(super) fn below(to: f64, mechanism: Vec<Motion>) -> Exclusion {
-        Exclusion {
-            to: Some(to),
-            ..Exclusion::everywhere(mechanism)
-        }
+        Exclusion { to: Some(to), ..Exclusion::everywhere(mechanism) }
     }
 
     /// Creates the exclusion of all values above `from`, where the frame falls by this motion.
     pub(super) fn above(from: f64, mechanism: Vec<Motion>) -> Exclusion {
-        Exclusion {
-            from: Some(from),
-            ..Exclusion::everywhere(mechanism)
-        }
+        Exclusion { from: Some(from), ..Exclusion::everywhere(mechanism) }
     }
 }
 
@@ -50,19 +40,14 @@ impl Exclusion {
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
     let ends = |arc: &Exclusion| {
         let [from, to] = [arc.from, arc.to];
-        (
-            from.unwrap_or(f64::NEG_INFINITY),
-            to.unwrap_or(f64::INFINITY),
-        )
+        (from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY))
     };
     let first = arcs.iter().map(|arc| ends(arc).0);
     let (first, mut kept) = (first.fold(f64::INFINITY, f64::min), Vec::new());
     let mut reached = first;
     while reached < first + 360.0 {
         // Of the arcs that begin within the covered range, choose the arc that ends farthest.
-        let joined = arcs
-            .iter()
-            .filter(|arc| ends(arc).0 <= reached + gap(reached));
+        let joined = arcs.iter().filter(|arc| ends(arc).0 <= reached + gap(reached));
         let farthest = joined.max_by(|a, b| ends(a).1.total_cmp(&ends(b).1));
         match farthest.filter(|arc| ends(arc).1 > reached) {
             Some(arc) => {
@@ -80,28 +65,14 @@ mod tests {
     use super::*;
 
     fn arc(from: f64, to: f64) -> Exclusion {
-        Exclusion {
-            from: Some(from),
-            to: Some(to),
-            mechanism: Vec::new(),
-        }
+        Exclusion { from: Some(from), to: Some(to), mechanism: Vec::new() }
     }
 
     #[test]
     fn a_full_turn_is_covered_by_the_fewest_arcs() {
-        let all = vec![
-            arc(-10.0, 60.0),
-            arc(20.0, 40.0),
-            arc(50.0, 170.0),
-            arc(55.0, 120.0),
-            arc(-190.0, -9.0),
-        ];
+        let all = vec![arc(-10.0, 60.0), arc(20.0, 40.0), arc(50.0, 170.0), arc(55.0, 120.0), arc(-190.0, -9.0)];
         let found = fewest_arcs(&all, |_| 1e-6);
-        assert_eq!(
-            found,
-            [all[4].clone(), all[0].clone(), all[2].clone()],
-            "{found:?}"
-        );
+        assert_eq!(found, [all[4].clone(), all[0].clone(), all[2].clone()], "{found:?}");
         let open = &all[..4];
         assert_eq!(fewest_arcs(open, |_| 1e-6), open);
     }

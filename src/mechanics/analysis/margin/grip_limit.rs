@@ -25,12 +25,7 @@ pub(super) fn robots(trial: &mut Trial, stands: bool) -> Vec<RobotIntervals> {
     let mut found = found.into_iter();
     let of_robot = |robot| {
         let (fx, fy, torque) = (found.next()?, found.next()?, found.next()?);
-        Some(RobotIntervals {
-            robot,
-            fx,
-            fy,
-            torque,
-        })
+        Some(RobotIntervals { robot, fx, fy, torque })
     };
     robots.into_iter().filter_map(of_robot).collect()
 }
@@ -45,17 +40,11 @@ fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut 
         found.extend(alone);
         return;
     }
-    let setting = |value: f64| Setting {
-        limits: LimitChange::Replace { first, end, value },
-        ..Setting::default()
-    };
+    let setting = |value: f64| Setting { limits: LimitChange::Replace { first, end, value }, ..Setting::default() };
     let settled = match stands {
         true => {
             let verdict = trial.decide(&setting(0.0)).0;
-            (verdict == Verdict::Stable).then(|| Interval::Between {
-                low: End::natural(0.0),
-                high: End::Unbounded,
-            })
+            (verdict == Verdict::Stable).then(|| Interval::Between { low: End::natural(0.0), high: End::Unbounded })
         }
         false => match trial.decide(&setting(f64::INFINITY)) {
             (Verdict::Unstable, motion) => Some(Interval::excluded_by(motion)),
@@ -76,11 +65,7 @@ fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut 
 /// is force x, 1 is force y, 2 is the torque. `stands` is true if the component stands with the limits of the scene.
 fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Interval {
     let setting = |value: f64| Setting {
-        limits: LimitChange::Replace {
-            first: 3 * grip + component,
-            end: 3 * grip + component + 1,
-            value,
-        },
+        limits: LimitChange::Replace { first: 3 * grip + component, end: 3 * grip + component + 1, value },
         ..Setting::default()
     };
     let program = trial.program(&Setting::default());
@@ -116,8 +101,5 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
         }
         _ => None,
     };
-    Interval::Between {
-        low: line.end(trial, line.finite_start(enough), -1.0, hint),
-        high: End::Unbounded,
-    }
+    Interval::Between { low: line.end(trial, line.finite_start(enough), -1.0, hint), high: End::Unbounded }
 }

@@ -53,10 +53,7 @@ impl End {
     /// Creates an end at the first or last possible value of a parameter, such as friction 0. The structure stands
     /// there, so the end has no mechanism.
     pub(super) fn natural(value: f64) -> End {
-        End::At {
-            value,
-            mechanism: Vec::new(),
-        }
+        End::At { value, mechanism: Vec::new() }
     }
 
     /// Returns the value of this end. `None` if the interval is unbounded on this side, or if the end is not confirmed.
@@ -83,10 +80,7 @@ const SAME_VALUE: f64 = 1e-9;
 
 impl Interval {
     /// All values.
-    pub(super) const UNBOUNDED: Interval = Interval::Between {
-        low: End::Unbounded,
-        high: End::Unbounded,
-    };
+    pub(super) const UNBOUNDED: Interval = Interval::Between { low: End::Unbounded, high: End::Unbounded };
 
     /// Returns an empty interval: the frame falls by this motion at every value.
     pub(super) fn excluded_by(mechanism: Vec<Motion>) -> Interval {
@@ -124,8 +118,7 @@ impl Interval {
     pub fn excludes(&self, value: f64) -> bool {
         match self {
             Interval::Between { low, high } => {
-                low.value().is_some_and(|low| value < low)
-                    || high.value().is_some_and(|high| high < value)
+                low.value().is_some_and(|low| value < low) || high.value().is_some_and(|high| high < value)
             }
             Interval::Empty(_) => true,
             Interval::Undecided => false,
@@ -141,27 +134,13 @@ impl Interval {
             }
             (empty @ Interval::Empty(_), _) | (_, empty @ Interval::Empty(_)) => return empty,
             (Interval::Undecided, _) | (_, Interval::Undecided) => return Interval::Undecided,
-            (
-                Interval::Between { low, high },
-                Interval::Between {
-                    low: other_low,
-                    high: other_high,
-                },
-            ) => {
+            (Interval::Between { low, high }, Interval::Between { low: other_low, high: other_high }) => {
                 // Take the larger of the two lower ends. An unbounded end counts as −∞.
                 let [a, b] = [&low, &other_low].map(|end| end.stands(f64::NEG_INFINITY));
-                let low = if b.total_cmp(&a) == Ordering::Greater {
-                    other_low
-                } else {
-                    low
-                };
+                let low = if b.total_cmp(&a) == Ordering::Greater { other_low } else { low };
                 // Take the smaller of the two upper ends.
                 let [a, b] = [&high, &other_high].map(|end| end.stands(f64::INFINITY));
-                let high = if b.total_cmp(&a) == Ordering::Less {
-                    other_high
-                } else {
-                    high
-                };
+                let high = if b.total_cmp(&a) == Ordering::Less { other_high } else { high };
                 (low, high)
             }
         };
@@ -172,19 +151,9 @@ impl Interval {
         }
         match (low, high) {
             // No value suits both components: one falls below its lower end, the other falls above its upper end.
-            (
-                End::At {
-                    value: low,
-                    mechanism: below,
-                },
-                End::At {
-                    value: high,
-                    mechanism: above,
-                },
-            ) => Interval::Empty(vec![
-                Exclusion::below(low, below),
-                Exclusion::above(high, above),
-            ]),
+            (End::At { value: low, mechanism: below }, End::At { value: high, mechanism: above }) => {
+                Interval::Empty(vec![Exclusion::below(low, below), Exclusion::above(high, above)])
+            }
             // One end is not confirmed. Both components may stand at a value beyond it, so the intersection is unknown.
             _ => Interval::Undecided,
         }
@@ -237,10 +206,7 @@ mod tests {
             true => End::natural(value),
             false => End::Unbounded,
         };
-        Interval::Between {
-            low: end(low),
-            high: end(high),
-        }
+        Interval::Between { low: end(low), high: end(high) }
     }
 
     #[test]
@@ -252,12 +218,7 @@ mod tests {
             ((-endless, 1.0), (1.0, 2.0), Some((1.0, 1.0))),
             ((-endless, endless), (-2.0, 7.0), Some((-2.0, 7.0))),
         ] {
-            let none = || {
-                Interval::Empty(vec![
-                    Exclusion::below(2.0, Vec::new()),
-                    Exclusion::above(0.5, Vec::new()),
-                ])
-            };
+            let none = || Interval::Empty(vec![Exclusion::below(2.0, Vec::new()), Exclusion::above(0.5, Vec::new())]);
             let expected = both.map_or_else(none, |(low, high)| between(low, high));
             let [a, b] = [a, b].map(|(low, high)| between(low, high));
             assert_eq!(a.clone().intersection(b.clone()), expected);
@@ -268,13 +229,7 @@ mod tests {
     #[test]
     fn a_value_is_excluded_only_beyond_a_confirmed_end() {
         // At `beyond` the verdict may be undecided: the frame may be stable there and at larger distances.
-        let open = Interval::Between {
-            low: End::Unconfirmed {
-                stands: 2.0,
-                beyond: 1.0,
-            },
-            high: End::natural(3.0),
-        };
+        let open = Interval::Between { low: End::Unconfirmed { stands: 2.0, beyond: 1.0 }, high: End::natural(3.0) };
         let found = |value: f64| (open.contains(value), open.excludes(value));
         assert_eq!(found(0.5), (false, false));
         assert_eq!(found(2.0), (true, false));
@@ -285,13 +240,7 @@ mod tests {
 
     #[test]
     fn an_unconfirmed_end_never_makes_an_interval_empty() {
-        let open = Interval::Between {
-            low: End::natural(0.0),
-            high: End::Unconfirmed {
-                stands: 1.0,
-                beyond: 2.0,
-            },
-        };
+        let open = Interval::Between { low: End::natural(0.0), high: End::Unconfirmed { stands: 1.0, beyond: 2.0 } };
         let above = between(1.5, 3.0);
         assert_eq!(open.clone().intersection(above), Interval::Undecided);
         let empty = Interval::excluded_by(Vec::new());

@@ -74,9 +74,7 @@ impl MarginKinds {
     /// Returns this set with one margin added.
     #[must_use]
     pub fn with(self, kind: MarginKind) -> MarginKinds {
-        MarginKinds {
-            bits: self.bits | bit(kind),
-        }
+        MarginKinds { bits: self.bits | bit(kind) }
     }
 
     /// True if the set contains this margin.

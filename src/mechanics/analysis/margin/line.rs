@@ -92,15 +92,11 @@ impl Line<'_> {
         let is_natural = outward < 0.0 && self.min_value.is_finite();
         if is_natural
             && hint.is_none_or(|hint| hint <= self.min_value)
-            && (from <= self.min_value
-                || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
+            && (from <= self.min_value || self.decide_at_limit(trial, self.min_value).0 == Verdict::Stable)
         {
             return End::natural(self.min_value);
         }
-        let mut bracket = Bracket {
-            inside: from,
-            beyond: None,
-        };
+        let mut bracket = Bracket { inside: from, beyond: None };
         // Compute verdicts on both sides of the hint. They often confirm the end at once.
         if let Some(hint) = hint {
             self.test_near_hint(trial, &mut bracket, hint, outward);
@@ -127,9 +123,7 @@ impl Line<'_> {
                 .any(|value| {
                     match self.decide_at_limit(trial, value) {
                         (Verdict::Stable, _) => bracket.inside = value,
-                        (Verdict::Unstable, motion) => {
-                            self.narrow(trial, &mut bracket, value, motion, outward)
-                        }
+                        (Verdict::Unstable, motion) => self.narrow(trial, &mut bracket, value, motion, outward),
                         (Verdict::Undecided, _) => return false,
                     }
                     true
@@ -144,11 +138,7 @@ impl Line<'_> {
     /// Returns three values for an end of the interval: the end, a value just inside it, and a value clearly beyond it.
     pub fn test_values(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
-        [
-            end,
-            end - 0.5 * END_TOL * size,
-            (end + 16.0 * CONFIRMATION_TOL * size).max(self.min_value),
-        ]
+        [end, end - 0.5 * END_TOL * size, (end + 16.0 * CONFIRMATION_TOL * size).max(self.min_value)]
     }
 
     /// Returns `value`, or a large finite number if `value` is even larger, such as infinity. A search for a lower end
@@ -164,25 +154,15 @@ impl Line<'_> {
     /// within the tolerance of the proofs, because the loads that the parameter changes are too small. The end is then
     /// unconfirmed. Otherwise, if these loads are small, the end is moved inward by its possible error, to the safe
     /// side.
-    fn enclosed(
-        &self,
-        trial: &mut Trial,
-        bracket: Bracket,
-        from: f64,
-        hint: Option<f64>,
-        outward: f64,
-    ) -> End {
+    fn enclosed(&self, trial: &mut Trial, bracket: Bracket, from: f64, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
         let Some(fall) = beyond else {
             return self.unconfirmed(Bracket { inside, beyond }, hint, outward);
         };
         let within = hint.filter(|hint| {
-            (hint - inside) * outward >= -END_TOL * self.size(*hint)
-                && (fall.from - hint) * outward >= 0.0
+            (hint - inside) * outward >= -END_TOL * self.size(*hint) && (fall.from - hint) * outward >= 0.0
         });
-        let value = self
-            .without_rounding(within.unwrap_or(fall.from))
-            .max(self.min_value);
+        let value = self.without_rounding(within.unwrap_or(fall.from)).max(self.min_value);
         if (from - value) * outward <= END_TOL * self.size(value) {
             return End::At {
                 value: self.on_the_safe_side(trial, value, [from, inside], outward),
@@ -191,60 +171,32 @@ impl Line<'_> {
         }
         // Find a value at which the component stands beyond doubt: test the smallest value of the parameter, or `value`
         // if there is no smallest value.
-        let base = if self.min_value.is_finite() {
-            self.min_value
-        } else {
-            value
-        };
+        let base = if self.min_value.is_finite() { self.min_value } else { value };
         let stands = self.decide_at_limit(trial, base).0 == Verdict::Stable;
-        End::Unconfirmed {
-            stands: if stands { base } else { from },
-            beyond: fall.at,
-        }
+        End::Unconfirmed { stands: if stands { base } else { from }, beyond: fall.at }
     }
 
     /// Returns an end moved inward by its possible error, but not beyond `from`. The forces that balance the component
     /// at the value `inside` determine the error. Returns the end unchanged if even the largest possible error is
     /// small.
-    fn on_the_safe_side(
-        &self,
-        trial: &Trial,
-        end: f64,
-        [from, inside]: [f64; 2],
-        outward: f64,
-    ) -> f64 {
+    fn on_the_safe_side(&self, trial: &Trial, end: f64, [from, inside]: [f64; 2], outward: f64) -> f64 {
         let unsure = UNKNOWN_ERROR * self.load_ratio;
-        let is_sure =
-            unsure <= MIN_UNSURE * self.typical_small || unsure <= END_TOL * self.size(end);
+        let is_sure = unsure <= MIN_UNSURE * self.typical_small || unsure <= END_TOL * self.size(end);
         if is_sure || (end - from) * outward <= 0.0 {
             return end;
         }
         let known = trial.least_force_error(&(self.setting)(inside));
-        let error = known.map_or(UNKNOWN_ERROR, |error| {
-            (2.0 * error).clamp(LEAST_ERROR, UNKNOWN_ERROR)
-        });
+        let error = known.map_or(UNKNOWN_ERROR, |error| (2.0 * error).clamp(LEAST_ERROR, UNKNOWN_ERROR));
         let inward = end - outward * error * self.load_ratio;
-        if (inward - from) * outward > 0.0 {
-            inward
-        } else {
-            from
-        }
+        if (inward - from) * outward > 0.0 { inward } else { from }
     }
 
     /// Returns the end if the bracket could not be narrowed enough. This is the hint if the verdicts on both sides
     /// agree with it, otherwise an unconfirmed end.
     fn unconfirmed(&self, bracket: Bracket, hint: Option<f64>, outward: f64) -> End {
         let Bracket { inside, beyond } = bracket;
-        let Some(Fall {
-            from: beyond,
-            mechanism,
-            ..
-        }) = beyond
-        else {
-            return End::Unconfirmed {
-                stands: inside,
-                beyond: outward * f64::INFINITY,
-            };
+        let Some(Fall { from: beyond, mechanism, .. }) = beyond else {
+            return End::Unconfirmed { stands: inside, beyond: outward * f64::INFINITY };
         };
         // The hint is confirmed if the verdicts on both sides are close enough to it.
         let agrees = |hint: &f64| {
@@ -255,10 +207,7 @@ impl Line<'_> {
         };
         match hint.filter(agrees) {
             Some(value) => End::At { value, mechanism },
-            None => End::Unconfirmed {
-                stands: inside,
-                beyond,
-            },
+            None => End::Unconfirmed { stands: inside, beyond },
         }
     }
 
@@ -274,30 +223,20 @@ impl Line<'_> {
             let value = hint - outward * step * size;
             ((value - bracket.inside) * outward > 0.0).then_some(value)
         };
-        let near = || {
-            steps()
-                .take_while(|step| *step <= CONFIRMATION_TOL)
-                .filter_map(inside)
-        };
-        let remembered =
-            near().find(|value| trial.cached_verdict(&(self.setting)(*value)).0 == Verdict::Stable);
-        let stands = remembered.or_else(|| {
-            near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable)
-        });
-        let outside =
-            |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.min_value);
+        let near = || steps().take_while(|step| *step <= CONFIRMATION_TOL).filter_map(inside);
+        let remembered = near().find(|value| trial.cached_verdict(&(self.setting)(*value)).0 == Verdict::Stable);
+        let stands =
+            remembered.or_else(|| near().find(|value| self.decide_at_limit(trial, *value).0 == Verdict::Stable));
+        let outside = |step: f64| Some(hint + outward * step * size).filter(|value| *value >= self.min_value);
         let mut falls = steps().filter_map(outside).find_map(|value| {
             let (verdict, motion) = trial.cached_verdict(&(self.setting)(value));
             (verdict == Verdict::Unstable).then_some((value, motion))
         });
         if falls.is_none() {
-            falls = steps()
-                .take_while(|step| *step <= CONFIRMATION_TOL)
-                .filter_map(outside)
-                .find_map(|value| {
-                    let (verdict, motion) = self.decide_at_limit(trial, value);
-                    (verdict == Verdict::Unstable).then_some((value, motion))
-                });
+            falls = steps().take_while(|step| *step <= CONFIRMATION_TOL).filter_map(outside).find_map(|value| {
+                let (verdict, motion) = self.decide_at_limit(trial, value);
+                (verdict == Verdict::Unstable).then_some((value, motion))
+            });
         }
         if let Some(value) = stands {
             bracket.inside = value;
@@ -308,14 +247,7 @@ impl Line<'_> {
     }
 
     /// Narrows a bracket with the mechanism by which the component falls at `value`.
-    fn narrow(
-        &self,
-        trial: &Trial,
-        bracket: &mut Bracket,
-        value: f64,
-        motion: Vec<Motion>,
-        outward: f64,
-    ) {
+    fn narrow(&self, trial: &Trial, bracket: &mut Bracket, value: f64, motion: Vec<Motion>, outward: f64) {
         let from = match self.excluded_range(trial, value, &motion) {
             ExcludedRange::Above(bound) if outward > 0.0 => bound,
             ExcludedRange::Below(bound) if outward < 0.0 => bound,
@@ -323,16 +255,9 @@ impl Line<'_> {
             // holds only within its tolerance. Use `value` itself as the outer end.
             _ => value,
         };
-        let is_closer = bracket
-            .beyond
-            .as_ref()
-            .is_none_or(|known| (known.from - from) * outward > 0.0);
+        let is_closer = bracket.beyond.as_ref().is_none_or(|known| (known.from - from) * outward > 0.0);
         if is_closer {
-            bracket.beyond = Some(Fall {
-                from,
-                at: value,
-                mechanism: motion,
-            });
+            bracket.beyond = Some(Fall { from, at: value, mechanism: motion });
         }
     }
 
@@ -343,20 +268,13 @@ impl Line<'_> {
         let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.typical_small);
         let next = next.clamp(self.min_value.max(-most), most);
         if next == bracket.inside {
-            return Some(if next == self.min_value {
-                End::natural(next)
-            } else {
-                End::Unbounded
-            });
+            return Some(if next == self.min_value { End::natural(next) } else { End::Unbounded });
         }
         match self.decide_at_limit(trial, next) {
             (Verdict::Stable, _) => bracket.inside = next,
             (Verdict::Unstable, motion) => self.narrow(trial, bracket, next, motion, outward),
             (Verdict::Undecided, _) => {
-                return Some(End::Unconfirmed {
-                    stands: bracket.inside,
-                    beyond: next,
-                });
+                return Some(End::Unconfirmed { stands: bracket.inside, beyond: next });
             }
         }
         None
@@ -364,8 +282,7 @@ impl Line<'_> {
 
     /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
     fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
-        let [without, with] =
-            [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
+        let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
         let slope = (with - without) / self.typical_large;
         let bound = -without / slope;
@@ -373,11 +290,7 @@ impl Line<'_> {
             return ExcludedRange::All;
         }
         // The mechanism was found at `value`, so the excluded range must contain `value`.
-        if slope > 0.0 {
-            ExcludedRange::Above(bound.min(value))
-        } else {
-            ExcludedRange::Below(bound.max(value))
-        }
+        if slope > 0.0 { ExcludedRange::Above(bound.min(value)) } else { ExcludedRange::Below(bound.max(value)) }
     }
 
     fn decide_at_limit(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
@@ -386,19 +299,11 @@ impl Line<'_> {
 
     /// Returns the magnitude of `value`, to which distances are relative; `typical_small` if `value` is nearly 0.
     pub fn size(&self, value: f64) -> f64 {
-        if value.abs() < 1e-3 * self.typical_small {
-            self.typical_small
-        } else {
-            value.abs()
-        }
+        if value.abs() < 1e-3 * self.typical_small { self.typical_small } else { value.abs() }
     }
 
     /// Returns `value`, or 0 if `value` differs from 0 only by rounding.
     fn without_rounding(&self, value: f64) -> f64 {
-        if value.abs() < 1e-9 * self.typical_small {
-            0.0
-        } else {
-            value
-        }
+        if value.abs() < 1e-9 * self.typical_small { 0.0 } else { value }
     }
 }

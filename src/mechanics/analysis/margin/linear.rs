@@ -33,10 +33,7 @@ pub(super) fn linear(
     alone: &dyn Fn(f64) -> Setting,
 ) -> Interval {
     let start = if stands {
-        Start {
-            value: present,
-            facing_end: None,
-        }
+        Start { value: present, facing_end: None }
     } else {
         match nearest_start(trial, line, present) {
             Ok(start) => start,
@@ -55,25 +52,12 @@ pub(super) fn linear(
     });
     match (low, high) {
         // The component stands at one value only, and rounding exchanged the ends.
-        (
-            End::At {
-                value: low,
-                mechanism: below,
-            },
-            End::At {
-                value: high,
-                mechanism: above,
-            },
-        ) if low > high => Interval::Between {
-            low: End::At {
-                value: start.value,
-                mechanism: below,
-            },
-            high: End::At {
-                value: start.value,
-                mechanism: above,
-            },
-        },
+        (End::At { value: low, mechanism: below }, End::At { value: high, mechanism: above }) if low > high => {
+            Interval::Between {
+                low: End::At { value: start.value, mechanism: below },
+                high: End::At { value: start.value, mechanism: above },
+            }
+        }
         (low, high) => Interval::Between { low, high },
     }
 }
@@ -82,10 +66,8 @@ pub(super) fn linear(
 /// the interval: empty or undecided.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the nearest value.
-    let (mut program, toward) = trial.direction(
-        &(line.setting)(present),
-        &(line.setting)(present + line.typical_large),
-    );
+    let (mut program, toward) =
+        trial.direction(&(line.setting)(present), &(line.setting)(present + line.typical_large));
     let mut found = nearest_factor(&program, &toward);
     let mut at = match found.limit {
         Limit::At(change) => (present + change * line.typical_large).max(line.min_value),
@@ -104,10 +86,7 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     trial.cache_extreme(&program, &found, beyond, line.setting, None);
     // Verdicts confirm the predicted value.
     let facing_end = matches!(found.limit, Limit::At(_)).then_some(at);
-    Ok(Start {
-        value: line.nearest(trial, present, facing_end)?,
-        facing_end,
-    })
+    Ok(Start { value: line.nearest(trial, present, facing_end)?, facing_end })
 }
 
 /// A program is solved again if its result is smaller than this fraction of its distance from the value at which the
@@ -134,8 +113,7 @@ fn solved_closer(
     }
     let back = (from - at).signum();
     let begin = at + back * CLOSE * size;
-    let (program, toward) =
-        trial.direction(&(line.setting)(begin), &(line.setting)(begin - back * size));
+    let (program, toward) = trial.direction(&(line.setting)(begin), &(line.setting)(begin - back * size));
     let found = solve(&program, &toward);
     match found.limit {
         Limit::At(change) => {
@@ -157,9 +135,7 @@ fn end(
     alone: &dyn Fn(f64) -> Setting,
 ) -> End {
     // If the component stands at the smallest possible value, the interval ends there. This needs no linear program.
-    if outward < 0.0
-        && line.min_value.is_finite()
-        && trial.decide(&(line.setting)(line.min_value)).0 == Verdict::Stable
+    if outward < 0.0 && line.min_value.is_finite() && trial.decide(&(line.setting)(line.min_value)).0 == Verdict::Stable
     {
         return End::natural(line.min_value);
     }

@@ -107,9 +107,7 @@ impl Margins {
     pub(in crate::mechanics::analysis) fn least_factor(&self) -> Option<(f64, Vec<Motion>)> {
         let low = self.intervals.load_factor.as_ref()?.low()?;
         match low {
-            End::At { value, mechanism } if !mechanism.is_empty() => {
-                Some((*value, mechanism.clone()))
-            }
+            End::At { value, mechanism } if !mechanism.is_empty() => Some((*value, mechanism.clone())),
             _ => None,
         }
     }
@@ -161,16 +159,12 @@ impl Sides {
     /// Returns how far the interval extends from 0 to the left and to the right. Both margins are [`Margin::None`] if
     /// the interval excludes 0, and [`Margin::Undecided`] if no verdict shows whether it contains 0.
     fn around_zero(interval: Option<&Interval>) -> Sides {
-        let both = |margin: Margin| Sides {
-            left: margin.clone(),
-            right: margin,
-        };
+        let both = |margin: Margin| Sides { left: margin.clone(), right: margin };
         match interval {
             None => both(Margin::NotAsked),
-            Some(interval @ Interval::Between { low, high }) if interval.contains(0.0) => Sides {
-                left: margin(low, -1.0),
-                right: margin(high, 1.0),
-            },
+            Some(interval @ Interval::Between { low, high }) if interval.contains(0.0) => {
+                Sides { left: margin(low, -1.0), right: margin(high, 1.0) }
+            }
             Some(interval) if interval.excludes(0.0) => both(Margin::None),
             Some(_) => both(Margin::Undecided),
         }
@@ -204,13 +198,7 @@ fn margin(end: &End, sign: f64) -> Margin {
     let signed = |value: f64| sign * value + 0.0;
     match end {
         End::Unbounded => Margin::Unbounded,
-        End::At { value, mechanism } => Margin::Value {
-            at: signed(*value),
-            mechanism: mechanism.clone(),
-        },
-        End::Unconfirmed { stands, beyond } => Margin::Unconfirmed {
-            stands: signed(*stands),
-            beyond: signed(*beyond),
-        },
+        End::At { value, mechanism } => Margin::Value { at: signed(*value), mechanism: mechanism.clone() },
+        End::Unconfirmed { stands, beyond } => Margin::Unconfirmed { stands: signed(*stands), beyond: signed(*beyond) },
     }
 }

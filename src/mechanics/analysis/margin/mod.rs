@@ -114,25 +114,19 @@ pub(super) fn find_margins(
     let has_tilt = kinds.has(MarginKind::Tilt);
     // Step 1.
     let mut decided_count = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
-    let components: Vec<(&Part, &ComponentIntervals)> = parts
-        .iter()
-        .filter_map(|part| Some((part, known.get(part.key)?)))
-        .collect();
+    let components: Vec<(&Part, &ComponentIntervals)> =
+        parts.iter().filter_map(|part| Some((part, known.get(part.key)?))).collect();
     // Step 2.
     let mut intervals = intersect(&components, kinds);
     // Step 3.
     if has_tilt && !all_stand {
         let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
         intervals.tilt = Some(nearest_tilt::nearest_stable_tilts(&mut trials));
-        decided_count += trials
-            .iter()
-            .map(|trial| trial.decided_count)
-            .sum::<usize>();
+        decided_count += trials.iter().map(|trial| trial.decided_count).sum::<usize>();
     }
     // If loads are listed or a robot has a finite limit, the frame may stand in several separate ranges of tilt. A note
     // then says so.
-    let is_cone =
-        |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
+    let is_cone = |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
     if let Some(Interval::Between { .. }) = intervals.tilt
         && !components.iter().all(|(part, _)| is_cone(part))
     {
@@ -179,36 +173,20 @@ fn find_fresh_intervals(
 
 /// Returns the intervals of a frame, which are the intersections of the intervals of its components.
 fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
-    let intersection =
-        |kind: MarginKind,
-         all: Interval,
-         interval: fn(&ComponentIntervals) -> &Option<Interval>| {
-            kinds.has(kind).then(|| {
-                let each = components
-                    .iter()
-                    .filter_map(|(_, intervals)| interval(intervals).clone());
-                each.fold(all, Interval::intersection)
-            })
-        };
-    let from_zero = || Interval::Between {
-        low: End::natural(0.0),
-        high: End::Unbounded,
+    let intersection = |kind: MarginKind, all: Interval, interval: fn(&ComponentIntervals) -> &Option<Interval>| {
+        kinds.has(kind).then(|| {
+            let each = components.iter().filter_map(|(_, intervals)| interval(intervals).clone());
+            each.fold(all, Interval::intersection)
+        })
     };
+    let from_zero = || Interval::Between { low: End::natural(0.0), high: End::Unbounded };
     let mut intervals = Intervals {
-        friction: intersection(MarginKind::Friction, from_zero(), |intervals| {
-            &intervals.friction
+        friction: intersection(MarginKind::Friction, from_zero(), |intervals| &intervals.friction),
+        tilt: intersection(MarginKind::Tilt, Interval::UNBOUNDED, |intervals| &intervals.tilt),
+        horizontal_load: intersection(MarginKind::HorizontalLoad, Interval::UNBOUNDED, |intervals| {
+            &intervals.horizontal_load
         }),
-        tilt: intersection(MarginKind::Tilt, Interval::UNBOUNDED, |intervals| {
-            &intervals.tilt
-        }),
-        horizontal_load: intersection(
-            MarginKind::HorizontalLoad,
-            Interval::UNBOUNDED,
-            |intervals| &intervals.horizontal_load,
-        ),
-        kernel: intersection(MarginKind::Kernel, from_zero(), |intervals| {
-            &intervals.kernel
-        }),
+        kernel: intersection(MarginKind::Kernel, from_zero(), |intervals| &intervals.kernel),
         load_factor: None,
         robots: robots(components),
         notes: Vec::new(),
@@ -217,15 +195,10 @@ fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) ->
     // or at none.
     let is_loaded = |(_, intervals): &(&Part, &ComponentIntervals)| intervals.load_factor.is_some();
     if components.iter().any(is_loaded) {
-        let loaded = intersection(MarginKind::LoadFactor, from_zero(), |intervals| {
-            &intervals.load_factor
-        });
+        let loaded = intersection(MarginKind::LoadFactor, from_zero(), |intervals| &intervals.load_factor);
         let unloaded = components.iter().filter(|component| !is_loaded(component));
-        intervals.load_factor = loaded.map(|loaded| {
-            unloaded.fold(loaded, |frame, (part, _)| {
-                frame.intersection(part.at_present(from_zero()))
-            })
-        });
+        intervals.load_factor = loaded
+            .map(|loaded| unloaded.fold(loaded, |frame, (part, _)| frame.intersection(part.at_present(from_zero()))));
     }
     intervals
 }
@@ -242,9 +215,8 @@ fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
         let others = || components.iter().enumerate().filter(|(k, _)| *k != number);
         for robot in &intervals.robots {
             let with_others = |own: &Interval| {
-                others().fold(own.clone(), |frame, (_, (part, _))| {
-                    frame.intersection(part.at_present(Interval::UNBOUNDED))
-                })
+                others()
+                    .fold(own.clone(), |frame, (_, (part, _))| frame.intersection(part.at_present(Interval::UNBOUNDED)))
             };
             robots.push(RobotIntervals {
                 robot: robot.robot,

@@ -5,9 +5,7 @@
 
 use super::exclusion::{Exclusion, fewest_arcs};
 use super::interval::Interval;
-use super::tilt::{
-    MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted,
-};
+use super::tilt::{MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted};
 use super::trial::Trial;
 use crate::analysis::Verdict;
 use crate::analysis::decide::LimitDistance;
@@ -98,8 +96,7 @@ impl Excluded {
     fn add(&mut self, arc: Exclusion) {
         let from = arc.from.unwrap_or(f64::NEG_INFINITY);
         let to = arc.to.unwrap_or(f64::INFINITY);
-        self.has_gaps |= from > self.high + max_joined_gap(self.high)
-            || to < self.low - max_joined_gap(self.low);
+        self.has_gaps |= from > self.high + max_joined_gap(self.high) || to < self.low - max_joined_gap(self.low);
         (self.low, self.high) = (self.low.min(from), self.high.max(to));
         self.arcs.push(arc);
     }
@@ -114,11 +111,7 @@ impl Excluded {
 
     /// Returns the end of the excluded range that is nearer to 0, in degrees.
     fn nearest_end(&self) -> f64 {
-        if self.high <= -self.low {
-            self.high
-        } else {
-            self.low
-        }
+        if self.high <= -self.low { self.high } else { self.low }
     }
 
     /// Returns the interval of stable tilts if the excluded range is a full turn: empty, or undecided if the range

@@ -45,20 +45,13 @@ struct NewtonBracket {
 impl NewtonBracket {
     /// Solves for the least residual at `value`, and moves one end of the bracket there. Returns true if the component
     /// falls at `value`; `None` if the program could not be solved.
-    fn test(
-        &mut self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        value: f64,
-    ) -> Option<bool> {
+    fn test(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Option<bool> {
         let tangent = trial.tangent(&setting(value))?;
         // A residual below `MIN_SURE_RESIDUAL` may be noise of the solver. The component then counts as falling only if
         // the motion proves it.
         let falls = match tangent.residual_sum {
             residual if residual <= MAX_STABLE_RESIDUAL => false,
-            residual if residual < MIN_SURE_RESIDUAL => {
-                trial.proved_motion(&tangent, &setting(value)).is_some()
-            }
+            residual if residual < MIN_SURE_RESIDUAL => trial.proved_motion(&tangent, &setting(value)).is_some(),
             _ => true,
         };
         if falls {
@@ -71,12 +64,7 @@ impl NewtonBracket {
 
     /// Tests a value like [`NewtonBracket::test`], but only if it lies inside the bracket. `None` if the program could
     /// not be solved.
-    fn test_within(
-        &mut self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        value: f64,
-    ) -> Option<()> {
+    fn test_within(&mut self, trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, value: f64) -> Option<()> {
         if self.contains(value) {
             self.test(trial, setting, value)?;
         }
@@ -100,12 +88,7 @@ impl Threshold {
         setting: &dyn Fn(f64) -> Setting,
         [inside, outside]: [f64; 2],
     ) -> Option<f64> {
-        let mut bracket = NewtonBracket {
-            inside,
-            outside,
-            tangent: trial.tangent(&setting(outside))?,
-            standing: None,
-        };
+        let mut bracket = NewtonBracket { inside, outside, tangent: trial.tangent(&setting(outside))?, standing: None };
         let mut falling = Vec::new();
         // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
         // computed. `share`: where the next value is if the root of the tangent lies outside the bracket: its distance
@@ -121,19 +104,16 @@ impl Threshold {
             // Compute by how much the parameter must change to change the least residual by 1.
             let change_per_residual = (root - outside).abs() / bracket.tangent.residual_sum;
             let is_within = bracket.contains(root);
-            let is_near = is_within
-                || (root - inside).abs() <= 4.0 * MAX_STABLE_RESIDUAL * change_per_residual;
+            let is_near = is_within || (root - inside).abs() <= 4.0 * MAX_STABLE_RESIDUAL * change_per_residual;
             let agrees = |[other, tangent_at]: [f64; 2]| {
                 tangent_at != outside
-                    && (root - other).abs()
-                        <= (ROOT_TOL * size).max(RESIDUAL_NOISE * change_per_residual)
+                    && (root - other).abs() <= (ROOT_TOL * size).max(RESIDUAL_NOISE * change_per_residual)
             };
             falling.push((outside, bracket.tangent.clone()));
             // The method has converged in two cases: the bracket is narrow, or the root of the tangent agrees with the
             // falling end of the bracket or with the root of another tangent.
             let is_bracketed = (inside - outside).abs() <= BRACKET_TOL * size;
-            let is_root =
-                (root - outside).abs() <= BRACKET_TOL * size || reached.is_some_and(agrees);
+            let is_root = (root - outside).abs() <= BRACKET_TOL * size || reached.is_some_and(agrees);
             if is_bracketed || (is_near && is_root) {
                 let edge = if is_near { root } else { inside };
                 self.cache_both_sides(trial, setting, edge, falling, bracket.standing);
@@ -143,11 +123,7 @@ impl Threshold {
             // the bracket.
             if !is_within {
                 let falls = bracket.test(trial, setting, inside + share * (outside - inside))?;
-                share = if falls && reached.is_some() {
-                    APPROACH_SHARE
-                } else {
-                    0.5
-                };
+                share = if falls && reached.is_some() { APPROACH_SHARE } else { 0.5 };
             } else if !bracket.test(trial, setting, root)? {
                 (reached, share) = (Some([root, outside]), APPROACH_SHARE);
                 // The component stands at the root. Test whether it falls just beyond the root.
@@ -171,9 +147,10 @@ impl Threshold {
         let distance = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
         // Choose a falling value that is close enough to confirm the threshold, but far enough from it for a strong
         // proof.
-        let near = falling.into_iter().rev().find(|(value, _)| {
-            (2.0 * Self::MIN_OFFSET..0.45 * Self::BRACKET_TOL).contains(&distance(*value))
-        });
+        let near = falling
+            .into_iter()
+            .rev()
+            .find(|(value, _)| (2.0 * Self::MIN_OFFSET..0.45 * Self::BRACKET_TOL).contains(&distance(*value)));
         let falls = near.or_else(|| {
             let value = self.test_values(edge, Side::Beyond).nth(1)?;
             Some((value, trial.tangent(&setting(value))?))

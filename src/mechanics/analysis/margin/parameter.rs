@@ -14,12 +14,7 @@ use super::{ComponentIntervals, tilt};
 /// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
 /// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
 /// computed.
-pub(super) fn intervals(
-    trial: &mut Trial,
-    stands: bool,
-    kinds: MarginKinds,
-    with_tilt: bool,
-) -> ComponentIntervals {
+pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> ComponentIntervals {
     let robots = match kinds.has(MarginKind::Robots) {
         true => grip_limit::robots(trial, stands),
         false => Vec::new(),
@@ -27,10 +22,7 @@ pub(super) fn intervals(
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
     // margins is requested.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];
-    let horizontal_load = horizontal
-        .iter()
-        .any(|kind| kinds.has(*kind))
-        .then(|| horizontal_load(trial, stands));
+    let horizontal_load = horizontal.iter().any(|kind| kinds.has(*kind)).then(|| horizontal_load(trial, stands));
     let tilt = horizontal_load.as_ref().filter(|_| with_tilt);
     let tilt = tilt.map(|horizontal| tilt::around_present(trial, horizontal));
     ComponentIntervals {
@@ -38,34 +30,24 @@ pub(super) fn intervals(
         tilt,
         horizontal_load,
         kernel: kinds.has(MarginKind::Kernel).then(|| kernel(trial)),
-        load_factor: (kinds.has(MarginKind::LoadFactor) && trial.is_loaded())
-            .then(|| load_factor(trial, stands)),
+        load_factor: (kinds.has(MarginKind::LoadFactor) && trial.is_loaded()).then(|| load_factor(trial, stands)),
         robots,
     }
 }
 
 fn friction(trial: &mut Trial) -> Interval {
-    let setting = |mu: f64| Setting {
-        friction: Some(mu),
-        ..Setting::default()
-    };
+    let setting = |mu: f64| Setting { friction: Some(mu), ..Setting::default() };
     Threshold::smallest_stable(Margins::MAX_FRICTION).search(trial, &setting)
 }
 
 fn kernel(trial: &mut Trial) -> Interval {
-    let setting = |kernel: f64| Setting {
-        kernel: Some(kernel),
-        ..Setting::default()
-    };
+    let setting = |kernel: f64| Setting { kernel: Some(kernel), ..Setting::default() };
     Threshold::largest_stable(1.0).search(trial, &setting)
 }
 
 fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
     let line = Line {
-        setting: &|share| Setting {
-            across: share,
-            ..Setting::default()
-        },
+        setting: &|share| Setting { across: share, ..Setting::default() },
         min_value: f64::NEG_INFINITY,
         typical_small: 1.0,
         typical_large: (1.0 / trial.weights_to_loads()).max(1.0),
@@ -83,20 +65,13 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
 
 fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
     let line = Line {
-        setting: &|factor| Setting {
-            loads: factor,
-            ..Setting::default()
-        },
+        setting: &|factor| Setting { loads: factor, ..Setting::default() },
         min_value: 0.0,
         typical_small: trial.weights_to_loads().min(1.0),
         typical_large: trial.weights_to_loads().max(1.0),
         load_ratio: trial.weights_to_loads(),
     };
-    let alone = |side: f64| Setting {
-        along: 0.0,
-        loads: side,
-        limits: LimitChange::FiniteToZero,
-        ..Setting::default()
-    };
+    let alone =
+        |side: f64| Setting { along: 0.0, loads: side, limits: LimitChange::FiniteToZero, ..Setting::default() };
     linear(trial, &line, 1.0, stands, &alone)
 }

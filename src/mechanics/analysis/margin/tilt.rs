@@ -47,11 +47,7 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
 /// `from`.
 pub(super) fn around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
-        let mut search = TiltSearch {
-            trial: &mut *trial,
-            from,
-            outward,
-        };
+        let mut search = TiltSearch { trial: &mut *trial, from, outward };
         search.end()
     });
     Interval::Between { low, high }
@@ -110,14 +106,8 @@ impl TiltSearch<'_, '_> {
             if tilt.abs() < 1e-9 { 0.0 } else { tilt }
         };
         match stable_end {
-            StableEnd::At(distance, mechanism) => End::At {
-                value: tilt(distance),
-                mechanism,
-            },
-            StableEnd::Unconfirmed(stands, beyond) => End::Unconfirmed {
-                stands: tilt(stands),
-                beyond: tilt(beyond),
-            },
+            StableEnd::At(distance, mechanism) => End::At { value: tilt(distance), mechanism },
+            StableEnd::Unconfirmed(stands, beyond) => End::Unconfirmed { stands: tilt(stands), beyond: tilt(beyond) },
         }
     }
 
@@ -158,13 +148,11 @@ impl TiltSearch<'_, '_> {
             }
             match inside {
                 None => return StableEnd::Unconfirmed(stands, bound),
-                Some((distance, is_near, Verdict::Stable, _)) => {
-                    match self.fall_between(stands, distance) {
-                        Some(stable_end) => return stable_end,
-                        None if is_near => return self.sharpened(bound, distance, motion),
-                        None => (stands, is_slow) = (distance, false),
-                    }
-                }
+                Some((distance, is_near, Verdict::Stable, _)) => match self.fall_between(stands, distance) {
+                    Some(stable_end) => return stable_end,
+                    None if is_near => return self.sharpened(bound, distance, motion),
+                    None => (stands, is_slow) = (distance, false),
+                },
                 Some((distance, is_near, _, mechanism)) => {
                     (falls, motion) = (distance, mechanism);
                     is_slow = is_near;
@@ -228,9 +216,7 @@ impl TiltSearch<'_, '_> {
             }
         }
         match self.decide(middle) {
-            (Verdict::Stable, _) => self
-                .fall_between(from, middle)
-                .or_else(|| self.fall_between(middle, to)),
+            (Verdict::Stable, _) => self.fall_between(from, middle).or_else(|| self.fall_between(middle, to)),
             (Verdict::Unstable, motion) => Some(self.edge(from, middle, motion)),
             (Verdict::Undecided, _) => Some(StableEnd::Unconfirmed(from, middle)),
         }
@@ -238,30 +224,21 @@ impl TiltSearch<'_, '_> {
 
     fn decide(&mut self, distance: f64) -> (Verdict, Vec<Motion>) {
         let tilt = self.from + self.outward * distance;
-        self.trial
-            .decide_at(&tilted(tilt, 1.0), LimitDistance::AtLimit)
+        self.trial.decide_at(&tilted(tilt, 1.0), LimitDistance::AtLimit)
     }
 }
 
 /// Returns the setting with gravity rotated by an angle in degrees, positive to the right, and multiplied by `stretch`.
 pub(super) fn tilted(degrees: f64, stretch: f64) -> Setting {
     let angle = degrees.to_radians();
-    Setting {
-        along: stretch * libm::cos(angle),
-        across: stretch * libm::sin(angle),
-        ..Setting::default()
-    }
+    Setting { along: stretch * libm::cos(angle), across: stretch * libm::sin(angle), ..Setting::default() }
 }
 
 /// Returns the first and the last tilt, in degrees, at which a motion proves a fall. The tilt `tilt`, at which the
 /// motion was found, lies between them. `None` if the motion proves a fall at every tilt.
 pub(super) fn excluded_arc(trial: &Trial, tilt: f64, motion: &[Motion]) -> Option<[f64; 2]> {
     let power = |along: f64, across: f64| {
-        let setting = Setting {
-            along,
-            across,
-            ..Setting::default()
-        };
+        let setting = Setting { along, across, ..Setting::default() };
         trial.power(&setting, motion)
     };
     let constant = power(0.0, 0.0);
@@ -297,46 +274,23 @@ pub(super) fn tilt_scale(tilt: f64) -> f64 {
 fn limit_of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
     let tilt = |share: f64| libm::atan(share).to_degrees();
     match horizontal {
-        End::At { value, mechanism } => End::At {
-            value: tilt(*value),
-            mechanism: mechanism.clone(),
-        },
-        End::Unconfirmed { stands, beyond } => End::Unconfirmed {
-            stands: tilt(*stands),
-            beyond: tilt(*beyond),
-        },
+        End::At { value, mechanism } => End::At { value: tilt(*value), mechanism: mechanism.clone() },
+        End::Unconfirmed { stands, beyond } => End::Unconfirmed { stands: tilt(*stands), beyond: tilt(*beyond) },
         End::Unbounded => {
             let line = Line {
-                setting: &|share| Setting {
-                    along: -share,
-                    across: side,
-                    ..Setting::default()
-                },
+                setting: &|share| Setting { along: -share, across: side, ..Setting::default() },
                 min_value: 0.0,
                 typical_small: 1.0,
                 typical_large: 1.0,
                 load_ratio: 0.0,
             };
-            let alone = |_: f64| Setting {
-                along: -1.0,
-                ..Setting::default()
-            };
+            let alone = |_: f64| Setting { along: -1.0, ..Setting::default() };
             match linear(trial, &line, 0.0, true, &alone) {
-                Interval::Between {
-                    high: End::At { value, mechanism },
-                    ..
-                } => End::At {
-                    value: side * (90.0 + tilt(value)),
-                    mechanism,
-                },
-                Interval::Between {
-                    high: End::Unbounded,
-                    ..
-                } => End::Unbounded,
-                _ => End::Unconfirmed {
-                    stands: side * 90.0,
-                    beyond: side * 180.0,
-                },
+                Interval::Between { high: End::At { value, mechanism }, .. } => {
+                    End::At { value: side * (90.0 + tilt(value)), mechanism }
+                }
+                Interval::Between { high: End::Unbounded, .. } => End::Unbounded,
+                _ => End::Unconfirmed { stands: side * 90.0, beyond: side * 180.0 },
             }
         }
     }

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::analysis::Verdict;
 use crate::analysis::decide::{
-    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, least_force_error,
-    proved_motion, verdict_from_cache,
+    LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, least_force_error, proved_motion,
+    verdict_from_cache,
 };
 use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::quarter_turn;
@@ -64,14 +64,7 @@ pub(super) enum LimitChange {
 
 impl Default for Setting {
     fn default() -> Setting {
-        Setting {
-            friction: None,
-            kernel: None,
-            along: 1.0,
-            across: 0.0,
-            loads: 1.0,
-            limits: LimitChange::None,
-        }
+        Setting { friction: None, kernel: None, along: 1.0, across: 0.0, loads: 1.0, limits: LimitChange::None }
     }
 }
 
@@ -93,12 +86,7 @@ impl<'a> Trial<'a> {
         if let Some(forces) = forces {
             proofs.add_forces(original, forces.clone());
         }
-        Trial {
-            original,
-            forces,
-            proofs,
-            decided_count: 0,
-        }
+        Trial { original, forces, proofs, decided_count: 0 }
     }
 
     /// Returns the robots that hold a body of the component, in the order of the grips.
@@ -124,11 +112,7 @@ impl<'a> Trial<'a> {
         let weights = bodies().map(|body| body.weight * self.original.pull.norm());
         let loads = bodies().map(|body| body.listed.size(self.original.length));
         let ratio = weights.fold(0.0, f64::max) / loads.fold(0.0, f64::max);
-        if ratio.is_finite() && ratio > 0.0 {
-            ratio
-        } else {
-            1.0
-        }
+        if ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
     }
 
     /// True if the largest listed load and the heaviest weight differ by a factor of more than a thousand. The
@@ -145,11 +129,7 @@ impl<'a> Trial<'a> {
 
     /// Like [`Trial::decide`]. `limit_distance` says whether the changed component is known to be at its limit of
     /// stability.
-    pub fn decide_at(
-        &mut self,
-        setting: &Setting,
-        limit_distance: LimitDistance,
-    ) -> (Verdict, Vec<Motion>) {
+    pub fn decide_at(&mut self, setting: &Setting, limit_distance: LimitDistance) -> (Verdict, Vec<Motion>) {
         self.count();
         decide_verdict(&self.changed(setting), limit_distance, &mut self.proofs)
     }
@@ -197,12 +177,7 @@ impl<'a> Trial<'a> {
 
     /// Returns the parameter value at which the least residual becomes 0 according to its tangent at `from`: one step
     /// of Newton's method. The tangent is evaluated at a second value, `to`.
-    pub fn root(
-        &self,
-        tangent: &Tangent,
-        setting: &dyn Fn(f64) -> Setting,
-        [from, to]: [f64; 2],
-    ) -> f64 {
+    pub fn root(&self, tangent: &Tangent, setting: &dyn Fn(f64) -> Setting, [from, to]: [f64; 2]) -> f64 {
         let estimate = tangent.estimate_residual(&self.program(&setting(to)));
         from + (to - from) * tangent.residual_sum / (tangent.residual_sum - estimate)
     }
@@ -306,9 +281,7 @@ pub(super) fn is_loaded(component: &Assembly) -> bool {
 /// True if a robot that holds a body of the component has a limit other than 0 and infinity.
 pub(super) fn is_limited(component: &Assembly) -> bool {
     component.grips.iter().any(|grip| {
-        [grip.limits.fx, grip.limits.fy, grip.limits.torque]
-            .into_iter()
-            .any(|limit| limit > 0.0 && limit.is_finite())
+        [grip.limits.fx, grip.limits.fy, grip.limits.torque].into_iter().any(|limit| limit > 0.0 && limit.is_finite())
     })
 }
 
@@ -318,21 +291,15 @@ fn limits(given: Limits, number: usize, setting: LimitChange) -> Limits {
     let finite_to_zero = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
     match setting {
         LimitChange::None => given,
-        LimitChange::FiniteToZero => Limits {
-            fx: finite_to_zero(given.fx),
-            fy: finite_to_zero(given.fy),
-            torque: finite_to_zero(given.torque),
-        },
+        LimitChange::FiniteToZero => {
+            Limits { fx: finite_to_zero(given.fx), fy: finite_to_zero(given.fy), torque: finite_to_zero(given.torque) }
+        }
         LimitChange::Replace { first, end, value } => {
             let changed = |component: usize, given: f64| match 3 * number + component {
                 k if (first..end).contains(&k) => value,
                 _ => given,
             };
-            Limits {
-                fx: changed(0, given.fx),
-                fy: changed(1, given.fy),
-                torque: changed(2, given.torque),
-            }
+            Limits { fx: changed(0, given.fx), fy: changed(1, given.fy), torque: changed(2, given.torque) }
         }
     }
 }
@@ -347,12 +314,7 @@ fn interpolate(first: &Forces, last: &Forces, share: f64) -> Forces {
         friction: mix(a.friction, b.friction),
     });
     let grips = first.grips.iter().zip(&last.grips);
-    let grips = grips.map(|(a, b)| GripForces {
-        force: a.force + (b.force - a.force) * share,
-        torque: mix(a.torque, b.torque),
-    });
-    Forces {
-        contacts: contacts.collect(),
-        grips: grips.collect(),
-    }
+    let grips = grips
+        .map(|(a, b)| GripForces { force: a.force + (b.force - a.force) * share, torque: mix(a.torque, b.torque) });
+    Forces { contacts: contacts.collect(), grips: grips.collect() }
 }

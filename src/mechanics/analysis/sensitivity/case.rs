@@ -65,10 +65,7 @@ impl Case<'_> {
             MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => return None,
         };
         let bodies = self.component.bodies.iter();
-        let growth = bodies.map(|body| LoadVector {
-            force: along * body.weight,
-            moment: 0.0,
-        });
+        let growth = bodies.map(|body| LoadVector { force: along * body.weight, moment: 0.0 });
         Some(growth.collect())
     }
 
@@ -119,11 +116,7 @@ impl Case<'_> {
 }
 
 /// Converts a load, whose moment is about the centroid, to force x, force y and the moment about `origin`.
-pub(super) fn load_at(
-    load: &LoadVector,
-    centroid: crate::geometry::Point,
-    origin: crate::geometry::Point,
-) -> [f64; 3] {
+pub(super) fn load_at(load: &LoadVector, centroid: crate::geometry::Point, origin: crate::geometry::Point) -> [f64; 3] {
     let moment = load.moment + cross(centroid - origin, load.force);
     [load.force.x, load.force.y, moment]
 }

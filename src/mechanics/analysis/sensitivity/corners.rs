@@ -61,8 +61,7 @@ impl Corners {
         for interface in interfaces {
             finder.join(interface);
         }
-        let contacts: Vec<InterfaceCorners> =
-            interfaces.iter().map(|i| finder.contact(i)).collect();
+        let contacts: Vec<InterfaceCorners> = interfaces.iter().map(|i| finder.contact(i)).collect();
         let (joined, count) = finder.joined();
         let guides = finder.guides(&joined);
         let mut corners = Corners {
@@ -111,10 +110,7 @@ impl Corners {
                 [normal] => vec![quarter_turn(*normal)],
                 _ => Vec::new(),
             };
-            let moves = directions.into_iter().map(|direction| Move {
-                direction,
-                field: vec![(corner, direction)],
-            });
+            let moves = directions.into_iter().map(|direction| Move { direction, field: vec![(corner, direction)] });
             self.moves[corner] = moves.collect();
         }
         for part in independent_groups(guides, self.count) {
@@ -134,10 +130,7 @@ impl Corners {
         for corner in guided {
             match normals[corner].as_slice() {
                 [normal] => unknowns.push((corner, *normal)),
-                _ => unknowns.extend([
-                    (corner, Vector::new(1.0, 0.0)),
-                    (corner, Vector::new(0.0, 1.0)),
-                ]),
+                _ => unknowns.extend([(corner, Vector::new(1.0, 0.0)), (corner, Vector::new(0.0, 1.0))]),
             }
         }
         let mut involved: Vec<usize> = guides.iter().flat_map(|g| [g.of, g.from, g.to]).collect();
@@ -148,15 +141,12 @@ impl Corners {
             return;
         }
         let row = |guide: &Guide| -> Vec<f64> {
-            let entry =
-                |(corner, along): &(usize, Vector)| guide.factor(*corner) * guide.normal.dot(along);
+            let entry = |(corner, along): &(usize, Vector)| guide.factor(*corner) * guide.normal.dot(along);
             unknowns.iter().map(entry).collect()
         };
         let rows: Vec<Vec<f64>> = guides.iter().map(row).collect();
-        let moved: Vec<(usize, usize)> = involved
-            .iter()
-            .flat_map(|c| (0..self.moves[*c].len()).map(|k| (*c, k)))
-            .collect();
+        let moved: Vec<(usize, usize)> =
+            involved.iter().flat_map(|c| (0..self.moves[*c].len()).map(|k| (*c, k))).collect();
         // Without followers, a move violates the conditions of the guides. The displacements of the followers must
         // compensate for this.
         let right_hand_side = |(corner, k): &(usize, usize)| -> Vec<f64> {
@@ -190,14 +180,12 @@ impl Corners {
     fn freeze(&mut self, contacts: &[InterfaceCorners], interfaces: &[&Interface]) {
         let mut is_frozen = vec![false; self.count];
         for (found, interface) in contacts.iter().zip(interfaces) {
-            let is_known = found.ends.is_some()
-                && (interface.kind == ContactKind::Edge || found.edge.is_some());
+            let is_known = found.ends.is_some() && (interface.kind == ContactKind::Edge || found.edge.is_some());
             if is_known {
                 continue;
             }
             for (place, corner) in self.all.iter().enumerate() {
-                let is_tip = found.tips.contains(&place)
-                    || corner.neighbours.iter().any(|n| found.tips.contains(n));
+                let is_tip = found.tips.contains(&place) || corner.neighbours.iter().any(|n| found.tips.contains(n));
                 if is_tip || (found.ends.is_none() && interface.bodies.contains(&corner.body)) {
                     is_frozen[self.joined[place]] = true;
                 }
@@ -236,7 +224,5 @@ fn independent_groups(guides: &[Guide], count: usize) -> Vec<Vec<Guide>> {
     let mut by_root: Vec<(usize, Guide)> = guides.iter().map(|g| (sets.find(g.of), *g)).collect();
     by_root.sort_by_key(|(root, _)| *root);
     let parts = by_root.chunk_by(|a, b| a.0 == b.0);
-    parts
-        .map(|part| part.iter().map(|(_, guide)| *guide).collect())
-        .collect()
+    parts.map(|part| part.iter().map(|(_, guide)| *guide).collect()).collect()
 }

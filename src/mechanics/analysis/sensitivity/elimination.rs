@@ -64,10 +64,7 @@ impl Elimination {
         };
         Elimination {
             solutions: (0..sides.len()).map(solution).collect(),
-            null_space: (0..unknowns)
-                .filter(|k| is_free[*k])
-                .map(null_vector)
-                .collect(),
+            null_space: (0..unknowns).filter(|k| is_free[*k]).map(null_vector).collect(),
         }
     }
 }

@@ -41,27 +41,13 @@ pub(in crate::mechanics::analysis) fn find(
         MarginKind::Robots => &None,
     };
     // Contacts that the scene lists do not move with the corners of the outlines, so there are no derivatives.
-    let (low, high) = match interval
-        .as_ref()
-        .filter(|_| !context.scene.lists_contacts())
-    {
-        None => (
-            Err(NoSensitivity::NotApplicable),
-            Err(NoSensitivity::NotApplicable),
-        ),
+    let (low, high) = match interval.as_ref().filter(|_| !context.scene.lists_contacts()) {
+        None => (Err(NoSensitivity::NotApplicable), Err(NoSensitivity::NotApplicable)),
         Some(Interval::Empty(_)) => (Err(NoSensitivity::Empty), Err(NoSensitivity::Empty)),
-        Some(Interval::Undecided) => (
-            Err(NoSensitivity::Unconfirmed),
-            Err(NoSensitivity::Unconfirmed),
-        ),
+        Some(Interval::Undecided) => (Err(NoSensitivity::Unconfirmed), Err(NoSensitivity::Unconfirmed)),
         Some(Interval::Between { low, high }) => {
             let corners = Corners::new(context.scene, context.frame, context.interfaces);
-            let frame = Search {
-                context,
-                parts,
-                kind,
-                corners: &corners,
-            };
+            let frame = Search { context, parts, kind, corners: &corners };
             (frame.end(low, -1.0), frame.end(high, 1.0))
         }
     };
@@ -91,13 +77,7 @@ impl Search<'_> {
             let Some(mechanism) = self.mechanism_of(part, value, mechanism, outward) else {
                 continue;
             };
-            let case = Case {
-                component: part.component,
-                kind: self.kind,
-                value,
-                outward,
-                mechanism,
-            };
+            let case = Case { component: part.component, kind: self.kind, value, outward, mechanism };
             let state = EndState::new(&case).ok_or(NoSensitivity::Unsolved)?;
             let rates = state.states.iter().map(|one| {
                 let count = self.context.interfaces.len();
@@ -105,11 +85,7 @@ impl Search<'_> {
             });
             let rates: Option<Vec<Rates>> = rates.collect();
             exact = state.value;
-            branches.push(Branch {
-                rates: rates.ok_or(NoSensitivity::Unsolved)?,
-                freedom: state.freedom,
-                outward,
-            });
+            branches.push(Branch { rates: rates.ok_or(NoSensitivity::Unsolved)?, freedom: state.freedom, outward });
         }
         if branches.is_empty() {
             return Err(NoSensitivity::Unsolved);
@@ -134,17 +110,12 @@ impl Search<'_> {
             Some(interval) if outward > 0.0 => interval.high(),
             Some(interval) => interval.low(),
             None => {
-                let moves = |m: &crate::proof::Motion| {
-                    part.component.bodies.iter().any(|b| b.block == m.block)
-                };
+                let moves = |m: &crate::proof::Motion| part.component.bodies.iter().any(|b| b.block == m.block);
                 return mechanism.iter().any(moves).then_some(mechanism);
             }
         };
         match own? {
-            End::At {
-                value: at,
-                mechanism,
-            } if !mechanism.is_empty() => {
+            End::At { value: at, mechanism } if !mechanism.is_empty() => {
                 let is_same = (at - value).abs() <= END_TOL * at.abs().max(value.abs()).max(1e-3);
                 is_same.then_some(mechanism)
             }
@@ -161,44 +132,28 @@ impl Search<'_> {
             all.unwrap_or(Slope::ZERO)
         };
         let first = || branches.iter().filter_map(|branch| branch.rates.first());
-        let most =
-            |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
-        let corners = self.corners(
-            &slope,
-            most(&mut first().flat_map(|r| r.corners.iter().flat_map(|v| [v.x, v.y]))),
-        );
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
+        let corners = self.corners(&slope, most(&mut first().flat_map(|r| r.corners.iter().flat_map(|v| [v.x, v.y]))));
         let weight = most(&mut first().flat_map(|r| r.weights.iter().copied()));
         let friction = most(&mut first().flat_map(|r| r.friction.iter().copied()));
         let load = most(&mut first().flat_map(|r| r.loads.iter().flat_map(|v| [v.x, v.y])));
         let mut placed = frame.placed.clone();
         placed.sort();
-        let weights = placed
-            .iter()
-            .map(|b| (*b, slope(weight, &|r| r.weights[b.0])));
+        let weights = placed.iter().map(|b| (*b, slope(weight, &|r| r.weights[b.0])));
         let loads = scene.loads().iter().enumerate();
         let loads = loads.filter(|(_, l)| placed.binary_search(&l.block).is_ok());
         let loads = loads.map(|(k, _)| {
-            let along = [
-                slope(load, &|r| r.loads[k].x),
-                slope(load, &|r| r.loads[k].y),
-            ];
+            let along = [slope(load, &|r| r.loads[k].x), slope(load, &|r| r.loads[k].y)];
             (k, along)
         });
         let sets_friction = self.kind == MarginKind::Friction;
-        let interfaces = 0..if sets_friction {
-            0
-        } else {
-            self.context.interfaces.len()
-        };
+        let interfaces = 0..if sets_friction { 0 } else { self.context.interfaces.len() };
         EndSensitivity {
             value,
             corners,
             weights: weights.collect(),
-            friction: interfaces
-                .map(|k| (k, slope(friction, &|r| r.friction[k])))
-                .collect(),
-            friction_of_all: (!sets_friction)
-                .then(|| slope(friction, &|r| r.friction.iter().sum())),
+            friction: interfaces.map(|k| (k, slope(friction, &|r| r.friction[k]))).collect(),
+            friction_of_all: (!sets_friction).then(|| slope(friction, &|r| r.friction.iter().sum())),
             loads: loads.collect(),
         }
     }
@@ -218,18 +173,13 @@ impl Search<'_> {
                 let along = |k: usize| {
                     let field = &moves[k].field;
                     slope(largest, &|rates| {
-                        let each = field
-                            .iter()
-                            .map(|(corner, by)| rates.corners[*corner].dot(by));
+                        let each = field.iter().map(|(corner, by)| rates.corners[*corner].dot(by));
                         each.sum()
                     })
                 };
                 match moves.len() {
                     0 => CornerMoves::Not,
-                    1 => CornerMoves::Along {
-                        direction: moves[0].direction,
-                        slope: along(0),
-                    },
+                    1 => CornerMoves::Along { direction: moves[0].direction, slope: along(0) },
                     _ => CornerMoves::Freely([along(0), along(1)]),
                 }
             })
@@ -239,19 +189,11 @@ impl Search<'_> {
             let BodyId::Block(block) = corner.body else {
                 return None;
             };
-            let others = members[*joined]
-                .iter()
-                .map(|place| corners.all[*place].body);
+            let others = members[*joined].iter().map(|place| corners.all[*place].body);
             let mut with: Vec<BodyId> = others.filter(|body| *body != corner.body).collect();
             with.sort();
             with.dedup();
-            Some(CornerSlope {
-                block,
-                corner: corner.number,
-                at: corner.at,
-                with,
-                moves: moves[*joined],
-            })
+            Some(CornerSlope { block, corner: corner.number, at: corner.at, with, moves: moves[*joined] })
         });
         slopes.collect()
     }

@@ -37,11 +37,7 @@ impl Guide {
     /// the edge between `from` and `to`. The coefficient is 0 for a corner other than these three.
     pub fn factor(&self, corner: usize) -> f64 {
         let mut factor = 0.0;
-        for (place, value) in [
-            (self.of, 1.0),
-            (self.from, self.share - 1.0),
-            (self.to, -self.share),
-        ] {
+        for (place, value) in [(self.of, 1.0), (self.from, self.share - 1.0), (self.to, -self.share)] {
             if place == corner {
                 factor += value;
             }
@@ -73,9 +69,7 @@ pub(super) struct Finder<'s> {
 impl<'s> Finder<'s> {
     pub fn new(scene: &'s Scene, frame: &Frame) -> Finder<'s> {
         let ground = (0..scene.ground().len()).map(BodyId::Ground);
-        let mut bodies: Vec<BodyId> = ground
-            .chain(frame.placed.iter().map(|b| BodyId::Block(*b)))
-            .collect();
+        let mut bodies: Vec<BodyId> = ground.chain(frame.placed.iter().map(|b| BodyId::Block(*b))).collect();
         bodies.sort();
         let (mut all, mut first) = (Vec::new(), Vec::new());
         for body in bodies {
@@ -85,23 +79,12 @@ impl<'s> Finder<'s> {
                 let start = all.len();
                 for (k, at) in ring.iter().enumerate() {
                     let next = [(k + ring.len() - 1) % ring.len(), (k + 1) % ring.len()];
-                    all.push(Corner {
-                        body,
-                        number,
-                        at: *at,
-                        neighbours: next.map(|k| start + k),
-                    });
+                    all.push(Corner { body, number, at: *at, neighbours: next.map(|k| start + k) });
                     number += 1;
                 }
             }
         }
-        Finder {
-            scene,
-            sets: DisjointSets::new(all.len()),
-            all,
-            first,
-            on_edges: Vec::new(),
-        }
+        Finder { scene, sets: DisjointSets::new(all.len()), all, first, on_edges: Vec::new() }
     }
 
     /// Returns the range of the indices, in `all`, of the corners of a body.
@@ -123,13 +106,9 @@ impl<'s> Finder<'s> {
     /// Returns, of all corners of a body, the corner nearest to a point. `None` if it is farther away than `reach`, in
     /// metres.
     fn corner_at(&self, body: BodyId, at: Point, reach: f64) -> Option<usize> {
-        let near = self
-            .corners_of(body)
-            .map(|place| (place, (self.all[place].at - at).norm()));
+        let near = self.corners_of(body).map(|place| (place, (self.all[place].at - at).norm()));
         let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest
-            .filter(|(_, distance)| *distance <= reach)
-            .map(|(place, _)| place)
+        nearest.filter(|(_, distance)| *distance <= reach).map(|(place, _)| place)
     }
 
     /// Returns, of all edges of a body, the two corners of the edge nearest to a point. If `along` is given, only edges
@@ -151,9 +130,7 @@ impl<'s> Finder<'s> {
     pub fn join(&mut self, interface: &Interface) {
         let reach = self.reach(interface);
         for end in interface.ends {
-            let both = interface
-                .bodies
-                .map(|body| self.corner_at(body, end, reach));
+            let both = interface.bodies.map(|body| self.corner_at(body, end, reach));
             if let [Some(a), Some(b)] = both {
                 self.sets.union(a, b);
             }
@@ -165,11 +142,7 @@ impl<'s> Finder<'s> {
     pub fn contact(&mut self, interface: &Interface) -> InterfaceCorners {
         let reach = self.reach(interface);
         let is_corner = interface.kind == ContactKind::Corner;
-        let mut found = InterfaceCorners {
-            ends: None,
-            edge: None,
-            tips: Vec::new(),
-        };
+        let mut found = InterfaceCorners { ends: None, edge: None, tips: Vec::new() };
         let mut ends = [None; 2];
         for (end, at) in ends.iter_mut().zip(interface.ends) {
             let both = interface.bodies.map(|body| self.corner_at(body, at, reach));
@@ -200,10 +173,7 @@ impl<'s> Finder<'s> {
             for place in self.corners_of(body) {
                 let offset = self.all[place].at - interface.ends[0];
                 let distance = along.dot(&offset);
-                if distance > reach
-                    && distance < interface.length() - reach
-                    && cross(along, offset).abs() <= reach
-                {
+                if distance > reach && distance < interface.length() - reach && cross(along, offset).abs() <= reach {
                     self.on_edges.push((place, ends));
                 }
             }
@@ -234,13 +204,7 @@ impl<'s> Finder<'s> {
             let along = to - from;
             let share = along.dot(&(self.all[*corner].at - from)) / along.norm_squared();
             let [of, from, to] = [*corner, edge[0], edge[1]].map(|place| joined[place]);
-            (of != from && of != to).then(|| Guide {
-                of,
-                from,
-                to,
-                share,
-                normal: quarter_turn(along.normalize()),
-            })
+            (of != from && of != to).then(|| Guide { of, from, to, share, normal: quarter_turn(along.normalize()) })
         });
         let mut guides: Vec<Guide> = guides.collect();
         guides.sort_by_key(|g| (g.of, g.from, g.to));

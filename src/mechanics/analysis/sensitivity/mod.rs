@@ -60,11 +60,7 @@ impl Analysis {
     /// assert!((friction - 1.0).abs() < 1e-9);
     /// # Ok::<(), drystone::scene::SceneError>(())
     /// ```
-    pub fn sensitivity(
-        &self,
-        frame: usize,
-        kind: MarginKind,
-    ) -> Result<Sensitivity, NoSensitivity> {
+    pub fn sensitivity(&self, frame: usize, kind: MarginKind) -> Result<Sensitivity, NoSensitivity> {
         let known = self.frames.get(frame).and_then(|f| f.sensitivity.as_ref());
         let found = match known.filter(|known| known.kind == kind) {
             Some(known) => known.clone(),
@@ -130,8 +126,7 @@ impl Sensitivity {
     /// end.
     pub fn ends(&self) -> impl Iterator<Item = (bool, &EndSensitivity)> {
         let both = [(false, &self.low), (true, &self.high)];
-        both.into_iter()
-            .filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
+        both.into_iter().filter_map(|(is_high, end)| Some((is_high, end.as_ref().ok()?)))
     }
 
     /// Returns why there are no derivatives, if neither end of the interval has any. Otherwise `None`.
@@ -139,9 +134,8 @@ impl Sensitivity {
     /// This is the reason for the upper end. If the frame falls beyond the lower end only, as with friction, it is
     /// the reason for the lower end.
     pub fn reason(&self) -> Option<NoSensitivity> {
-        let falls_nowhere = |reason: &NoSensitivity| {
-            matches!(reason, NoSensitivity::Unbounded | NoSensitivity::RangeEnds)
-        };
+        let falls_nowhere =
+            |reason: &NoSensitivity| matches!(reason, NoSensitivity::Unbounded | NoSensitivity::RangeEnds);
         match (&self.low, &self.high) {
             (Err(low), Err(high)) if falls_nowhere(high) && !falls_nowhere(low) => Some(*low),
             (Err(_), Err(high)) => Some(*high),

@@ -13,11 +13,8 @@ pub(super) struct RigidMotion {
 
 impl RigidMotion {
     /// No motion.
-    pub const REST: RigidMotion = RigidMotion {
-        origin: Point::new(0.0, 0.0),
-        velocity: Vector::new(0.0, 0.0),
-        spin: 0.0,
-    };
+    pub const REST: RigidMotion =
+        RigidMotion { origin: Point::new(0.0, 0.0), velocity: Vector::new(0.0, 0.0), spin: 0.0 };
 
     /// Returns the velocity of a point that moves with the body.
     pub fn at(&self, point: Point) -> Vector {

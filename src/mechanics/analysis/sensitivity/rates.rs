@@ -85,10 +85,7 @@ impl Rates {
         }
         rates.corners.iter_mut().for_each(|v| *v *= value_per_power);
         rates.weights.iter_mut().for_each(|v| *v *= value_per_power);
-        rates
-            .friction
-            .iter_mut()
-            .for_each(|v| *v *= value_per_power);
+        rates.friction.iter_mut().for_each(|v| *v *= value_per_power);
         rates.loads.iter_mut().for_each(|v| *v *= value_per_power);
         Some(rates)
     }
@@ -103,10 +100,7 @@ impl Rates {
         motions: &[RigidMotion],
     ) {
         let rest = RigidMotion::REST;
-        let (on, from) = (
-            &motions[contact.on],
-            contact.from.map_or(rest, |b| motions[b]),
-        );
+        let (on, from) = (&motions[contact.on], contact.from.map_or(rest, |b| motions[b]));
         let apart = |at: Point| on.at(at) - from.at(at);
         let spin = on.spin - from.spin;
         let (normal, tangent) = (contact.normal, contact.tangent());
@@ -177,11 +171,7 @@ impl CornerShift {
                 + (own + after) * after_turn;
             moment / (6.0 * area)
         });
-        CornerShift {
-            area,
-            of_area,
-            of_axes,
-        }
+        CornerShift { area, of_area, of_axes }
     }
 
     /// Applies the chain rule: `rate` is the derivative with respect to the centroid of the block, and the result is

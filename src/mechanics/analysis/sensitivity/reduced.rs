@@ -82,10 +82,7 @@ impl Reduced {
     /// show whether this force stays at its limit.
     pub fn has_idle_limit(&self, changed: &Assembly, speed: f64, motion: &[f64]) -> bool {
         self.limits.iter().any(|(grip, component, _)| {
-            let source = Source::Grip {
-                grip: *grip,
-                component: *component,
-            };
+            let source = Source::Grip { grip: *grip, component: *component };
             let entries = self.entries(changed, source).into_iter();
             let power: f64 = entries.map(|(row, value)| value * motion[row]).sum();
             power.abs() <= speed
@@ -95,11 +92,7 @@ impl Reduced {
     /// Returns the column of an unknown force in the equilibrium equations, as (row, value) for a force of one unit.
     fn entries(&self, changed: &Assembly, source: Source) -> Vec<(usize, f64)> {
         match source {
-            Source::Contact {
-                contact,
-                point,
-                side,
-            } => {
+            Source::Contact { contact, point, side } => {
                 let contact = &changed.contacts[contact];
                 let force = contact.normal + contact.tangent() * (side * contact.friction);
                 let at = contact.points[point];
@@ -169,10 +162,7 @@ impl Reduced {
         let mut sum = self.grouped(changed, &loads);
         sum.iter_mut().for_each(|v| *v /= self.force);
         let limits = self.limits.iter().map(|(grip, component, amount)| {
-            let source = Source::Grip {
-                grip: *grip,
-                component: *component,
-            };
+            let source = Source::Grip { grip: *grip, component: *component };
             (source, *amount)
         });
         let all = self.unknowns.iter().zip(amounts);
@@ -194,12 +184,7 @@ impl Reduced {
         }
         let mut sum = vec![0.0; 3 * self.groups];
         for (unknown, amount) in self.unknowns.iter().zip(amounts) {
-            let Source::Contact {
-                contact,
-                point,
-                side,
-            } = unknown.source
-            else {
+            let Source::Contact { contact, point, side } = unknown.source else {
                 continue;
             };
             let contact = &changed.contacts[contact];
@@ -227,14 +212,7 @@ impl Reduced {
 
     /// Converts forces and motion to a [`State`]: contact forces in newtons, motions of all bodies in metres, and power
     /// per unit of the parameter.
-    pub fn state(
-        &self,
-        case: &Case,
-        changed: &Assembly,
-        motion: &[f64],
-        amounts: &[f64],
-        value: f64,
-    ) -> State {
+    pub fn state(&self, case: &Case, changed: &Assembly, motion: &[f64], amounts: &[f64], value: f64) -> State {
         let motions = self.group.iter().map(|group| {
             group.map_or(RigidMotion::REST, |group| RigidMotion {
                 origin: self.origin,
@@ -242,18 +220,10 @@ impl Reduced {
                 spin: motion[3 * group + 2] / self.length,
             })
         });
-        let none = ContactForces {
-            normal: [0.0; 2],
-            friction: 0.0,
-        };
+        let none = ContactForces { normal: [0.0; 2], friction: 0.0 };
         let mut forces = vec![none; changed.contacts.len()];
         for (unknown, amount) in self.unknowns.iter().zip(amounts) {
-            if let Source::Contact {
-                contact,
-                point,
-                side,
-            } = unknown.source
-            {
+            if let Source::Contact { contact, point, side } = unknown.source {
                 let normal = amount * self.force;
                 forces[contact].normal[point] += normal;
                 forces[contact].friction += side * changed.contacts[contact].friction * normal;
@@ -261,10 +231,6 @@ impl Reduced {
         }
         let growth = self.growth(case, changed, amounts, value);
         let work = growth.iter().zip(motion).map(|(g, v)| g * v).sum::<f64>();
-        State {
-            motions: motions.collect(),
-            forces,
-            work: work * self.force,
-        }
+        State { motions: motions.collect(), forces, work: work * self.force }
     }
 }

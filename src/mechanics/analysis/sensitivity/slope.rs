@@ -48,11 +48,7 @@ impl Slope {
         let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
             return Slope::AtKink;
         };
-        Slope::one_sided(
-            outward * (outward * a).max(outward * c),
-            outward * (outward * b).min(outward * d),
-            0.0,
-        )
+        Slope::one_sided(outward * (outward * a).max(outward * c), outward * (outward * b).min(outward * d), 0.0)
     }
 
     /// Returns the mean as a unique slope if both derivatives differ by at most `tolerance`. Otherwise returns both.
@@ -101,11 +97,7 @@ impl Branch {
             return Slope::AtKink;
         }
         let is_least = self.outward > 0.0;
-        let [backward, forward] = if is_least {
-            [most, least]
-        } else {
-            [least, most]
-        };
+        let [backward, forward] = if is_least { [most, least] } else { [least, most] };
         Slope::OneSided { backward, forward }
     }
 }

@@ -95,12 +95,8 @@ impl EndState {
             unknown.is_basic || power >= 0.0
         };
         let force = largest(&amounts);
-        let is_pulled = |(unknown, amount): (&Unknown, &f64)| {
-            !unknown.is_both_ways && *amount < -ZERO_TOL * force
-        };
-        if !reduced.unknowns.iter().all(is_resisted)
-            || reduced.unknowns.iter().zip(&amounts).any(is_pulled)
-        {
+        let is_pulled = |(unknown, amount): (&Unknown, &f64)| !unknown.is_both_ways && *amount < -ZERO_TOL * force;
+        if !reduced.unknowns.iter().all(is_resisted) || reduced.unknowns.iter().zip(&amounts).any(is_pulled) {
             return None;
         }
         let balances = null_balances(case, &reduced, &changed, &amounts, value)?;
@@ -124,8 +120,7 @@ impl EndState {
         balances: &[Vec<f64>],
     ) {
         let (changed, value) = (self.changed.clone(), self.value);
-        let state =
-            |motion: &[f64], amounts: &[f64]| reduced.state(case, &changed, motion, amounts, value);
+        let state = |motion: &[f64], amounts: &[f64]| reduced.state(case, &changed, motion, amounts, value);
         if motions.null_space.is_empty() && balances.is_empty() {
             return;
         }
@@ -150,16 +145,10 @@ impl EndState {
             first.iter().zip(by).map(|(a, b)| a + share * b).collect()
         };
         let all_motions: Vec<Vec<f64>> = std::iter::once(motions.first.clone())
-            .chain(
-                motions
-                    .null_space
-                    .iter()
-                    .map(|by| moved(&motions.first, by)),
-            )
+            .chain(motions.null_space.iter().map(|by| moved(&motions.first, by)))
             .collect();
-        let all_amounts: Vec<Vec<f64>> = std::iter::once(amounts.to_vec())
-            .chain(balances.iter().map(|by| moved(amounts, by)))
-            .collect();
+        let all_amounts: Vec<Vec<f64>> =
+            std::iter::once(amounts.to_vec()).chain(balances.iter().map(|by| moved(amounts, by))).collect();
         for (k, motion) in all_motions.iter().enumerate() {
             for amounts in all_amounts.iter().skip(usize::from(k == 0)) {
                 self.states.push(state(motion, amounts));
@@ -249,9 +238,7 @@ impl Motions {
         let push = reduced.grouped(changed, &case.push(value));
         let unit = largest(&push);
         // There is one equation for each basic force, and one equation for the power.
-        let mut rows: Vec<Vec<f64>> = (0..basic.len())
-            .map(|k| columns.iter().map(|row| row[k]).collect())
-            .collect();
+        let mut rows: Vec<Vec<f64>> = (0..basic.len()).map(|k| columns.iter().map(|row| row[k]).collect()).collect();
         rows.push(push.iter().map(|v| v / unit).collect());
         let given = &reduced.motion;
         let power: f64 = push.iter().zip(given).map(|(p, v)| p / unit * v).sum();
@@ -267,10 +254,7 @@ impl Motions {
         let solved = Elimination::new(&rows, given.len(), &[side]);
         let (change, error) = &solved.solutions[0];
         let first: Vec<f64> = start.iter().zip(change).map(|(a, b)| a + b).collect();
-        (*error <= ROUNDING_TOL * largest(&first)).then_some(Motions {
-            first,
-            null_space: solved.null_space,
-        })
+        (*error <= ROUNDING_TOL * largest(&first)).then_some(Motions { first, null_space: solved.null_space })
     }
 }
 
@@ -279,37 +263,23 @@ impl Motions {
 ///
 /// A motion is first + Σ share · other. A force between groups that is 0 must not do negative work. At an extreme
 /// motion, as many of these conditions hold with equality as there are shares.
-fn extreme_motions(
-    reduced: &Reduced,
-    changed: &Assembly,
-    motions: &Motions,
-) -> Option<Vec<Vec<f64>>> {
+fn extreme_motions(reduced: &Reduced, changed: &Assembly, motions: &Motions) -> Option<Vec<Vec<f64>>> {
     let free = motions.null_space.len();
     let conditions: Vec<Condition> = (reduced.unknowns.iter())
         .filter(|unknown| !unknown.is_basic)
         .map(|unknown| {
             let power = |motion: &[f64]| reduced.power(changed, unknown, motion);
             let shares = motions.null_space.iter().map(|m| power(m) / largest(m));
-            Condition {
-                first: power(&motions.first),
-                shares: shares.collect(),
-            }
+            Condition { first: power(&motions.first), shares: shares.collect() }
         })
         .collect();
     let speed = largest(&motions.first);
     // True if the motion `with` · first + Σ share · other meets all conditions.
     let meets = |shares: &[f64], with: f64| {
         let tolerance = ZERO_TOL * speed.max(largest(shares));
-        conditions
-            .iter()
-            .all(|c| c.power(shares, with) >= -tolerance)
+        conditions.iter().all(|c| c.power(shares, with) >= -tolerance)
     };
-    let rows = |chosen: &[usize]| -> Vec<Vec<f64>> {
-        chosen
-            .iter()
-            .map(|k| conditions[*k].shares.clone())
-            .collect()
-    };
+    let rows = |chosen: &[usize]| -> Vec<Vec<f64>> { chosen.iter().map(|k| conditions[*k].shares.clone()).collect() };
     // If some direction satisfies all conditions, the set of motions is unbounded.
     for chosen in subsets(conditions.len(), free - 1)? {
         let found = Elimination::new(&rows(&chosen), free, &[]);

@@ -30,33 +30,21 @@ pub(super) struct Unknown {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     /// One unit of normal force at a point of a contact, with the largest friction along `side` times the tangent.
-    Contact {
-        contact: usize,
-        point: usize,
-        side: f64,
-    },
+    Contact { contact: usize, point: usize, side: f64 },
     /// One unit of force x, force y or torque of a grip (component 0, 1 or 2).
     Grip { grip: usize, component: usize },
 }
 
 /// Returns the unknown forces of contacts and grips. Also returns the components of grip forces that are at their
 /// limits, as (grip, component, force).
-pub(super) fn unknowns(
-    program: &Program,
-    solved: &LimitState,
-) -> (Vec<Unknown>, Vec<(usize, usize, f64)>) {
+pub(super) fn unknowns(program: &Program, solved: &LimitState) -> (Vec<Unknown>, Vec<(usize, usize, f64)>) {
     let size = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     let (force, speed) = (size(&solved.amounts), size(&solved.motion));
     let mut unknowns = Vec::new();
     let mut grips = vec![[0.0; 3]; program.grips.len()];
     for (column, amount) in solved.columns.iter().zip(&solved.amounts) {
         match column.force {
-            Force::Ray {
-                contact,
-                point,
-                normal,
-                friction,
-            } => {
+            Force::Ray { contact, point, normal, friction } => {
                 let power = column.dot(&solved.motion).abs() / speed;
                 let share = amount / force;
                 unknowns.push(Unknown {
@@ -73,11 +61,7 @@ pub(super) fn unknowns(
                     is_both_ways: false,
                 });
             }
-            Force::Grip {
-                grip,
-                component,
-                sign,
-            } => grips[grip][component] += sign * amount,
+            Force::Grip { grip, component, sign } => grips[grip][component] += sign * amount,
             _ => {}
         }
     }

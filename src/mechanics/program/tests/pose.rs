@@ -7,31 +7,16 @@ use super::*;
 /// of the board.
 fn stacked() -> Program {
     let arms = |y: f64| [Vector::new(0.25, y), Vector::new(-0.25, y)];
-    let joint = |on, from, kind, points| ContactTerm {
-        kind,
-        on,
-        from,
-        normal: Vector::new(0.0, 1.0),
-        friction: 0.25,
-        points,
-    };
+    let joint =
+        |on, from, kind, points| ContactTerm { kind, on, from, normal: Vector::new(0.0, 1.0), friction: 0.25, points };
     Program {
         blocks: 2,
         loads: vec![0.0, 300.0, 0.0, -15.0, 20.0, 10.0],
         contacts: vec![
             joint((0, arms(-0.375)), None, ContactKind::Edge, 2),
-            joint(
-                (1, arms(-0.25)),
-                Some((0, arms(0.375))),
-                ContactKind::Corner,
-                1,
-            ),
+            joint((1, arms(-0.25)), Some((0, arms(0.375))), ContactKind::Corner, 1),
         ],
-        grips: vec![GripTerm {
-            block: 1,
-            arm: Vector::new(-0.5, 0.25),
-            limits: [10.0, 25.0, 8.0],
-        }],
+        grips: vec![GripTerm { block: 1, arm: Vector::new(-0.5, 0.25), limits: [10.0, 25.0, 8.0] }],
         scale: Scale::new(4.0, 600.0),
     }
 }
@@ -39,10 +24,7 @@ fn stacked() -> Program {
 #[test]
 fn the_unit_of_force_is_a_300th_of_the_heaviest_load() {
     let scale = Scale::new(5.0, 3.0);
-    assert_eq!(
-        (scale.length, scale.force, scale.moment()),
-        (5.0, 0.01, 0.05)
-    );
+    assert_eq!((scale.length, scale.force, scale.moment()), (5.0, 0.01, 0.05));
     // Without loads the unit of force is 1/300 N.
     assert_eq!(Scale::new(2.0, 0.0).force, 1.0 / 300.0);
 }
@@ -58,18 +40,14 @@ fn products_of_columns_of_several_blocks_equal_products_of_dense_vectors() {
         smooth.contacts.iter_mut().for_each(|c| c.friction = 0.0);
         columns(&smooth)
     };
-    let pressing = smooth
-        .iter()
-        .filter(|c| matches!(c.force, Force::Ray { .. }));
+    let pressing = smooth.iter().filter(|c| matches!(c.force, Force::Ray { .. }));
     assert_eq!(pressing.count(), 3);
     let mut all = columns(&program);
     all.extend(adhesion_columns(&program));
     all.extend(smooth);
     for a in &all {
         for b in &all {
-            let expected: f64 = (dense(a, 6).iter().zip(dense(b, 6)))
-                .map(|(a, b)| a * b)
-                .sum();
+            let expected: f64 = (dense(a, 6).iter().zip(dense(b, 6))).map(|(a, b)| a * b).sum();
             assert!((a.dot_column(b) - expected).abs() < 1e-14, "{a:?} {b:?}");
         }
     }
@@ -77,20 +55,11 @@ fn products_of_columns_of_several_blocks_equal_products_of_dense_vectors() {
 
 #[test]
 fn only_forces_of_one_kind_at_one_contact_or_robot_have_a_product() {
-    let ray = |contact, point| Force::Ray {
-        contact,
-        point,
-        normal: 0.5,
-        friction: 0.25,
-    };
+    let ray = |contact, point| Force::Ray { contact, point, normal: 0.5, friction: 0.25 };
     assert_eq!(product(&ray(0, 0), &ray(1, 0)), None);
     assert_eq!(product(&ray(1, 0), &ray(1, 0)), Some(0.25 + 0.0625));
     assert_eq!(product(&ray(1, 0), &ray(1, 1)), Some(0.0625));
-    let beyond = |grip, component| Force::AdhesionGrip {
-        grip,
-        component,
-        sign: -1.0,
-    };
+    let beyond = |grip, component| Force::AdhesionGrip { grip, component, sign: -1.0 };
     assert_eq!(product(&beyond(0, 1), &beyond(1, 1)), None);
     assert_eq!(product(&beyond(1, 1), &beyond(1, 1)), Some(1.0));
     assert_eq!(product(&beyond(1, 1), &beyond(1, 2)), Some(0.0));
@@ -108,10 +77,7 @@ fn only_forces_of_one_kind_at_one_contact_or_robot_have_a_product() {
 #[test]
 fn only_a_pair_of_opposite_unlimited_forces_becomes_one_equality() {
     let mut program = example();
-    let other = GripTerm {
-        limits: [f64::INFINITY; 3],
-        ..program.grips[0].clone()
-    };
+    let other = GripTerm { limits: [f64::INFINITY; 3], ..program.grips[0].clone() };
     program.contacts[0].points = 1;
     program.grips.push(other);
     let all = columns(&program);
@@ -174,10 +140,7 @@ fn the_program_of_the_reference_contains_the_opposite_of_every_unknown() {
     assert_eq!(entries(3), [(0, -0.5), (1, 1.0), (2, 1.0)]);
     assert_eq!(entries(4), [(3, -0.5), (4, 1.0), (5, 1.0)]);
     for (number, k, limit) in [(5, 6, 0.0), (6, 7, 0.0), (7, 10, 2.0), (8, 11, 2.0)] {
-        assert_eq!(
-            (entries(number), conic.bound[number]),
-            (vec![(k, 1.0)], limit)
-        );
+        assert_eq!((entries(number), conic.bound[number]), (vec![(k, 1.0)], limit));
     }
     for k in 0..24 {
         assert_eq!((entries(9 + k), conic.bound[9 + k]), (vec![(k, -1.0)], 0.0));

@@ -8,14 +8,8 @@ fn squeezed(weight: f64, friction: f64, listed: LoadVector) -> Assembly {
     above.normal = Vector::new(0.0, -1.0);
     above.ends.swap(0, 1);
     above.points.swap(0, 1);
-    let mut assembly = assembly(
-        vec![body(0, 0.0, 3.0, weight, listed)],
-        vec![joint(0, None, 0.0), above],
-    );
-    assembly
-        .contacts
-        .iter_mut()
-        .for_each(|c| c.friction = friction);
+    let mut assembly = assembly(vec![body(0, 0.0, 3.0, weight, listed)], vec![joint(0, None, 0.0), above]);
+    assembly.contacts.iter_mut().for_each(|c| c.friction = friction);
     assembly
 }
 
@@ -30,10 +24,7 @@ fn the_torques_of_loads_and_robots_count_separately() {
     // counts 20 N, the load 2.8 N, the robot 3.2 N, and the two points of the joint 4 N.
     let mut held = on_ground(listed(0.0, 0.0, 7.0));
     held.grips = vec![grip(0, 2.0, 4.0, 9.0)];
-    let exerted = GripForces {
-        force: Vector::zeros(),
-        torque: -8.0,
-    };
+    let exerted = GripForces { force: Vector::zeros(), torque: -8.0 };
     let all = found(&held, vec![pressed(5.0, 5.0, 0.0)], vec![exerted]);
     assert_near(all[0], 0.4 / 30.0, 1e-6);
     assert_near(all[1], 0.4 / 12.8, 1e-15);
@@ -45,18 +36,14 @@ fn the_load_may_change_by_the_rounding_error_of_all_forces() {
     let pushed = on_ground(listed(1e-15, 0.0, 0.0)).with_friction(0.0);
     let found = found(&pushed, vec![pressed(5.0, 5.0, 0.0)], vec![])[0];
     let expected = 1e-15 / granted(20.0);
-    assert!(
-        found >= 0.99 * expected && found < 3.0 * expected,
-        "{found} {expected}"
-    );
+    assert!(found >= 0.99 * expected && found < 3.0 * expected, "{found} {expected}");
 }
 
 #[test]
 fn friction_may_change_by_the_rounding_error_within_its_cone() {
     let side = 1e-8;
     let light = |friction: f64| squeezed(1e-9, friction, listed(side, 0.0, 0.0));
-    let imbalance =
-        |friction: f64, at: [ContactForces; 2]| found(&light(friction), at.into(), vec![])[0];
+    let imbalance = |friction: f64, at: [ContactForces; 2]| found(&light(friction), at.into(), vec![])[0];
     let both = |f: f64| [pressed(1000.0, 1000.0, f), pressed(1000.0, 1000.0, f)];
     // The friction of each joint is allowed 16 ε · 4 000 N/10⁻⁹. The load's own 10⁻⁸ N are negligible.
     let cones = 2.0 * granted(4000.0);
@@ -104,11 +91,7 @@ fn imbalance_does_not_depend_on_the_unit_of_force() {
         let mut box_alone = on_ground(LoadVector::ZERO);
         box_alone.bodies[0].weight = 10.0 * unit;
         let box_alone = box_alone.with_summed_loads();
-        let all = found(
-            &box_alone,
-            vec![pressed(5.5 * unit, 5.5 * unit, 0.0)],
-            vec![],
-        );
+        let all = found(&box_alone, vec![pressed(5.5 * unit, 5.5 * unit, 0.0)], vec![]);
         (all[0], all[1])
     };
     let (imbalance, share) = alone(1.0);
@@ -129,10 +112,7 @@ fn many_small_forces_count_as_much_as_a_few_large_ones() {
         (narrow.ends, narrow.points) = ([at(0.2), at(-0.2)], [at(0.1), at(-0.1)]);
         narrow
     });
-    let assembly = assembly(
-        vec![body(0, 0.0, 3.0, 9.0, LoadVector::ZERO)],
-        joints.collect(),
-    );
+    let assembly = assembly(vec![body(0, 0.0, 3.0, 9.0, LoadVector::ZERO)], joints.collect());
     // The friction forces balance each other, so they change neither result.
     let rubbing = [0.4, -0.4, 0.4, -0.4, 0.0].map(|f| pressed(1.0, 1.0, f));
     let all = found(&assembly, rubbing.into(), vec![]);

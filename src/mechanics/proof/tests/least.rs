@@ -6,10 +6,7 @@ use super::*;
 fn a_motion_bounds_the_sum_of_forces_from_below() {
     let forces = Forces {
         contacts: vec![pressed(1.0, 2.0, -3.0)],
-        grips: vec![GripForces {
-            force: Vector::new(4.0, -5.0),
-            torque: -6.0,
-        }],
+        grips: vec![GripForces { force: Vector::new(4.0, -5.0), torque: -6.0 }],
     };
     assert_near(forces.sum(2.0), 6.0 + 9.0 + 3.0, 1e-14);
     // The ground presses with at least the weight, however fast the box moves down.
@@ -19,15 +16,8 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
         assert_near(bound, 10.0, 1e-12);
     }
     // A motion with a speed below 1 is not scaled up, so the bound is smaller.
-    assert_near(
-        force_sum_lower_bound(&alone, &[moving(0, 0.0, -0.5, 0.0)]),
-        5.0,
-        1e-12,
-    );
-    assert_eq!(
-        force_sum_lower_bound(&alone, &[moving(0, 0.0, 1.0, 0.0)]),
-        0.0
-    );
+    assert_near(force_sum_lower_bound(&alone, &[moving(0, 0.0, -0.5, 0.0)]), 5.0, 1e-12);
+    assert_eq!(force_sum_lower_bound(&alone, &[moving(0, 0.0, 1.0, 0.0)]), 0.0);
     // A second box hangs on a robot. The loads have a power of 10 + 4 · 6 = 34 W. Of the speed against the robot's
     // limit of 3 N, only the part above 1 counts.
     alone.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
@@ -47,17 +37,9 @@ fn a_motion_bounds_the_sum_of_forces_from_below() {
     // turns at −2.5 rad/s. The power of a torque is the torque times the angular velocity.
     both.grips = vec![grip(1, 3.0, 0.0, 0.0)];
     let turning = [moving(0, 0.0, -1.0, 0.0), moving(1, -5.0, -4.0, -2.5)];
-    assert_near(
-        force_sum_lower_bound(&both, &turning),
-        34.0 - 3.0 * (7.5 - 1.0),
-        1e-12,
-    );
+    assert_near(force_sum_lower_bound(&both, &turning), 34.0 - 3.0 * (7.5 - 1.0), 1e-12);
     both.grips = vec![grip(1, 0.0, 0.0, 8.0)];
-    assert_near(
-        force_sum_lower_bound(&both, &turning),
-        34.0 - 8.0 / 2.0 * (2.5 * 2.0 - 1.0),
-        1e-12,
-    );
+    assert_near(force_sum_lower_bound(&both, &turning), 34.0 - 8.0 / 2.0 * (2.5 * 2.0 - 1.0), 1e-12);
 }
 
 #[test]
@@ -67,9 +49,7 @@ fn every_rounding_error_is_subtracted_from_a_lower_bound() {
     let mut both = on_ground(LoadVector::ZERO);
     both.bodies.push(body(1, 3.0, 2.0, 6.0, LoadVector::ZERO));
     let mut both = both.with_summed_loads();
-    let bound = |assembly: &Assembly, last: Motion| {
-        force_sum_lower_bound(assembly, &[moving(0, 0.0, -1.0, 0.0), last])
-    };
+    let bound = |assembly: &Assembly, last: Motion| force_sum_lower_bound(assembly, &[moving(0, 0.0, -1.0, 0.0), last]);
     // Ten rounding errors of the power and eight of the speed are subtracted.
     both.grips = vec![grip(1, 0.0, f64::INFINITY, 0.0)];
     let found = bound(&both, moving(1, 0.0, -4.0, 0.0)) / (34.0 / 4.0);

@@ -6,10 +6,7 @@ use crate::scene::format::BlockEntry;
 /// Returns the power and the violation of a motion.
 fn driven(assembly: &Assembly, motions: &[Motion]) -> [f64; 2] {
     match check_mechanism(assembly, motions) {
-        Proof::Mechanism {
-            power,
-            worst_violation,
-        } => [power, worst_violation],
+        Proof::Mechanism { power, worst_violation } => [power, worst_violation],
         Proof::Forces { .. } => [f64::NAN; 2],
     }
 }
@@ -23,8 +20,7 @@ fn a_slide_violates_a_contact_only_if_it_has_friction() {
         let [power, violation] = driven(&pushed, &[moving(0, speed, 0.0, 0.0)]);
         assert_near(power, 7.0 / 17.0, 1e-14);
         assert_near(violation, 1.0 / 3.0, 1e-14);
-        let rules_out =
-            check_mechanism(&pushed, &[moving(0, speed, 0.0, 0.0)]).excluded_force_sum();
+        let rules_out = check_mechanism(&pushed, &[moving(0, speed, 0.0, 0.0)]).excluded_force_sum();
         assert_near(rules_out, 21.0 / 17.0, 1e-13);
     }
     // The box moves down by 1 and along by 3. Pressing resists with 1, and with full friction (1.5 + 1)/1.5.
@@ -53,20 +49,14 @@ fn a_turning_box_violates_its_joint_only_if_it_closes_it() {
 #[test]
 fn between_two_blocks_only_the_relative_motion_counts() {
     let two = assembly(
-        vec![
-            body(0, 0.0, 3.0, 10.0, LoadVector::ZERO),
-            body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0)),
-        ],
+        vec![body(0, 0.0, 3.0, 10.0, LoadVector::ZERO), body(1, 3.0, 2.0, 6.0, listed(1.0, 0.0, 0.0))],
         vec![joint(0, None, 0.0), joint(1, Some(0), 3.0)],
     )
     .with_friction(0.0);
     // Both boxes rise together, and the joint on the ground opens.
     let together = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 2.0, 0.0)];
     let [_, violation] = driven(&two, &together);
-    assert!(
-        violation > 0.0 && violation < 1e-14,
-        "only the rounding errors of both velocities: {violation}"
-    );
+    assert!(violation > 0.0 && violation < 1e-14, "only the rounding errors of both velocities: {violation}");
     // The lower box rises into the upper box, which rises half as fast.
     let into = [moving(0, 0.0, 2.0, 0.0), moving(1, 0.0, 1.0, 0.0)];
     assert_near(driven(&two, &into)[1], 0.5, 1e-14);
@@ -84,11 +74,8 @@ fn a_limited_grip_costs_power_and_an_unlimited_grip_is_violated() {
     let motion = [moving(0, 3.0, -1.0, 0.5)];
     let mut held = on_ground(listed(7.0, 0.0, 0.0)).with_friction(0.0);
     held.contacts.clear();
-    let fastest = held.bodies[0]
-        .corners
-        .iter()
-        .map(|p| motion[0].about(held.bodies[0].centroid, *p).norm())
-        .fold(0.0, f64::max);
+    let fastest =
+        held.bodies[0].corners.iter().map(|p| motion[0].about(held.bodies[0].centroid, *p).norm()).fold(0.0, f64::max);
     let load = 17.0 * fastest;
     for (limits, absorbed, expected) in [
         ((0.0, 0.0, 0.0), 0.0, 0.0),
@@ -105,11 +92,7 @@ fn a_limited_grip_costs_power_and_an_unlimited_grip_is_violated() {
     ] {
         held.grips = vec![grip(0, limits.0, limits.1, limits.2)];
         let [power, violation] = driven(&held, &motion);
-        assert_near(
-            power,
-            (7.0 * 3.0 + 10.0 - absorbed) / load,
-            1e-12 * (1.0 + absorbed),
-        );
+        assert_near(power, (7.0 * 3.0 + 10.0 - absorbed) / load, 1e-12 * (1.0 + absorbed));
         assert_near(violation, expected / fastest, 1e-13);
     }
 }

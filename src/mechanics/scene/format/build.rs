@@ -5,9 +5,9 @@
 //! problems at once.
 
 use super::{
-    BlockEntry, CellEntry, ContactEntry, ForceUnit, FrictionPairEntry, GridEntry, GridKind,
-    GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair,
-    RobotEntry, SceneFile, ShapeEntry, StepEntry, UnitsEntry,
+    BlockEntry, CellEntry, ContactEntry, ForceUnit, FrictionPairEntry, GridEntry, GridKind, GripEntry, GroundEntry,
+    HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry, StepEntry,
+    UnitsEntry,
 };
 use crate::scene::{NoteCode, Scene, SceneError};
 
@@ -116,8 +116,7 @@ impl SceneFile {
     /// Adds the friction coefficient, at least 0, between the materials with the names `a` and `b`.
     pub fn friction_pair(mut self, a: &str, b: &str, friction: f64) -> Self {
         let between = [a.into(), b.into()];
-        self.friction_pairs
-            .push(FrictionPairEntry { between, friction });
+        self.friction_pairs.push(FrictionPairEntry { between, friction });
         self
     }
 
@@ -245,18 +244,8 @@ impl ContactEntry {
     /// Creates a contact of two bodies at the point `at`, [x, y] in the length unit of the scene. `normal` is the
     /// direction of the contact normal, which points into the first body, in degrees anticlockwise from the x axis. The
     /// name `ground` stands for the ground.
-    pub fn between(
-        first: impl Into<String>,
-        second: impl Into<String>,
-        at: Pair,
-        normal: f64,
-    ) -> ContactEntry {
-        ContactEntry {
-            bodies: [first.into(), second.into()],
-            at,
-            normal,
-            friction: None,
-        }
+    pub fn between(first: impl Into<String>, second: impl Into<String>, at: Pair, normal: f64) -> ContactEntry {
+        ContactEntry { bodies: [first.into(), second.into()], at, normal, friction: None }
     }
 
     optional_setters! {
@@ -267,10 +256,7 @@ impl ContactEntry {
 impl LoadEntry {
     /// Creates a load on the block with this id. Its force and torque are zero until they are set.
     pub fn on(block: impl Into<String>) -> LoadEntry {
-        LoadEntry {
-            block: block.into(),
-            ..LoadEntry::default()
-        }
+        LoadEntry { block: block.into(), ..LoadEntry::default() }
     }
 
     optional_setters! {

@@ -19,11 +19,7 @@ impl Lines {
     /// Creates a formatter. Objects at the `depth` outermost levels get one line for each entry. Each object further
     /// inside is written on one line, unless it contains a list of objects.
     pub(crate) fn new(depth: usize) -> Lines {
-        Lines {
-            depth,
-            open: Vec::new(),
-            objects: 0,
-        }
+        Lines { depth, open: Vec::new(), objects: 0 }
     }
 
     fn line<W: ?Sized + io::Write>(&self, writer: &mut W) -> io::Result<()> {
@@ -64,11 +60,7 @@ impl Formatter for Lines {
         self.close(writer, b"}")
     }
 
-    fn begin_object_key<W: ?Sized + io::Write>(
-        &mut self,
-        writer: &mut W,
-        first: bool,
-    ) -> io::Result<()> {
+    fn begin_object_key<W: ?Sized + io::Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
         if !first {
             writer.write_all(b",")?;
         }

@@ -97,10 +97,9 @@ mod tests {
     #[test]
     fn every_code_has_a_word_of_its_own() {
         let mut words: Vec<&str> = Code::ALL.iter().map(|c| c.word()).collect();
-        assert!((words.iter()).all(|w| {
-            w.bytes()
-                .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
-        }));
+        assert!(
+            (words.iter()).all(|w| { w.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_') })
+        );
         words.sort_unstable();
         words.dedup();
         assert_eq!(words.len(), Code::ALL.len());

@@ -4,11 +4,7 @@ use super::{Code, Wording, choice, new_wording, shortened};
 use crate::text::nearest;
 
 pub(in crate::mechanics::scene) fn wrong_type(expected: &str, found: &str) -> Wording {
-    new_wording(
-        Code::WrongType,
-        format!("expected {expected}, found {found}"),
-        help(expected, found),
-    )
+    new_wording(Code::WrongType, format!("expected {expected}, found {found}"), help(expected, found))
 }
 
 pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) -> Wording {
@@ -21,10 +17,7 @@ pub(in crate::mechanics::scene) fn friction_word(expected: &str, found: &str) ->
 
 /// Returns the remedy for a value of the wrong type. Where possible, the remedy shows the text to write in the file.
 fn help(expected: &str, found: &str) -> String {
-    let (is_number, is_text) = (
-        found.starts_with("the number "),
-        found.starts_with("the string "),
-    );
+    let (is_number, is_text) = (found.starts_with("the number "), found.starts_with("the string "));
     match expected {
         "a point [x, y]" if is_number => {
             "write each point in brackets: an outline is [[x, y], [x, y], …], and `holes` is a list of outlines".into()
@@ -54,30 +47,18 @@ pub(in crate::mechanics::scene) fn quoted_number(expected: &str, found: &str) ->
 
 pub(in crate::mechanics::scene) fn coordinates(found: usize) -> Wording {
     let help = match found {
-        3.. => {
-            "write [x, y]; a scene has only two dimensions: x points to the right, and y points up"
-        }
+        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
         _ => "write [x, y]",
     };
-    new_wording(
-        Code::WrongLength,
-        format!("a point has two coordinates; this one has {}", count(found)),
-        help,
-    )
+    new_wording(Code::WrongLength, format!("a point has two coordinates; this one has {}", count(found)), help)
 }
 
 pub(in crate::mechanics::scene) fn components(found: usize) -> Wording {
     let help = match found {
-        3.. => {
-            "write [x, y]; a scene has only two dimensions: x points to the right, and y points up"
-        }
+        3.. => "write [x, y]; a scene has only two dimensions: x points to the right, and y points up",
         _ => "write [x, y]",
     };
-    new_wording(
-        Code::WrongLength,
-        format!("a vector has two components; this one has {}", count(found)),
-        help,
-    )
+    new_wording(Code::WrongLength, format!("a vector has two components; this one has {}", count(found)), help)
 }
 
 /// Returns a count as text: a small count as a word, a larger count in digits.
@@ -97,33 +78,21 @@ pub(in crate::mechanics::scene) fn unknown_choice(text: &str, known: &[String]) 
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("write {names}"),
     };
-    new_wording(
-        Code::UnknownChoice,
-        format!("expected {names}, found \"{}\"", shortened(text)),
-        help,
-    )
+    new_wording(Code::UnknownChoice, format!("expected {names}, found \"{}\"", shortened(text)), help)
 }
 
-pub(in crate::mechanics::scene) fn unknown_key<'k>(
-    key: &str,
-    known: impl Iterator<Item = &'k str> + Clone,
-) -> Wording {
+pub(in crate::mechanics::scene) fn unknown_key<'k>(key: &str, known: impl Iterator<Item = &'k str> + Clone) -> Wording {
     let meant = synonym(key).filter(|meant| known.clone().any(|k| k == *meant));
     let is_cohesive = ["cohesion", "adhesion", "mortar", "tensile_strength"].contains(&key);
     let help = match meant.or_else(|| nearest(key, known.clone())) {
         _ if is_cohesive => {
-            "joints are dry: they transmit pressure and friction, but no tension; remove the key"
-                .into()
+            "joints are dry: they transmit pressure and friction, but no tension; remove the key".into()
         }
         Some(near) if meant.is_some() => format!("the key is called `{near}` here"),
         Some(near) => format!("the nearest known key is `{near}`"),
         None => format!("known keys are {}", known.collect::<Vec<_>>().join(", ")),
     };
-    new_wording(
-        Code::UnknownKey,
-        format!("unknown key `{}`", shortened(key)),
-        help,
-    )
+    new_wording(Code::UnknownKey, format!("unknown key `{}`", shortened(key)), help)
 }
 
 /// Returns the key of the scene format that means the same as `key`, a word that other programs use. `None` if no such
@@ -150,21 +119,14 @@ fn synonym(key: &str) -> Option<&'static str> {
 pub(in crate::mechanics::scene) fn duplicate_key(key: &str, line: usize, column: usize) -> Wording {
     new_wording(
         Code::DuplicateKey,
-        format!(
-            "the key `{}` occurs twice; first in line {line}, column {column}",
-            shortened(key)
-        ),
+        format!("the key `{}` occurs twice; first in line {line}, column {column}", shortened(key)),
         "remove one of the two keys",
     )
 }
 
 /// Returns the message about a key that occurs twice in an object built in code.
 pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
-    new_wording(
-        Code::DuplicateKey,
-        format!("the key `{}` occurs twice", shortened(key)),
-        "remove one of the two keys",
-    )
+    new_wording(Code::DuplicateKey, format!("the key `{}` occurs twice", shortened(key)), "remove one of the two keys")
 }
 
 pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
@@ -173,11 +135,7 @@ pub(in crate::mechanics::scene) fn missing_key(key: &str) -> Wording {
         "blocks" => "add `\"blocks\": […]`, the list of blocks; it may be empty".into(),
         _ => format!("add `\"{key}\"`"),
     };
-    new_wording(
-        Code::MissingKey,
-        format!("the key `{key}` is missing"),
-        help,
-    )
+    new_wording(Code::MissingKey, format!("the key `{key}` is missing"), help)
 }
 
 pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {

@@ -13,21 +13,13 @@ pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
-    new_wording(
-        Code::NotFinite,
-        format!("the number is {x}"),
-        "give a finite number",
-    )
+    new_wording(Code::NotFinite, format!("the number is {x}"), "give a finite number")
 }
 
 pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
     new_wording(
         Code::TooLarge,
-        format!(
-            "the number {} exceeds the limit of ±{}",
-            digits(x),
-            digits(largest)
-        ),
+        format!("the number {} exceeds the limit of ±{}", digits(x), digits(largest)),
         check_units(units),
     )
 }
@@ -44,41 +36,22 @@ fn check_units(units: UnitsEntry) -> String {
 pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry) -> Wording {
     new_wording(
         Code::TooSmall,
-        format!(
-            "the number {} is too close to 0: its size must be 0 or at least {}",
-            digits(x),
-            digits(smallest)
-        ),
+        format!("the number {} is too close to 0: its size must be 0 or at least {}", digits(x), digits(smallest)),
         format!("write 0, or {}", check_units(units)),
     )
 }
 
-pub(in crate::mechanics::scene) fn tiny_extent(
-    extent: f64,
-    smallest: f64,
-    units: UnitsEntry,
-) -> Wording {
+pub(in crate::mechanics::scene) fn tiny_extent(extent: f64, smallest: f64, units: UnitsEntry) -> Wording {
     let unit = units.length().symbol();
     new_wording(
         Code::TooSmall,
-        format!(
-            "the extent is {} {unit}, which is less than the limit of {} {unit}",
-            digits(extent),
-            digits(smallest)
-        ),
-        format!(
-            "check the units: lengths are in {}",
-            units.length.unwrap_or_default().name()
-        ),
+        format!("the extent is {} {unit}, which is less than the limit of {} {unit}", digits(extent), digits(smallest)),
+        format!("check the units: lengths are in {}", units.length.unwrap_or_default().name()),
     )
 }
 
 pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
-    new_wording(
-        Code::Negative,
-        format!("negative {what} {}", digits(x)),
-        format!("`{what}` must be at least 0"),
-    )
+    new_wording(Code::Negative, format!("negative {what} {}", digits(x)), format!("`{what}` must be at least 0"))
 }
 
 pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
@@ -92,10 +65,7 @@ pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
     new_wording(
         Code::OutOfRange,
-        format!(
-            "the edge length of the grid cells is {}, but it must be more than 0",
-            digits(x)
-        ),
+        format!("the edge length of the grid cells is {}, but it must be more than 0", digits(x)),
         "give the edge length of a cell, more than 0",
     )
 }
@@ -103,11 +73,7 @@ pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
 pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
     new_wording(
         Code::TooLarge,
-        format!(
-            "the block's weight would be {} N, more than the limit of {} N",
-            digits(weight),
-            digits(largest)
-        ),
+        format!("the block's weight would be {} N, more than the limit of {} N", digits(weight), digits(largest)),
         "check the units of density, thickness, gravity and polygon",
     )
 }

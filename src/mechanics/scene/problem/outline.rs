@@ -16,13 +16,8 @@ pub(in crate::mechanics::scene) struct Side {
 
 impl fmt::Display for Side {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the side from corner {} to corner {}",
-            self.corners[0], self.corners[1]
-        )?;
-        self.hole
-            .map_or(Ok(()), |hole| write!(f, " of hole {hole}"))
+        write!(f, "the side from corner {} to corner {}", self.corners[0], self.corners[1])?;
+        self.hole.map_or(Ok(()), |hole| write!(f, " of hole {hole}"))
     }
 }
 
@@ -32,19 +27,11 @@ pub(in crate::mechanics::scene) fn too_few_corners(found: usize) -> Wording {
         1 => "only 1 corner".into(),
         _ => format!("only {found} different corners"),
     };
-    new_wording(
-        Code::TooFewCorners,
-        format!("the outline has {corners}"),
-        "give at least three corners",
-    )
+    new_wording(Code::TooFewCorners, format!("the outline has {corners}"), "give at least three corners")
 }
 
 pub(in crate::mechanics::scene) fn zero_area() -> Wording {
-    new_wording(
-        Code::ZeroArea,
-        "the outline encloses no area",
-        "give corners that do not all lie on one line",
-    )
+    new_wording(Code::ZeroArea, "the outline encloses no area", "give corners that do not all lie on one line")
 }
 
 pub(in crate::mechanics::scene) fn crossing(a: &Side, b: &Side, at: Point) -> Wording {
@@ -80,11 +67,7 @@ pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
-    new_wording(
-        Code::NoOutline,
-        "the shape has no `polygon` and no `cells`",
-        "give `polygon` or `cells`",
-    )
+    new_wording(Code::NoOutline, "the shape has no `polygon` and no `cells`", "give `polygon` or `cells`")
 }
 
 pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wording {
@@ -133,11 +116,7 @@ pub(in crate::mechanics::scene) fn shape_without_grid(name: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_cells() -> Wording {
-    new_wording(
-        Code::NoOutline,
-        "the list of cells is empty",
-        "give at least one cell",
-    )
+    new_wording(Code::NoOutline, "the list of cells is empty", "give at least one cell")
 }
 
 pub(in crate::mechanics::scene) fn square_cell() -> Wording {
@@ -149,11 +128,7 @@ pub(in crate::mechanics::scene) fn square_cell() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn triangle_cell() -> Wording {
-    new_wording(
-        Code::WrongCell,
-        "a cell of the square grid has no \"up\" or \"down\"",
-        "write [x, y]",
-    )
+    new_wording(Code::WrongCell, "a cell of the square grid has no \"up\" or \"down\"", "write [x, y]")
 }
 
 pub(in crate::mechanics::scene) fn cell_twice(first: usize) -> Wording {
@@ -183,11 +158,7 @@ pub(in crate::mechanics::scene) fn not_whole(p: [f64; 2]) -> Wording {
 pub(in crate::mechanics::scene) fn beyond_lattice(p: [f64; 2], reach: f64) -> Wording {
     new_wording(
         Code::TooLarge,
-        format!(
-            "{} exceeds the limit of ±{} lattice steps",
-            pair(p),
-            digits(reach)
-        ),
+        format!("{} exceeds the limit of ±{} lattice steps", pair(p), digits(reach)),
         "move the scene towards the origin",
     )
 }
@@ -221,9 +192,7 @@ pub(in crate::mechanics::scene) fn overlap(
 ) -> Wording {
     let unit = units.length().symbol();
     let when = frame.map_or(String::new(), |f| format!(" in {f}"));
-    let Common {
-        depth, area, at, ..
-    } = common;
+    let Common { depth, area, at, .. } = common;
     let help = "move the bodies apart until they only touch".to_owned();
     // Round the depth up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
@@ -236,9 +205,7 @@ pub(in crate::mechanics::scene) fn overlap(
             point(*at)
         ),
         if common.may_be_meant {
-            format!(
-                "{help}, or give \"contact_tolerance\": {enough} if the bodies are meant to touch"
-            )
+            format!("{help}, or give \"contact_tolerance\": {enough} if the bodies are meant to touch")
         } else {
             help
         },

@@ -11,11 +11,7 @@ pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wordin
 }
 
 pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
-    let when = if since == now {
-        "earlier in this step".into()
-    } else {
-        format!("by steps[{since}]")
-    };
+    let when = if since == now { "earlier in this step".into() } else { format!("by steps[{since}]") };
     new_wording(
         Code::PlacedTwice,
         format!("the block `{}` is already placed, {when}", shortened(block)),
@@ -26,10 +22,7 @@ pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: 
 pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
     new_wording(
         Code::NotPlaced,
-        format!(
-            "the block `{}` is removed, but it is not placed",
-            shortened(block)
-        ),
+        format!("the block `{}` is removed, but it is not placed", shortened(block)),
         "remove only blocks that an earlier step placed",
     )
 }
@@ -37,30 +30,16 @@ pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
 pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wording {
     new_wording(
         Code::RemovedWhileHeld,
-        format!(
-            "the block `{}` is removed while the robot `{}` holds it",
-            shortened(block),
-            shortened(robot)
-        ),
-        format!(
-            "add \"{}\" to `release` of this step or of an earlier step",
-            shortened(robot)
-        ),
+        format!("the block `{}` is removed while the robot `{}` holds it", shortened(block), shortened(robot)),
+        format!("add \"{}\" to `release` of this step or of an earlier step", shortened(robot)),
     )
 }
 
 pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
     new_wording(
         Code::NotPlaced,
-        format!(
-            "the robot `{}` holds the block `{}`, which is not placed",
-            shortened(robot),
-            shortened(block)
-        ),
-        format!(
-            "add \"{}\" to `place` of this step or of an earlier step",
-            shortened(block)
-        ),
+        format!("the robot `{}` holds the block `{}`, which is not placed", shortened(robot), shortened(block)),
+        format!("add \"{}\" to `place` of this step or of an earlier step", shortened(block)),
     )
 }
 
@@ -68,9 +47,7 @@ pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &st
     let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
     new_wording(
         Code::HoldsTwo,
-        format!(
-            "the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"
-        ),
+        format!("the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"),
         format!("a robot can hold only one block; add \"{robot}\" to `release` of this step first"),
     )
 }

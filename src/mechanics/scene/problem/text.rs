@@ -3,16 +3,9 @@
 use super::{Code, Wording, new_wording, shortened};
 
 pub(in crate::mechanics::scene) fn not_utf8(byte: u8, utf16: bool) -> Wording {
-    let help = if utf16 {
-        "the file looks like UTF-16; save it as UTF-8"
-    } else {
-        "save the file in the encoding UTF-8"
-    };
-    new_wording(
-        Code::NotUtf8,
-        format!("the byte 0x{byte:02X} is not UTF-8 text"),
-        help,
-    )
+    let help =
+        if utf16 { "the file looks like UTF-16; save it as UTF-8" } else { "save the file in the encoding UTF-8" };
+    new_wording(Code::NotUtf8, format!("the byte 0x{byte:02X} is not UTF-8 text"), help)
 }
 
 pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
@@ -24,18 +17,14 @@ pub(in crate::mechanics::scene) fn more_problems(listed: usize) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn empty_text() -> Wording {
-    new_wording(
-        Code::EmptyFile,
-        "the file is empty",
-        "start from the scene that `drystone new` writes",
-    )
+    new_wording(Code::EmptyFile, "the file is empty", "start from the scene that `drystone new` writes")
 }
 
 pub(in crate::mechanics::scene) fn early_end(opened: Option<(char, usize, usize)>) -> Wording {
     let help = match opened {
-        Some((c, line, column)) => format!(
-            "the `{c}` opened in line {line}, column {column} is never closed; is a part of the file missing?"
-        ),
+        Some((c, line, column)) => {
+            format!("the `{c}` opened in line {line}, column {column} is never closed; is a part of the file missing?")
+        }
         None => "a part of the file seems to be missing".into(),
     };
     new_wording(Code::EndsEarly, "the file ends too early", help)
@@ -50,35 +39,19 @@ pub(in crate::mechanics::scene) fn not_a_number(word: &str) -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn foreign_word(word: &str, meant: &str) -> Wording {
-    new_wording(
-        Code::NotJson,
-        format!("`{word}` is not JSON"),
-        format!("write `{meant}`"),
-    )
+    new_wording(Code::NotJson, format!("`{word}` is not JSON"), format!("write `{meant}`"))
 }
 
 pub(in crate::mechanics::scene) fn bare_word(word: &str) -> Wording {
-    new_wording(
-        Code::NotJson,
-        format!("`{}` is not JSON", shortened(word)),
-        "put strings and keys in double quotes",
-    )
+    new_wording(Code::NotJson, format!("`{}` is not JSON", shortened(word)), "put strings and keys in double quotes")
 }
 
 pub(in crate::mechanics::scene) fn comment() -> Wording {
-    new_wording(
-        Code::NotJson,
-        "JSON has no comments",
-        "remove the comment; the key `title` can hold a text for people",
-    )
+    new_wording(Code::NotJson, "JSON has no comments", "remove the comment; the key `title` can hold a text for people")
 }
 
 pub(in crate::mechanics::scene) fn single_quotes() -> Wording {
-    new_wording(
-        Code::NotJson,
-        "JSON has no single quotes",
-        "put strings and keys in double quotes",
-    )
+    new_wording(Code::NotJson, "JSON has no single quotes", "put strings and keys in double quotes")
 }
 
 pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
@@ -90,11 +63,7 @@ pub(in crate::mechanics::scene) fn trailing_comma() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn number_too_large(text: &str) -> Wording {
-    new_wording(
-        Code::TooLarge,
-        format!("the number {} is too large", shortened(text)),
-        "give a number of at most 1e12",
-    )
+    new_wording(Code::TooLarge, format!("the number {} is too large", shortened(text)), "give a number of at most 1e12")
 }
 
 pub(in crate::mechanics::scene) fn odd_number(text: &str) -> Wording {
@@ -172,9 +141,7 @@ pub(in crate::mechanics::scene) fn conflict() -> Wording {
 pub(in crate::mechanics::scene) fn other_format(format: &str) -> Wording {
     let help = match format {
         "XML" => "a scene is written as JSON; `drystone import` converts a drawing to a scene",
-        _ => {
-            "a scene is written as JSON, which begins with `{`; `drystone new` writes a scene to start from"
-        }
+        _ => "a scene is written as JSON, which begins with `{`; `drystone new` writes a scene to start from",
     };
     new_wording(Code::OtherFormat, format!("this looks like {format}"), help)
 }

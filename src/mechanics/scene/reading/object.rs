@@ -3,9 +3,9 @@
 //! A test in `format::schema` compares the lists of keys with the fields of the types.
 
 use super::super::format::{
-    BlockEntry, CellEntry, CellHalf, ContactEntry, Expectation, ForceUnit, FrictionPairEntry,
-    GridEntry, GridKind, GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry,
-    MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry, StepEntry, UnitsEntry, Version,
+    BlockEntry, CellEntry, CellHalf, ContactEntry, Expectation, ForceUnit, FrictionPairEntry, GridEntry, GridKind,
+    GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile,
+    ShapeEntry, StepEntry, UnitsEntry, Version,
 };
 use super::super::path::Trail;
 use super::super::tree::{Node, NodeKind};
@@ -62,19 +62,15 @@ const MATERIAL: &[&str] = &["density", "fill", "friction"];
 const FRICTION_PAIR: &[&str] = &["between", "friction"];
 const GRID: &[&str] = &["kind", "side"];
 const SHAPE: &[&str] = &["cells", "holes", "polygon"];
-const GROUND: &[&str] = &[
-    "angle", "at", "cells", "fill", "friction", "holes", "material", "polygon", "shape",
-];
+const GROUND: &[&str] = &["angle", "at", "cells", "fill", "friction", "holes", "material", "polygon", "shape"];
 const BLOCK: &[&str] = &[
-    "angle", "at", "cells", "centre", "density", "fill", "friction", "holes", "id", "mass",
-    "material", "polygon", "shape", "weight",
+    "angle", "at", "cells", "centre", "density", "fill", "friction", "holes", "id", "mass", "material", "polygon",
+    "shape", "weight",
 ];
 const ROBOT: &[&str] = &["at", "holds", "id", "limits"];
 const LIMITS: &[&str] = &["force", "fx", "fy", "torque"];
 const LOAD: &[&str] = &["at", "block", "force", "torque"];
-const STEP: &[&str] = &[
-    "expect", "hold", "place", "plan", "release", "remove", "title",
-];
+const STEP: &[&str] = &["expect", "hold", "place", "plan", "release", "remove", "title"];
 const GRIP: &[&str] = &["at", "block"];
 const CONTACT: &[&str] = &["at", "bodies", "friction", "normal"];
 const UNITS: &[&str] = &["force", "length"];
@@ -107,8 +103,7 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         grid: r.optional(o, at, "grid", grid),
         shapes: r.map(o, at, "shapes", shape),
         ground: r.list(o, at, "ground", ground),
-        blocks: (r.required(o, at, "blocks", |r, n, at| r.entries(n, at, block)))
-            .unwrap_or_default(),
+        blocks: (r.required(o, at, "blocks", |r, n, at| r.entries(n, at, block))).unwrap_or_default(),
         contacts: r.list(o, at, "contacts", contact),
         robots: r.list(o, at, "robots", robot),
         loads: r.list(o, at, "loads", load),
@@ -212,11 +207,7 @@ fn material<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Ma
     })
 }
 
-fn friction_pair<'t>(
-    r: &mut R<'_, 't>,
-    node: &Node<'t>,
-    at: &Trail<'_>,
-) -> Option<FrictionPairEntry> {
+fn friction_pair<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<FrictionPairEntry> {
     let o = r.object(node, at, FRICTION_PAIR)?;
     let between = r.required(o, at, "between", |r, n, at| match &n.kind {
         NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
@@ -233,10 +224,7 @@ fn friction_pair<'t>(
 
 fn grid<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GridEntry> {
     let o = r.object(node, at, GRID)?;
-    let kinds = [
-        ("triangular", GridKind::Triangular),
-        ("square", GridKind::Square),
-    ];
+    let kinds = [("triangular", GridKind::Triangular), ("square", GridKind::Square)];
     Some(GridEntry {
         kind: (r.required(o, at, "kind", |r, n, at| r.choice(n, at, &kinds))).unwrap_or_default(),
         side: number(r, o, at, "side"),
@@ -265,11 +253,7 @@ fn cell<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<CellEn
 
 fn shape<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<ShapeEntry> {
     let o = r.object(node, at, SHAPE)?;
-    Some(ShapeEntry {
-        polygon: polygon(r, o, at),
-        holes: holes(r, o, at),
-        cells: cells(r, o, at),
-    })
+    Some(ShapeEntry { polygon: polygon(r, o, at), holes: holes(r, o, at), cells: cells(r, o, at) })
 }
 
 fn ground<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GroundEntry> {
@@ -351,10 +335,7 @@ fn step<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<StepEn
 }
 
 fn expectation<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Expectation> {
-    let choices = [
-        ("stable", Expectation::Stable),
-        ("unstable", Expectation::Unstable),
-    ];
+    let choices = [("stable", Expectation::Stable), ("unstable", Expectation::Unstable)];
     r.optional(o, at, "expect", |r, n, at| r.choice(n, at, &choices))
 }
 

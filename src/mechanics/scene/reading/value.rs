@@ -47,11 +47,7 @@ pub(super) enum Meaning {
 
 impl<'s, 't> Reader<'s, 't> {
     pub(super) fn new(source: &'s Source<'t>) -> Reader<'s, 't> {
-        Reader {
-            source,
-            findings: Findings::default(),
-            unread: UnreadParts::default(),
-        }
+        Reader { source, findings: Findings::default(), unread: UnreadParts::default() }
     }
 
     /// Returns the entries of a list.
@@ -141,12 +137,7 @@ impl<'s, 't> Reader<'s, 't> {
 
     /// Reads a string that must be one of the words in `choices`, and returns the value of that word. Reports any other
     /// value and returns `None`.
-    pub(super) fn choice<T: Copy>(
-        &mut self,
-        node: &Node<'_>,
-        at: &Trail<'_>,
-        choices: &[(&str, T)],
-    ) -> Option<T> {
+    pub(super) fn choice<T: Copy>(&mut self, node: &Node<'_>, at: &Trail<'_>, choices: &[(&str, T)]) -> Option<T> {
         let names: Vec<String> = choices.iter().map(|c| c.0.to_owned()).collect();
         let NodeKind::Text(text) = &node.kind else {
             let expected = problem::choice(names.iter().map(|n| format!("\"{n}\"")));
@@ -155,23 +146,14 @@ impl<'s, 't> Reader<'s, 't> {
         };
         let chosen = choices.iter().find(|c| c.0 == text).map(|c| c.1);
         if chosen.is_none() {
-            self.report(
-                at,
-                Mark::Value,
-                problem::entry::unknown_choice(text, &names),
-            );
+            self.report(at, Mark::Value, problem::entry::unknown_choice(text, &names));
         }
         chosen
     }
 
     /// Reads a point or vector [x, y]. If the list has more than two numbers, reports the error and returns the first
     /// two. Reports any other invalid value and returns `None`.
-    pub(super) fn pair(
-        &mut self,
-        node: &Node<'_>,
-        at: &Trail<'_>,
-        meaning: Meaning,
-    ) -> Option<Pair> {
+    pub(super) fn pair(&mut self, node: &Node<'_>, at: &Trail<'_>, meaning: Meaning) -> Option<Pair> {
         let NodeKind::List(list) = &node.kind else {
             let expected = match meaning {
                 Meaning::Point => "a point [x, y]",
@@ -215,12 +197,7 @@ impl<'s, 't> Reader<'s, 't> {
     }
 
     /// Reads an object. Reports keys that are not in `keys`, and keys that occur twice.
-    pub(super) fn object(
-        &mut self,
-        node: &Node<'t>,
-        at: &Trail<'_>,
-        keys: &[&str],
-    ) -> Option<Object<'s, 't>> {
+    pub(super) fn object(&mut self, node: &Node<'t>, at: &Trail<'_>, keys: &[&str]) -> Option<Object<'s, 't>> {
         let object = self.any_object(node, at)?;
         for entry in object.entries {
             if !keys.contains(&entry.name.as_ref()) {
@@ -289,8 +266,7 @@ impl<'s, 't> Reader<'s, 't> {
         read: impl FnMut(&mut Self, &Node<'t>, &Trail<'_>) -> Option<T>,
     ) -> Vec<T> {
         let node = object.get(key);
-        node.and_then(|node| self.entries(node, &at.key(key), read))
-            .unwrap_or_default()
+        node.and_then(|node| self.entries(node, &at.key(key), read)).unwrap_or_default()
     }
 
     /// Reads all entries of a list with the function `read`. An entry that does not fit is replaced by the default
@@ -330,9 +306,7 @@ impl<'s, 't> Reader<'s, 't> {
             return Map::default();
         };
         let mut map: Vec<(String, T)> = Vec::with_capacity(object.entries.len());
-        let again: Vec<usize> = (repeated(object.entries))
-            .map(|(second, _)| second.name_range.start)
-            .collect();
+        let again: Vec<usize> = (repeated(object.entries)).map(|(second, _)| second.name_range.start).collect();
         for entry in object.entries {
             if again.contains(&entry.name_range.start) {
                 continue;
@@ -345,9 +319,7 @@ impl<'s, 't> Reader<'s, 't> {
 }
 
 /// Returns the entries whose key occurred before, each together with the first entry that has the same key.
-fn repeated<'n, 't>(
-    entries: &'n [Entry<'t>],
-) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {
+fn repeated<'n, 't>(entries: &'n [Entry<'t>]) -> impl Iterator<Item = (&'n Entry<'t>, &'n Entry<'t>)> {
     let mut table: BTreeMap<&str, &Entry<'t>> = BTreeMap::new();
     entries.iter().enumerate().filter_map(move |(i, entry)| {
         let first = if entries.len() <= MAX_KEYS_WITHOUT_TABLE {

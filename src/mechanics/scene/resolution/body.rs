@@ -65,31 +65,21 @@ impl Resolution<'_> {
         }
         match (polygon, cells) {
             (Some(corners), _) => outline::polygon(findings, at, corners, holes),
-            (None, Some(entries)) if self.grid_known => {
-                outline::cells(findings, at, self.lattice, entries)
-            }
+            (None, Some(entries)) if self.grid_known => outline::cells(findings, at, self.lattice, entries),
             _ => None,
         }
     }
 
     fn body(&self, findings: &mut Findings, at: &Trail<'_>, entry: &BodyEntry<'_>) -> Option<Body> {
-        let material = entry
-            .material
-            .and_then(|m| self.materials.find(findings, &at.key("material"), m));
+        let material = entry.material.and_then(|m| self.materials.find(findings, &at.key("material"), m));
         let values = material.map(|m| self.material_entries[m]);
         let friction = at_least_zero(findings, at, "friction", entry.friction);
-        let fill = entry
-            .fill
-            .and_then(|f| colour(findings, &at.key("fill"), f));
+        let fill = entry.fill.and_then(|f| colour(findings, &at.key("fill"), f));
         let angle = entry.angle.unwrap_or(0.0);
         let place = entry.at.unwrap_or([0.0, 0.0]);
-        let sound = is_sane(findings, &at.key("angle"), &[angle])
-            & is_sane(findings, &at.key("at"), &place);
-        let given = [
-            ("polygon", entry.polygon.is_some()),
-            ("cells", entry.cells.is_some()),
-            ("shape", entry.shape.is_some()),
-        ];
+        let sound = is_sane(findings, &at.key("angle"), &[angle]) & is_sane(findings, &at.key("at"), &place);
+        let given =
+            [("polygon", entry.polygon.is_some()), ("cells", entry.cells.is_some()), ("shape", entry.shape.is_some())];
         let mut given = given.iter().filter(|g| g.1).map(|g| g.0);
         let outline = match (given.next(), given.next()) {
             (None, _) => {
@@ -104,8 +94,7 @@ impl Resolution<'_> {
                 if !entry.holes.is_empty() {
                     findings.add(&at.key("holes"), problem::outline::holes_alone());
                 }
-                self.shape(findings, &at.key("shape"), entry.shape.unwrap_or(""))
-                    .cloned()
+                self.shape(findings, &at.key("shape"), entry.shape.unwrap_or("")).cloned()
             }
             (Some(_), None) => self.outline(findings, at, entry.polygon, entry.holes, entry.cells),
         };
@@ -117,9 +106,7 @@ impl Resolution<'_> {
             polygon,
             cells,
             material,
-            friction: friction
-                .or(values.and_then(|v| v.friction))
-                .unwrap_or(self.friction),
+            friction: friction.or(values.and_then(|v| v.friction)).unwrap_or(self.friction),
             fill: fill.or(values.and_then(|v| v.fill)),
             gap: 0.0,
             rounding: 0.0,
@@ -140,29 +127,17 @@ impl Resolution<'_> {
         let top = Trail::Top;
         let list = top.key("ground");
         (self.file.ground.iter().enumerate())
-            .map(|(i, entry)| {
-                Some(Ground {
-                    body: self.body(findings, &list.index(i), &entry.into())?,
-                })
-            })
+            .map(|(i, entry)| Some(Ground { body: self.body(findings, &list.index(i), &entry.into())? }))
             .collect()
     }
 
     pub(super) fn blocks(&self, findings: &mut Findings) -> Vec<Option<Block>> {
         let top = Trail::Top;
         let list = top.key("blocks");
-        (self.file.blocks.iter().enumerate())
-            .map(|(i, entry)| self.block(findings, &list.index(i), entry, i))
-            .collect()
+        (self.file.blocks.iter().enumerate()).map(|(i, entry)| self.block(findings, &list.index(i), entry, i)).collect()
     }
 
-    fn block(
-        &self,
-        findings: &mut Findings,
-        at: &Trail<'_>,
-        entry: &format::BlockEntry,
-        i: usize,
-    ) -> Option<Block> {
+    fn block(&self, findings: &mut Findings, at: &Trail<'_>, entry: &format::BlockEntry, i: usize) -> Option<Block> {
         let weight = at_least_zero(findings, at, "weight", entry.weight);
         let mass = at_least_zero(findings, at, "mass", entry.mass);
         let density = at_least_zero(findings, at, "density", entry.density);
@@ -176,9 +151,8 @@ impl Resolution<'_> {
             (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
             _ => body.polygon.area(),
         };
-        let density = density
-            .or_else(|| body.material.and_then(|m| self.material_entries[m].density))
-            .unwrap_or(self.density);
+        let density =
+            density.or_else(|| body.material.and_then(|m| self.material_entries[m].density)).unwrap_or(self.density);
         let weighs_by_area = weight.is_none() && mass.is_none();
         // Compute the weight in newtons. The given weight, the area and the thickness are in the units of the file.
         let [length, force] = [self.units.length().size, self.units.force().size];
@@ -191,13 +165,7 @@ impl Resolution<'_> {
             findings.add(at, problem::number::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
-        Some(Block {
-            id: self.ids[i].clone(),
-            centroid: body.polygon.centroid(),
-            body,
-            weight,
-            weighs_by_area,
-        })
+        Some(Block { id: self.ids[i].clone(), centroid: body.polygon.centroid(), body, weight, weighs_by_area })
     }
 }
 
@@ -257,11 +225,9 @@ impl Resolution<'_> {
 
 /// Parses a colour `#rrggbb` or `#rgb`. Reports other text and returns `None`.
 pub(super) fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Option<Rgb> {
-    let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|hex| {
-        hex.chars()
-            .map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok()))
-            .collect()
-    });
+    let digits: Option<Vec<u8>> = text
+        .strip_prefix('#')
+        .and_then(|hex| hex.chars().map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok())).collect());
     match digits.as_deref() {
         Some([r, g, b]) => Some(Rgb([r * 17, g * 17, b * 17])),
         Some([a, b, c, d, e, f]) => Some(Rgb([a * 16 + b, c * 16 + d, e * 16 + f])),

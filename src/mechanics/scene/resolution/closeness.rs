@@ -32,11 +32,7 @@ pub(super) struct Closeness {
 impl Closeness {
     /// Returns the contact tolerance of the whole scene, in the units of the file.
     pub(super) fn tolerance(&self) -> Tolerance {
-        if self.exact {
-            Tolerance::EXACT
-        } else {
-            Tolerance::from_gap(self.reach.gap())
-        }
+        if self.exact { Tolerance::EXACT } else { Tolerance::from_gap(self.reach.gap()) }
     }
 
     /// True if the file or the caller gives the contact tolerance, so that it is not estimated.
@@ -54,8 +50,7 @@ impl Resolution<'_> {
         ground: &mut [Option<Ground>],
         blocks: &mut [Option<Block>],
     ) -> Closeness {
-        let mut bodies = (ground.iter().flatten().map(|g| &g.body))
-            .chain(blocks.iter().flatten().map(|b| &b.body));
+        let mut bodies = (ground.iter().flatten().map(|g| &g.body)).chain(blocks.iter().flatten().map(|b| &b.body));
         let exact = self.lattice.is_some() && bodies.all(|body| body.cells.is_some());
         let given = self.file.contact_tolerance;
         let given = at_least_zero(findings, &Trail::Top, "contact_tolerance", given);
@@ -65,10 +60,7 @@ impl Resolution<'_> {
             false => rounding::estimate_rounding(self.file),
         };
         let (reach, healed) = if exact {
-            let healed = Healed {
-                source: ToleranceSource::Lattice,
-                ..Healed::default()
-            };
+            let healed = Healed { source: ToleranceSource::Lattice, ..Healed::default() };
             (HealingReach::EXACT, healed)
         } else {
             let reach = reach(given, rounding, blocks);
@@ -77,12 +69,7 @@ impl Resolution<'_> {
                 false => (reach, heal::heal(ground, blocks, reach)),
             }
         };
-        Closeness {
-            exact,
-            reach,
-            healed,
-            misfit: rounding.map_or(0.0, |r| misfit(&r)),
-        }
+        Closeness { exact, reach, healed, misfit: rounding.map_or(0.0, |r| misfit(&r)) }
     }
 }
 
@@ -90,11 +77,7 @@ impl Resolution<'_> {
 /// the scene's extent. All lengths are in the units of the file.
 fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>]) -> HealingReach {
     if let Some(gap) = given {
-        return HealingReach {
-            source: ToleranceSource::Given,
-            default_gap: 0.0,
-            healing: gap,
-        };
+        return HealingReach { source: ToleranceSource::Given, default_gap: 0.0, healing: gap };
     }
     let polygons = || blocks.iter().flatten().map(|b| &b.body.polygon);
     let median = |mut sizes: Vec<f64>| {
@@ -106,15 +89,7 @@ fn reach(given: Option<f64>, rounding: Option<Rounding>, blocks: &[Option<Block>
     let default_gap = Tolerance::new(around.map_or(0.0, Bounds::diagonal), typical).gap;
     let small = median(polygons().map(heal::size).collect());
     match rounding.filter(|r| misfit(r) <= heal::MAX_ROUNDING_PER_SIZE * small) {
-        Some(rounding) => HealingReach {
-            source: rounding.source,
-            default_gap,
-            healing: misfit(&rounding),
-        },
-        None => HealingReach {
-            source: ToleranceSource::Size,
-            default_gap,
-            healing: 0.0,
-        },
+        Some(rounding) => HealingReach { source: rounding.source, default_gap, healing: misfit(&rounding) },
+        None => HealingReach { source: ToleranceSource::Size, default_gap, healing: 0.0 },
     }
 }

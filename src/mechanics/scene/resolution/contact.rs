@@ -24,18 +24,14 @@ impl Resolution<'_> {
 
     /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A
     /// contact with an invalid friction coefficient is reported and gets the friction coefficient of the scene.
-    pub(super) fn contacts(
-        &self,
-        findings: &mut Findings,
-        blocks: &Names<'_>,
-    ) -> Vec<ListedContact> {
+    pub(super) fn contacts(&self, findings: &mut Findings, blocks: &Names<'_>) -> Vec<ListedContact> {
         let top = Trail::Top;
         let list = top.key("contacts");
         let mut contacts = Vec::new();
         for (i, entry) in self.file.contacts.iter().enumerate() {
             let at = list.index(i);
-            let sound = is_sane(findings, &at.key("at"), &entry.at)
-                & is_sane(findings, &at.key("normal"), &[entry.normal]);
+            let sound =
+                is_sane(findings, &at.key("at"), &entry.at) & is_sane(findings, &at.key("normal"), &[entry.normal]);
             let friction = at_least_zero(findings, &at, "friction", entry.friction);
             let names = at.key("bodies");
             let mut bodies = [0, 1].map(|side| match entry.bodies[side].as_str() {

@@ -34,24 +34,12 @@ impl Resolution<'_> {
                     findings.add(&at, problem::outline::no_shape_outline());
                     None
                 }
-                (polygon, cells) => self.outline(
-                    findings,
-                    &at,
-                    polygon.as_deref(),
-                    &entry.holes,
-                    cells.as_deref(),
-                ),
+                (polygon, cells) => self.outline(findings, &at, polygon.as_deref(), &entry.holes, cells.as_deref()),
             });
         }
         for name in shape::BUILT_IN {
-            let triangular = self
-                .lattice
-                .is_some_and(|l| l.kind == LatticeKind::Triangular);
-            outlines.push(
-                shape::cells(name)
-                    .filter(|_| triangular)
-                    .map(Outline::Cells),
-            );
+            let triangular = self.lattice.is_some_and(|l| l.kind == LatticeKind::Triangular);
+            outlines.push(shape::cells(name).filter(|_| triangular).map(Outline::Cells));
         }
         outlines
     }
@@ -67,12 +55,8 @@ impl Resolution<'_> {
             let at = list.index(i);
             let between = at.key("between");
             let friction = at_least_zero(findings, &at, "friction", Some(entry.friction));
-            let a = self
-                .materials
-                .find(findings, &between.index(0), &entry.between[0]);
-            let b = self
-                .materials
-                .find(findings, &between.index(1), &entry.between[1]);
+            let a = self.materials.find(findings, &between.index(0), &entry.between[0]);
+            let b = self.materials.find(findings, &between.index(1), &entry.between[1]);
             let (Some(a), Some(b)) = (a, b) else { continue };
             let pair = [a.min(b), a.max(b)];
             if let Some(first) = seen.get(&pair) {
@@ -91,13 +75,7 @@ impl Resolution<'_> {
         let given = self.file.blocks.iter().map(|b| b.id.is_some());
         ids(findings, &top.key("blocks"), "block", &self.ids, given);
         let given = self.file.robots.iter().map(|r| r.id.is_some());
-        ids(
-            findings,
-            &top.key("robots"),
-            "robot",
-            &self.robot_ids,
-            given,
-        );
+        ids(findings, &top.key("robots"), "robot", &self.robot_ids, given);
     }
 }
 
@@ -111,10 +89,7 @@ pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<
         values.push(MaterialValues {
             density: at_least_zero(findings, &at, "density", entry.density),
             friction: at_least_zero(findings, &at, "friction", entry.friction),
-            fill: entry
-                .fill
-                .as_deref()
-                .and_then(|f| colour(findings, &at.key("fill"), f)),
+            fill: entry.fill.as_deref().and_then(|f| colour(findings, &at.key("fill"), f)),
         });
     }
     values
@@ -122,13 +97,7 @@ pub(super) fn material_values(findings: &mut Findings, file: &SceneFile) -> Vec<
 
 /// Reports ids in a list of the file that are used twice, empty or reserved. `given` contains, for each id, whether the
 /// file gives it; the other ids are defaults.
-fn ids(
-    findings: &mut Findings,
-    list: &Trail<'_>,
-    sort: &str,
-    ids: &[String],
-    given: impl Iterator<Item = bool>,
-) {
+fn ids(findings: &mut Findings, list: &Trail<'_>, sort: &str, ids: &[String], given: impl Iterator<Item = bool>) {
     let mut first: BTreeMap<&str, usize> = BTreeMap::new();
     for (i, (id, given)) in ids.iter().zip(given).enumerate() {
         let entry = list.index(i);
@@ -140,10 +109,7 @@ fn ids(
             findings.add(at, problem::name::reserved_id());
         }
         if let Some(first) = first.get(id.as_str()) {
-            findings.add(
-                at,
-                problem::name::id_twice(sort, id, &list.index(*first).path().to_string()),
-            );
+            findings.add(at, problem::name::id_twice(sort, id, &list.index(*first).path().to_string()));
         } else {
             first.insert(id, i);
         }

@@ -31,20 +31,14 @@ pub(in crate::mechanics::scene) struct Placement {
 
 impl Placement {
     pub(in crate::mechanics::scene) fn place(&self, p: Point) -> Point {
-        let turned = Vector::new(
-            p.x * self.cos - p.y * self.sin,
-            p.x * self.sin + p.y * self.cos,
-        );
+        let turned = Vector::new(p.x * self.cos - p.y * self.sin, p.x * self.sin + p.y * self.cos);
         Point::from(turned + self.by)
     }
 }
 
 /// Returns all bodies that can be drawn, the ground first, and the scene if all its bodies are valid. The bodies may
 /// still overlap. The scene is not converted to SI units: its lengths are in the units of the file.
-pub(in crate::mechanics::scene) fn sketch(
-    file: &SceneFile,
-    unread: UnreadParts,
-) -> (Vec<SketchedBody>, Option<Scene>) {
+pub(in crate::mechanics::scene) fn sketch(file: &SceneFile, unread: UnreadParts) -> (Vec<SketchedBody>, Option<Scene>) {
     let mut findings = Findings::with_unread(unread);
     let resolution = Resolution::new(&mut findings, file);
     let scene = resolution.scene(&mut findings);
@@ -66,10 +60,7 @@ impl Resolution<'_> {
             let id = BodyId::Block(BlockId(i));
             self.sketched(id, self.ids[i].clone(), rings, &entry.into())
         });
-        grounds
-            .chain(blocks)
-            .filter(|body| !body.rings.is_empty())
-            .collect()
+        grounds.chain(blocks).filter(|body| !body.rings.is_empty()).collect()
     }
 
     fn sketched(
@@ -86,12 +77,7 @@ impl Resolution<'_> {
         };
         let (sin, cos) = sin_cos_degrees(written.angle.unwrap_or(0.0));
         let placement = Placement { by, sin, cos };
-        SketchedBody {
-            id,
-            name,
-            rings: sound.unwrap_or_else(|| self.raw(written, placement)),
-            placement,
-        }
+        SketchedBody { id, name, rings: sound.unwrap_or_else(|| self.raw(written, placement)), placement }
     }
 
     /// Returns the outline and holes of a body as written, rotated and moved to the body's position. Rings without
@@ -101,12 +87,8 @@ impl Resolution<'_> {
             let shapes = &self.file.shapes.0;
             shapes.iter().find(|s| s.0 == name).map(|s| &s.1)
         });
-        let polygon = written
-            .polygon
-            .or_else(|| shape.and_then(|s| s.polygon.as_deref()));
-        let cells = written
-            .cells
-            .or_else(|| shape.and_then(|s| s.cells.as_deref()));
+        let polygon = written.polygon.or_else(|| shape.and_then(|s| s.polygon.as_deref()));
+        let cells = written.cells.or_else(|| shape.and_then(|s| s.cells.as_deref()));
         let holes = shape.map_or(written.holes, |s| s.holes.as_slice());
         let rings: Vec<Vec<Point>> = match (polygon, cells) {
             (Some(corners), _) => std::iter::once(corners)
@@ -121,9 +103,7 @@ impl Resolution<'_> {
             corners.collect::<Vec<Point>>()
         });
         let drawable = |p: &Point| p.x.abs() <= MAX_MAGNITUDE && p.y.abs() <= MAX_MAGNITUDE;
-        placed
-            .filter(|ring| !ring.is_empty() && ring.iter().all(drawable))
-            .collect()
+        placed.filter(|ring| !ring.is_empty() && ring.iter().all(drawable)).collect()
     }
 
     /// Returns the corners of one cell, in the units of the file. `None` if the scene has no lattice or the cell's

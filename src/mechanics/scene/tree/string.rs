@@ -38,10 +38,7 @@ impl<'t> Parser<'t> {
 
     /// Returns the error for a text that ends within a string. `quote` is the byte at which the string begins.
     fn cut(&self, quote: usize) -> SyntaxError {
-        SyntaxError {
-            at: self.at,
-            why: Why::End(Some(('"', quote))),
-        }
+        SyntaxError { at: self.at, why: Why::End(Some(('"', quote))) }
     }
 
     fn escape(&mut self, quote: usize) -> Result<char, SyntaxError> {
@@ -87,11 +84,7 @@ impl<'t> Parser<'t> {
                 None => return Err(self.cut(quote)),
                 Some(c) => char::from(c).to_digit(16),
             };
-            code = 16 * code
-                + digit.ok_or(SyntaxError {
-                    at: start,
-                    why: Why::Escape,
-                })?;
+            code = 16 * code + digit.ok_or(SyntaxError { at: start, why: Why::Escape })?;
             self.at += 1;
         }
         Ok(code)

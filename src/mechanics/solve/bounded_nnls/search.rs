@@ -87,12 +87,7 @@ pub(super) enum Entry {
 impl Entry {
     /// Chooses the columns that enter the passive set, and empties the list of candidates. `rows` is the number of rows
     /// of the problem.
-    pub(super) fn choose(
-        self,
-        candidates: &mut Vec<(f64, usize)>,
-        columns: &[Column],
-        rows: usize,
-    ) -> Vec<usize> {
+    pub(super) fn choose(self, candidates: &mut Vec<(f64, usize)>, columns: &[Column], rows: usize) -> Vec<usize> {
         candidates.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         if self == Entry::One {
             candidates.truncate(1);

@@ -112,24 +112,14 @@ pub(super) fn joints(program: &Program) -> Option<Vec<Joint<'_>>> {
     // not form a tree.
     while let Some((number, below)) = queue.pop() {
         let contact = &program.contacts[number];
-        let both = [
-            Some((contact.on, 1.0)),
-            contact.from.map(|from| (from, -1.0)),
-        ];
+        let both = [Some((contact.on, 1.0)), contact.from.map(|from| (from, -1.0))];
         let mut sides = both.into_iter().flatten();
         let ((body, arms), sign) = sides.find(|((body, _), _)| Some(*body) != below)?;
         if std::mem::replace(&mut found[body], true) {
             return None;
         }
         let between = first_arm(contact, below).map(|own| own - arms[0]);
-        let joint = Joint {
-            number,
-            contact,
-            body,
-            arms,
-            sign,
-            below: below.zip(between),
-        };
+        let joint = Joint { number, contact, body, arms, sign, below: below.zip(between) };
         let [first, second] = joint.levers().0;
         if (second - first).abs() < MIN_FACE_LENGTH {
             return None;

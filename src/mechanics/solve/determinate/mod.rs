@@ -48,10 +48,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
     let mut needed: Vec<Wrench> = program
         .loads
         .chunks_exact(3)
-        .map(|load| Wrench {
-            force: Vector::new(load[0], load[1]),
-            moment: load[2],
-        })
+        .map(|load| Wrench { force: Vector::new(load[0], load[1]), moment: load[2] })
         .collect();
     // Go from the leaves of the tree towards the ground. The wrench that a joint must exert on its body is added to the
     // wrench that the body below needs.
@@ -138,9 +135,7 @@ struct SplitForces {
 impl SplitForces {
     fn new(program: &Program, joints: &[Joint]) -> Option<SplitForces> {
         let (mut forces, mut adhesion) = (Amounts::zero(program), Amounts::zero(program));
-        for (joint, ([first, second], tangential)) in
-            joints.iter().zip(needed_forces(program, joints))
-        {
+        for (joint, ([first, second], tangential)) in joints.iter().zip(needed_forces(program, joints)) {
             if !(first.is_finite() && second.is_finite() && tangential.is_finite()) {
                 return None;
             }
@@ -161,11 +156,7 @@ impl SplitForces {
     /// `None` if a friction coefficient exceeds 1, because the closed form is then not always the least adhesion. Also
     /// `None` if a velocity is not finite.
     fn into_least_adhesion(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
-        if program
-            .contacts
-            .iter()
-            .any(|contact| contact.friction > 1.0)
-        {
+        if program.contacts.iter().any(|contact| contact.friction > 1.0) {
             return None;
         }
         let speeds: Vec<_> = joints.iter().map(|joint| self.speeds(joint)).collect();
@@ -182,10 +173,7 @@ impl SplitForces {
     /// Returns the speeds at which the two points of a joint open, and the speed at which the joint slides, if the
     /// joint loses its adhesion. All are 0 if the joint needs no adhesion.
     fn speeds(&self, joint: &Joint) -> JointSpeeds {
-        let (pull, missing) = (
-            self.adhesion.normal[joint.number],
-            self.adhesion.friction[joint.number],
-        );
+        let (pull, missing) = (self.adhesion.normal[joint.number], self.adhesion.friction[joint.number]);
         let [first, second] = self.forces.normal[joint.number];
         let is_above_rounding = |v: f64| v.abs() > ROUNDING_TOL * (first + second + v.abs());
         let slides = match is_above_rounding(missing) {

@@ -11,20 +11,14 @@ use crate::solve::random_numbers::RandomNumbers;
 
 /// Blocks that each touch one earlier block or the ground, in any direction and with any load.
 fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {
-    let point =
-        |numbers: &mut RandomNumbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
+    let point = |numbers: &mut RandomNumbers| Vector::new(3.0 * numbers.next(), 3.0 * numbers.next());
     let centroids: Vec<Vector> = (0..blocks).map(|_| point(numbers)).collect();
     let contact = |body: usize, numbers: &mut RandomNumbers| {
         let angle = 4.0 * numbers.next();
         let normal = Vector::new(libm::cos(angle), libm::sin(angle));
         let middle = point(numbers);
         let half = quarter_turn(normal) * (0.6 + 0.4 * numbers.next());
-        let arms = |body: usize| {
-            (
-                body,
-                [middle - half, middle + half].map(|p| p - centroids[body]),
-            )
-        };
+        let arms = |body: usize| (body, [middle - half, middle + half].map(|p| p - centroids[body]));
         let (own, other) = (arms(body), numbers.below(body + 1));
         let (on, from) = match other == body {
             true => (own, None),
@@ -45,10 +39,7 @@ fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {
         contacts: (0..blocks).map(|body| contact(body, numbers)).collect(),
         loads: (0..3 * blocks).map(|_| 10.0 * numbers.next()).collect(),
         grips: Vec::new(),
-        scale: Scale {
-            length: 1.0,
-            force: 1.0,
-        },
+        scale: Scale { length: 1.0, force: 1.0 },
     }
 }
 
@@ -68,9 +59,7 @@ fn the_least_adhesion_agrees_with_the_programs_and_its_motion_proves_the_minimum
             normal: std::iter::zip(&found.forces.normal, &found.adhesion.normal)
                 .map(|(a, s)| [a[0] - s[0], a[1] - s[1]])
                 .collect(),
-            friction: std::iter::zip(&found.forces.friction, &found.adhesion.friction)
-                .map(|(a, s)| a + s)
-                .collect(),
+            friction: std::iter::zip(&found.forces.friction, &found.adhesion.friction).map(|(a, s)| a + s).collect(),
             grip: Vec::new(),
         };
         assert!(sum.unbalanced(&program) < 1e-9 * (1.0 + total));
@@ -93,10 +82,7 @@ fn the_least_adhesion_agrees_with_the_programs_and_its_motion_proves_the_minimum
             assert!(gained > 0.0 && gained <= total + 1e-8 * fastest * (1.0 + total));
         }
         let power = power(&motion);
-        assert!(
-            (power - total).abs() < 1e-8 * fastest * (1.0 + total),
-            "{power} {total}"
-        );
+        assert!((power - total).abs() < 1e-8 * fastest * (1.0 + total), "{power} {total}");
         stuck_somewhere += usize::from(total > 1.0);
     }
     assert!(stuck_somewhere > 20);

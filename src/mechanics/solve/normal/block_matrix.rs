@@ -43,11 +43,7 @@ impl BlockDiagonal {
                 entries[begin[k] + (j - start) * width + (i - start)] += value;
             }
         }
-        Some(BlockDiagonal {
-            blocks,
-            entries,
-            begin,
-        })
+        Some(BlockDiagonal { blocks, entries, begin })
     }
 
     /// Returns the range of the matrix of block `k` in [`Self::entries`].
@@ -95,15 +91,10 @@ fn blocks(problem: &QuadraticProgram) -> Vec<Range<usize>> {
 pub(super) fn cholesky_in_place(matrix: &mut [f64], width: usize) {
     for i in 0..width {
         for j in 0..=i {
-            let known: f64 = (0..j)
-                .map(|k| matrix[i * width + k] * matrix[j * width + k])
-                .sum();
+            let known: f64 = (0..j).map(|k| matrix[i * width + k] * matrix[j * width + k]).sum();
             let rest = matrix[i * width + j] - known;
-            matrix[i * width + j] = if i == j {
-                rest.max(f64::MIN_POSITIVE).sqrt()
-            } else {
-                rest / matrix[j * width + j]
-            };
+            matrix[i * width + j] =
+                if i == j { rest.max(f64::MIN_POSITIVE).sqrt() } else { rest / matrix[j * width + j] };
         }
     }
 }

@@ -75,11 +75,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
         let step = run.step();
         let is_stalled = max_norm(&run.residuals.primal) > STALLED_SHARE * former;
         let is_in_vain = step > LONG_STEP && is_stalled && !run.is_balanced(tolerance);
-        idle_steps = if step < SHORT_STEP || is_in_vain {
-            idle_steps + 1
-        } else {
-            0
-        };
+        idle_steps = if step < SHORT_STEP || is_in_vain { idle_steps + 1 } else { 0 };
         if !run.mu().is_finite() {
             return None;
         }
@@ -100,9 +96,7 @@ pub(super) fn solve(problem: &QuadraticProgram, criteria: StoppingCriteria) -> O
 /// there are at least as many columns as equations.
 fn has_only_floors(problem: &QuadraticProgram) -> bool {
     let n = problem.unknowns;
-    let is_floor = |(row, column, value): &(usize, usize, f64)| {
-        *row - problem.equalities == *column && *value == -1.0
-    };
+    let is_floor = |(row, column, value): &(usize, usize, f64)| *row - problem.equalities == *column && *value == -1.0;
     let mut below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
     // With fewer columns than equations, the forces can rarely balance the loads. Leave such a problem to clarabel,
     // which detects within two iterations that there is no balance.
@@ -302,8 +296,7 @@ impl BlockQp {
         let side: Vec<f64> = (0..n)
             .map(|k| {
                 let (s, z) = (self.s[k], self.z[k]);
-                residual_share * self.residuals.dual[k]
-                    + (target[k] - residual_share * z * self.residuals.bound[k]) / s
+                residual_share * self.residuals.dual[k] + (target[k] - residual_share * z * self.residuals.bound[k]) / s
             })
             .collect();
         // Elimination of dx: the normal equations A·W·Aᵀ dy = residual − A·W·side.
@@ -312,9 +305,7 @@ impl BlockQp {
         let mut sum = vec![0.0; self.loads.len()];
         self.columns.add_product(&weighted, &mut sum);
         let primal = self.residuals.primal.iter().zip(&sum);
-        let mut right: Vec<[f64; 1]> = primal
-            .map(|(rest, sum)| [residual_share * rest - sum])
-            .collect();
+        let mut right: Vec<[f64; 1]> = primal.map(|(rest, sum)| [residual_share * rest - sum]).collect();
         self.factor.solve(&mut right);
         // Back substitution: dx, then ds and dz.
         let y: Vec<f64> = right.iter().map(|v| v[0]).collect();
@@ -322,18 +313,9 @@ impl BlockQp {
         self.columns.transpose_product(&y, &mut x);
         x.iter_mut().zip(&side).for_each(|(x, r)| *x += r);
         self.apply_weight(&mut x);
-        let s: Vec<f64> = x
-            .iter()
-            .zip(&self.residuals.bound)
-            .map(|(x, rest)| x + residual_share * rest)
-            .collect();
+        let s: Vec<f64> = x.iter().zip(&self.residuals.bound).map(|(x, rest)| x + residual_share * rest).collect();
         let z = (0..n).map(|k| (target[k] - self.z[k] * s[k]) / self.s[k]);
-        Direction {
-            z: z.collect(),
-            x,
-            y,
-            s,
-        }
+        Direction { z: z.collect(), x, y, s }
     }
 
     /// Ratio test: returns the longest step that keeps s and z ≥ 0, at most 1/[`STEP_TO_BOUNDARY`].
@@ -360,12 +342,8 @@ impl BlockQp {
         let along = self.direction(&target, 1.0 - sigma);
         // The step length is the same for all variables and ends a little before the nearest bound.
         let step = f64::min(STEP_TO_BOUNDARY * self.max_step(&along), 1.0);
-        let lists = [
-            (&mut self.x, &along.x),
-            (&mut self.y, &along.y),
-            (&mut self.s, &along.s),
-            (&mut self.z, &along.z),
-        ];
+        let lists =
+            [(&mut self.x, &along.x), (&mut self.y, &along.y), (&mut self.s, &along.s), (&mut self.z, &along.z)];
         for (list, along) in lists {
             list.iter_mut().zip(along).for_each(|(v, d)| *v += step * d);
         }

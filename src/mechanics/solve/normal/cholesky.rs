@@ -74,17 +74,8 @@ impl Cholesky {
             }
         }
         let values = vec![0.0; begin[supernodes.list.len()]];
-        let workspace = Workspace {
-            local: vec![0; columns.unknowns()],
-            ..Workspace::default()
-        };
-        Some(Cholesky {
-            supernodes,
-            begin,
-            values,
-            assembled_groups,
-            workspace,
-        })
+        let workspace = Workspace { local: vec![0; columns.unknowns()], ..Workspace::default() };
+        Some(Cholesky { supernodes, begin, values, assembled_groups, workspace })
     }
 
     /// Returns the number of multiplications and additions of one factorization.
@@ -114,13 +105,7 @@ impl Cholesky {
     /// Computes the Cholesky factor of A·W·Aᵀ + diagonal·I. `weights` is the diagonal of W, one weight for each column
     /// of A.
     pub fn factor(&mut self, columns: &ColumnGroups, weights: &[f64], diagonal: f64) {
-        let Workspace {
-            local,
-            update_stack,
-            gram,
-            runs,
-            packed,
-        } = &mut self.workspace;
+        let Workspace { local, update_stack, gram, runs, packed } = &mut self.workspace;
         update_stack.clear();
         // The supernodes whose update matrices are on the stack.
         let mut on_stack: Vec<usize> = Vec::new();
@@ -147,12 +132,7 @@ impl Cholesky {
             let own = update_stack.len();
             update_stack.resize(own + packed_size(below), 0.0);
             let (children, update) = update_stack.split_at_mut(own);
-            let mut front = Front {
-                width,
-                height,
-                values,
-                update,
-            };
+            let mut front = Front { width, height, values, update };
             for k in &self.assembled_groups[p] {
                 let group = columns.group(*k as usize);
                 group.weighted_gram(weights, gram);
@@ -261,11 +241,7 @@ impl RowRun {
             let to = local[*row as usize] as usize;
             match runs.last_mut() {
                 Some(run) if run.to + (k - run.from) == to => run.end = k + 1,
-                _ => runs.push(RowRun {
-                    from: k,
-                    end: k + 1,
-                    to,
-                }),
+                _ => runs.push(RowRun { from: k, end: k + 1, to }),
             }
         }
     }
@@ -315,17 +291,11 @@ impl Front<'_> {
     /// diagonal down. A column of the supernode has all rows; those above the diagonal are not used.
     fn column(&mut self, c: usize) -> FrontColumn<'_> {
         match c.checked_sub(self.width) {
-            None => FrontColumn {
-                list: &mut self.values[c * self.height..(c + 1) * self.height],
-                first_row: 0,
-            },
+            None => FrontColumn { list: &mut self.values[c * self.height..(c + 1) * self.height], first_row: 0 },
             Some(c) => {
                 let rows = self.height - self.width;
                 let begin = packed_begin(rows, c) + c;
-                FrontColumn {
-                    list: &mut self.update[begin..begin + rows - c],
-                    first_row: self.width + c,
-                }
+                FrontColumn { list: &mut self.update[begin..begin + rows - c], first_row: self.width + c }
             }
         }
     }

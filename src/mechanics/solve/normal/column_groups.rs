@@ -170,8 +170,7 @@ impl ColumnGroups {
                 width => {
                     for (column, product) in group.values.chunks_exact(width).zip(products) {
                         let entries = group.rows.iter().zip(column);
-                        *product =
-                            entries.fold(0.0, |sum, (row, value)| sum + value * y[*row as usize]);
+                        *product = entries.fold(0.0, |sum, (row, value)| sum + value * y[*row as usize]);
                     }
                 }
             }
@@ -252,10 +251,7 @@ struct SparseColumns {
 }
 
 impl SparseColumns {
-    fn new(
-        columns: usize,
-        entries: impl Iterator<Item = (usize, usize, f64)> + Clone,
-    ) -> SparseColumns {
+    fn new(columns: usize, entries: impl Iterator<Item = (usize, usize, f64)> + Clone) -> SparseColumns {
         let mut start = vec![0; columns + 1];
         for (column, _, _) in entries.clone() {
             start[column + 1] += 1;
@@ -270,16 +266,11 @@ impl SparseColumns {
             list[next[column]] = (row as u32, value);
             next[column] += 1;
         }
-        SparseColumns {
-            start,
-            entries: list,
-        }
+        SparseColumns { start, entries: list }
     }
 
     fn entries(&self, k: usize) -> impl Iterator<Item = (u32, f64)> {
-        self.entries[self.start[k]..self.start[k + 1]]
-            .iter()
-            .copied()
+        self.entries[self.start[k]..self.start[k + 1]].iter().copied()
     }
 
     /// Gathers columns into groups. A group has all rows in which its columns have entries. Entries with the same row

@@ -45,12 +45,7 @@ impl PackedRows {
     /// symmetric update of rank `self.columns`.
     ///
     /// Row r of column c of the triangle is at `begin(c)` + r in `target`.
-    pub fn subtract_gram(
-        &self,
-        target: &mut [f64],
-        columns: usize,
-        begin: impl Fn(usize) -> usize,
-    ) {
+    pub fn subtract_gram(&self, target: &mut [f64], columns: usize, begin: impl Fn(usize) -> usize) {
         let groups = || self.entries.chunks_exact(self.columns).enumerate();
         for (g, left) in groups().take(columns.div_ceil(4)) {
             let c = 4 * g;
@@ -99,12 +94,7 @@ fn products(left: &[[f64; 4]], right: &[[f64; 4]]) -> [[f64; 4]; 4] {
 ///
 /// Each diagonal entry becomes 1/L(k, k), the inverse of the square root of the pivot. If a pivot is lost to rounding,
 /// its whole column becomes 0.
-pub(super) fn factor_columns(
-    values: &mut [f64],
-    height: usize,
-    width: usize,
-    packed: &mut PackedRows,
-) {
+pub(super) fn factor_columns(values: &mut [f64], height: usize, width: usize, packed: &mut PackedRows) {
     // The diagonal before elimination; the pivots are compared with it.
     let diagonal: Vec<f64> = (0..width).map(|k| values[k * height + k]).collect();
     let mut begin = 0;

@@ -95,24 +95,14 @@ impl<'a> OrderedGraph<'a> {
         // Approximate minimum degree order (Amestoy, Davis and Duff 1996).
         let (order, _, _) = amd::order(count, &starts, &list, &amd::Control::default()).ok()?;
         let order: Vec<usize> = order.iter().map(|k| *k as usize).collect();
-        let by_degree = OrderedGraph {
-            graph,
-            position: inverse(&order),
-            order,
-            parent: Vec::new(),
-        };
+        let by_degree = OrderedGraph { graph, position: inverse(&order), order, parent: Vec::new() };
         // A postorder of the tree has the same fill-in and makes columns with equal rows consecutive.
         let parent = by_degree.elimination_tree();
         let post = postorder(&parent);
         let new_position = inverse(&post);
         let order: Vec<usize> = post.iter().map(|k| by_degree.order[*k]).collect();
         let parents = post.iter().map(|k| parent[*k].map(|p| new_position[p]));
-        Some(OrderedGraph {
-            graph,
-            position: inverse(&order),
-            parent: parents.collect(),
-            order,
-        })
+        Some(OrderedGraph { graph, position: inverse(&order), parent: parents.collect(), order })
     }
 
     /// Returns the positions, in the order of elimination, of the entries in the row at position `k`.

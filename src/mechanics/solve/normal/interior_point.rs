@@ -55,11 +55,7 @@ const CERTIFICATE_RATIO: f64 = 1e-4;
 const EXTRA_ITERATIONS: usize = 3;
 
 /// Solves a linear program. `factor` must contain the symbolic analysis for the columns of this program.
-pub(super) fn solve(
-    lp: &LinearProgram,
-    factor: &mut Cholesky,
-    criteria: StoppingCriteria,
-) -> Solution {
+pub(super) fn solve(lp: &LinearProgram, factor: &mut Cholesky, criteria: StoppingCriteria) -> Solution {
     let mut run = InteriorPoint::new(lp, factor);
     let (mut iterations, mut restorations) = (0, 0);
     let factor_of_tolerance = criteria.crossover.map_or(1.0, |c| c.tolerance_factor);
@@ -108,13 +104,7 @@ pub(super) fn solve(
         _ => 1.0 / at.tau,
     };
     let scaled = |list: Vec<f64>| -> Vec<f64> { list.into_iter().map(|v| v * scale).collect() };
-    Solution {
-        termination,
-        amounts: scaled(at.f),
-        slack: scaled(at.z),
-        velocities: scaled(at.y),
-        iterations,
-    }
+    Solution { termination, amounts: scaled(at.f), slack: scaled(at.z), velocities: scaled(at.y), iterations }
 }
 
 /// A run of the method.
@@ -133,10 +123,7 @@ impl<'a> InteriorPoint<'a> {
             at: Iterate::starting_point(lp, factor),
             lp,
             factor,
-            residuals: Residuals {
-                primal: vec![0.0; unknowns],
-                dual: vec![0.0; columns],
-            },
+            residuals: Residuals { primal: vec![0.0; unknowns], dual: vec![0.0; columns] },
             newton: Newton::new(lp),
         }
     }
@@ -157,9 +144,7 @@ impl<'a> InteriorPoint<'a> {
         trend: &mut SlackTrend,
     ) -> bool {
         let now = optimality.relative_to_cost(self.at.basic_slack());
-        trend
-            .extrapolate(now, final_tolerance)
-            .is_some_and(|slack| slack > crossover.max_slack)
+        trend.extrapolate(now, final_tolerance).is_some_and(|slack| slack > crossover.max_slack)
     }
 
     /// Removes the primal residual by the least relative change of the amounts, min Σ (df/f)². The change is shortened
@@ -180,10 +165,7 @@ impl<'a> InteriorPoint<'a> {
         // Step length: all amounts must stay positive.
         let decrease = |(f, change): (&f64, &f64)| -f * change;
         let most = self.at.f.iter().zip(&changes).map(decrease);
-        let step = f64::min(
-            1.0,
-            STEP_TO_BOUNDARY / most.fold(STEP_TO_BOUNDARY, f64::max),
-        );
+        let step = f64::min(1.0, STEP_TO_BOUNDARY / most.fold(STEP_TO_BOUNDARY, f64::max));
         for (f, change) in self.at.f.iter_mut().zip(&changes) {
             *f += step * *f * *f * change;
         }

@@ -41,35 +41,21 @@ pub(super) struct Iterate {
 
 impl Iterate {
     pub fn zero(columns: usize, unknowns: usize) -> Iterate {
-        Iterate {
-            f: vec![0.0; columns],
-            z: vec![0.0; columns],
-            y: vec![0.0; unknowns],
-            tau: 0.0,
-            kappa: 0.0,
-        }
+        Iterate { f: vec![0.0; columns], z: vec![0.0; columns], y: vec![0.0; unknowns], tau: 0.0, kappa: 0.0 }
     }
 
     /// Returns Mehrotra's starting point: the least-squares solutions of A f = loads and Aᵀy + z = cost, with f and z
     /// shifted until they are positive. Replaces the values of `factor` by the factor of A·Aᵀ.
     pub fn starting_point(lp: &LinearProgram, factor: &mut Cholesky) -> Iterate {
         let columns = lp.cost.len();
-        factor.factor(
-            lp.columns,
-            &vec![1.0; columns],
-            REGULARIZATION + lp.velocity_weight,
-        );
+        factor.factor(lp.columns, &vec![1.0; columns], REGULARIZATION + lp.velocity_weight);
         // Solve for two right-hand sides at once: A·Aᵀ·multipliers = loads gives f, A·Aᵀ·y = A·cost gives y and z.
         let mut weighted_cost = vec![0.0; lp.loads.len()];
         lp.columns.add_product(lp.cost, &mut weighted_cost);
         let sides = lp.loads.iter().zip(&weighted_cost);
         let mut both: Vec<[f64; 2]> = sides.map(|(b, c)| [*b, *c]).collect();
         factor.solve(&mut both);
-        let mut at = Iterate {
-            tau: 1.0,
-            kappa: 1.0 - lp.velocity_weight,
-            ..Iterate::zero(columns, lp.loads.len())
-        };
+        let mut at = Iterate { tau: 1.0, kappa: 1.0 - lp.velocity_weight, ..Iterate::zero(columns, lp.loads.len()) };
         // f = Aᵀ·multipliers and z = cost − Aᵀy.
         let multipliers: Vec<f64> = both.iter().map(|v| v[0]).collect();
         lp.columns.transpose_product(&multipliers, &mut at.f);
@@ -85,11 +71,7 @@ impl Iterate {
             // The smallest variable becomes at least 1, and at least a tenth of the mean, in which negative values
             // count as 0.
             let inside = f64::max(1.0, 0.1 * mean);
-            let shift = if least < inside {
-                inside - least.min(0.0)
-            } else {
-                0.0
-            };
+            let shift = if least < inside { inside - least.min(0.0) } else { 0.0 };
             list.iter_mut().for_each(|v| *v += shift);
         }
         at
@@ -105,10 +87,7 @@ impl Iterate {
     /// 1/[`STEP_TO_BOUNDARY`].
     pub fn max_step(&self, direction: &Iterate) -> f64 {
         let pair = [(self.tau, direction.tau), (self.kappa, direction.kappa)];
-        let (f, z) = (
-            self.f.iter().zip(&direction.f),
-            self.z.iter().zip(&direction.z),
-        );
+        let (f, z) = (self.f.iter().zip(&direction.f), self.z.iter().zip(&direction.z));
         let mut step = shorten_step(1.0 / STEP_TO_BOUNDARY, f.chain(z));
         for (v, d) in pair {
             step = shorten_step(step, std::iter::once((&v, &d)));
@@ -118,11 +97,7 @@ impl Iterate {
 
     /// Adds `step` times a direction to the iterate.
     pub fn advance(&mut self, direction: &Iterate, step: f64) {
-        let lists = [
-            (&mut self.f, &direction.f),
-            (&mut self.z, &direction.z),
-            (&mut self.y, &direction.y),
-        ];
+        let lists = [(&mut self.f, &direction.f), (&mut self.z, &direction.z), (&mut self.y, &direction.y)];
         for (list, along) in lists {
             for (v, d) in list.iter_mut().zip(along) {
                 *v += step * d;
@@ -143,10 +118,7 @@ impl Iterate {
 }
 
 /// Returns the longest step, at most `step`, along which no value becomes negative; `pairs` are (value, change).
-pub(super) fn shorten_step<'a>(
-    mut step: f64,
-    pairs: impl Iterator<Item = (&'a f64, &'a f64)>,
-) -> f64 {
+pub(super) fn shorten_step<'a>(mut step: f64, pairs: impl Iterator<Item = (&'a f64, &'a f64)>) -> f64 {
     for (v, d) in pairs {
         if v + step * d < 0.0 {
             step = -v / d;

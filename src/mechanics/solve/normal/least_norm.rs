@@ -19,12 +19,7 @@ pub(super) struct LeastNorm {
 
 /// Finds the amounts of least norm that balance the loads. `None` if the largest absolute entry of the remaining
 /// residual loads − A·amounts exceeds `tolerance`.
-pub(super) fn solve(
-    columns: &ColumnGroups,
-    factor: &mut Cholesky,
-    loads: &[f64],
-    tolerance: f64,
-) -> Option<LeastNorm> {
+pub(super) fn solve(columns: &ColumnGroups, factor: &mut Cholesky, loads: &[f64], tolerance: f64) -> Option<LeastNorm> {
     let mut amounts = vec![1.0; columns.column_count()];
     factor.factor(columns, &amounts, 0.0);
     let mut multipliers = vec![0.0; loads.len()];
@@ -42,8 +37,5 @@ pub(super) fn solve(
         let both = residual.iter_mut().zip(loads);
         both.for_each(|(v, load)| *v = load - *v);
     }
-    (max_norm(&residual) <= tolerance).then_some(LeastNorm {
-        amounts,
-        multipliers,
-    })
+    (max_norm(&residual) <= tolerance).then_some(LeastNorm { amounts, multipliers })
 }

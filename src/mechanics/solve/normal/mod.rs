@@ -90,11 +90,7 @@ pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
 
 /// Like [`solve`], but also for few blocks. The structure counts as a chain if its factorization needs fewer than
 /// `chain_operations` operations for each unknown.
-fn solve_any_size(
-    problem: &QuadraticProgram,
-    criteria: StoppingCriteria,
-    chain_operations: f64,
-) -> Option<Answer> {
+fn solve_any_size(problem: &QuadraticProgram, criteria: StoppingCriteria, chain_operations: f64) -> Option<Answer> {
     let form = match ProblemKind::new(problem) {
         Some(ProblemKind::Linear(form)) => form,
         Some(ProblemKind::LeastNorm) => {
@@ -127,11 +123,7 @@ fn solve_any_size(
 
 /// Finds the amounts, positive or negative, that balance the loads with the least ½|amounts|². `None` if clarabel
 /// should solve the problem.
-fn solve_least_norm(
-    problem: &QuadraticProgram,
-    criteria: StoppingCriteria,
-    chain_operations: f64,
-) -> Option<Answer> {
+fn solve_least_norm(problem: &QuadraticProgram, criteria: StoppingCriteria, chain_operations: f64) -> Option<Answer> {
     let (mut columns, _, loads) = LinearForm::Forces.pair(problem);
     if columns.max_entries() > MAX_COLUMN_ENTRIES {
         return None;
@@ -143,9 +135,7 @@ fn solve_least_norm(
         Some(optimum) => Some(Answer {
             status: Status::Solved,
             x: optimum.amounts,
-            z: (factor.to_program_order(&optimum.multipliers).iter())
-                .map(|v| -v)
-                .collect(),
+            z: (factor.to_program_order(&optimum.multipliers).iter()).map(|v| -v).collect(),
             s: vec![0.0; loads.len()],
             iterations: 1,
         }),
@@ -183,8 +173,8 @@ impl ProblemKind {
     fn new(problem: &QuadraticProgram) -> Option<ProblemKind> {
         // Recognise the form by its quadratic objective and its rows.
         let mut squares = problem.quadratic.iter().enumerate();
-        let all_squared = problem.quadratic.len() == problem.unknowns
-            && squares.all(|(k, entry)| *entry == (k, k, 1.0));
+        let all_squared =
+            problem.quadratic.len() == problem.unknowns && squares.all(|(k, entry)| *entry == (k, k, 1.0));
         if all_squared && problem.equalities == 0 {
             return Some(ProblemKind::Linear(LinearForm::ShortestVelocities));
         }
@@ -200,16 +190,13 @@ impl ProblemKind {
         }
         // After the equilibrium equations, only the rows −amount ≤ 0 are allowed, one for each column.
         let signs = problem.bound.len() - problem.equalities;
-        let is_sign = |(row, column, value): &(usize, usize, f64)| {
-            *row - problem.equalities == *column && *value == -1.0
-        };
+        let is_sign =
+            |(row, column, value): &(usize, usize, f64)| *row - problem.equalities == *column && *value == -1.0;
         let below = problem.matrix.iter().filter(|e| e.0 >= problem.equalities);
         let only_signs = signs == problem.unknowns
             && below.clone().count() == signs
             && below.clone().all(is_sign)
-            && problem.bound[problem.equalities..]
-                .iter()
-                .all(|b| *b == 0.0);
+            && problem.bound[problem.equalities..].iter().all(|b| *b == 0.0);
         only_signs.then_some(ProblemKind::Linear(LinearForm::Forces))
     }
 }
@@ -219,11 +206,7 @@ impl LinearForm {
     fn pair(self, problem: &QuadraticProgram) -> (ColumnGroups, Vec<f64>, Vec<f64>) {
         match self {
             LinearForm::Kinematic | LinearForm::ShortestVelocities => (
-                ColumnGroups::new(
-                    problem.unknowns,
-                    problem.bound.len(),
-                    problem.matrix.iter().copied(),
-                ),
+                ColumnGroups::new(problem.unknowns, problem.bound.len(), problem.matrix.iter().copied()),
                 problem.bound.clone(),
                 problem.linear.iter().map(|v| -v).collect(),
             ),
@@ -244,12 +227,7 @@ impl LinearForm {
     }
 
     /// Converts the solution of the primal and the dual program to the unknowns, rows and signs of the problem.
-    fn answer(
-        self,
-        problem: &QuadraticProgram,
-        solution: Solution,
-        velocities: Vec<f64>,
-    ) -> Answer {
+    fn answer(self, problem: &QuadraticProgram, solution: Solution, velocities: Vec<f64>) -> Answer {
         let in_amounts = self == LinearForm::Forces;
         let status = match solution.termination {
             None => Status::Unsolved,
@@ -267,13 +245,7 @@ impl LinearForm {
         } else {
             (velocities, solution.amounts, solution.slack)
         };
-        let answer = Answer {
-            status,
-            x,
-            z,
-            s,
-            iterations: solution.iterations,
-        };
+        let answer = Answer { status, x, z, s, iterations: solution.iterations };
         answer.if_finite()
     }
 }

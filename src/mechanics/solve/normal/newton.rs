@@ -95,27 +95,14 @@ impl Newton {
         for (weight, (f, z)) in self.weight.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *weight = f / z;
         }
-        factor.factor(
-            lp.columns,
-            &self.weight,
-            REGULARIZATION + lp.velocity_weight,
-        );
-        let mut system = System {
-            lp,
-            factor,
-            residuals,
-            gap: optimality.gap,
-            pivot: 0.0,
-        };
+        factor.factor(lp.columns, &self.weight, REGULARIZATION + lp.velocity_weight);
+        let mut system = System { lp, factor, residuals, gap: optimality.gap, pivot: 0.0 };
 
         // Predictor (affine scaling): the direction that aims at zero residuals and zero products.
         for (target, (f, z)) in self.target.iter_mut().zip(at.f.iter().zip(&at.z)) {
             *target = -f * z;
         }
-        let mut sides = Sides {
-            residual_share: 1.0,
-            pair: -at.tau * at.kappa,
-        };
+        let mut sides = Sides { residual_share: 1.0, pair: -at.tau * at.kappa };
         self.predict(&mut system, at, sides);
 
         // Centring: the target of every product is σμ, with σ = (1 − predictor's step length)³.
@@ -125,10 +112,7 @@ impl Newton {
 
         // Corrector: the predictor's second-order error in each product is subtracted.
         let pair = centre + sides.pair - self.direction.tau * self.direction.kappa;
-        sides = Sides {
-            residual_share: 1.0 - sigma,
-            pair: is_homogeneous * pair,
-        };
+        sides = Sides { residual_share: 1.0 - sigma, pair: is_homogeneous * pair };
         let changes = self.direction.f.iter().zip(&self.direction.z);
         for (target, (f, z)) in self.target.iter_mut().zip(changes) {
             *target += centre - f * z;
@@ -147,13 +131,7 @@ impl Newton {
     /// the centre.
     ///
     /// Improves `direction`, and returns the longest step along the improved direction.
-    fn correct_centrality(
-        &mut self,
-        system: &System,
-        at: &Iterate,
-        mut sides: Sides,
-        centre: f64,
-    ) -> f64 {
+    fn correct_centrality(&mut self, system: &System, at: &Iterate, mut sides: Sides, centre: f64) -> f64 {
         let mut max_step = at.max_step(&self.direction);
         for _ in 0..MAX_CORRECTORS {
             // The step is close enough to a full step, so no corrector is needed.
@@ -164,10 +142,7 @@ impl Newton {
             let aim = f64::min(max_step + STEP_INCREASE, 1.0);
             let pair = (1.0 - system.lp.velocity_weight) * self.recentre(at, aim, centre);
             std::mem::swap(&mut self.target, &mut self.next_target);
-            let next = Sides {
-                pair: sides.pair + pair,
-                ..sides
-            };
+            let next = Sides { pair: sides.pair + pair, ..sides };
             self.solve_candidate(system, at, next);
             // Accept the corrector only if it makes the step longer.
             let step = at.max_step(&self.candidate);
@@ -262,16 +237,11 @@ impl Newton {
         let lp = system.lp;
         let (tau_part, to) = (&self.tau_direction, &mut self.candidate);
         lp.columns.transpose_product(&to.y, &mut to.f);
-        for (f, (weight, side)) in
-            to.f.iter_mut()
-                .zip(self.weight.iter().zip(&self.slack_side))
-        {
+        for (f, (weight, side)) in to.f.iter_mut().zip(self.weight.iter().zip(&self.slack_side)) {
             *f = weight * (*f - side);
         }
         // Compute dτ from the last of Newton's equations.
-        let gap = sides.residual_share * system.gap - dot(lp.loads, &to.y)
-            + dot(lp.cost, &to.f)
-            + sides.pair / at.tau;
+        let gap = sides.residual_share * system.gap - dot(lp.loads, &to.y) + dot(lp.cost, &to.f) + sides.pair / at.tau;
         to.tau = (1.0 - lp.velocity_weight) * gap / system.pivot;
         // Add to dy and df the part that is proportional to dτ. Compute dz from the linearised product.
         for (y, part) in to.y.iter_mut().zip(&tau_part.y) {

@@ -98,8 +98,7 @@ impl Optimality {
         let (primal, dual) = (self.primal_objective / tau, self.dual_objective / tau);
         let gap = (primal - dual).abs();
         let scale = f64::max(1.0, max_norm(lp.cost) + (y + z) / tau);
-        self.dual[0] < tolerance * tau * scale
-            && gap < tolerance * primal.abs().min(dual.abs()).max(1.0)
+        self.dual[0] < tolerance * tau * scale && gap < tolerance * primal.abs().min(dual.abs()).max(1.0)
     }
 
     /// True if all conditions of an optimum hold to the tolerance.
@@ -115,8 +114,7 @@ impl Optimality {
     /// Returns the absolute gap between the two objectives, and the given sum of slacks, both divided by the absolute
     /// cost (the primal objective).
     pub fn relative_to_cost(&self, slack: f64) -> [f64; 2] {
-        [self.primal_objective - self.dual_objective, slack]
-            .map(|v| v.abs() / self.primal_objective.abs())
+        [self.primal_objective - self.dual_objective, slack].map(|v| v.abs() / self.primal_objective.abs())
     }
 
     /// Convergence test: returns whether the iterate is an optimum or a certificate; `None` if it is neither.

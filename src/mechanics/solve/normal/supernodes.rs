@@ -41,20 +41,13 @@ impl Supernodes {
         let ordered = OrderedGraph::new(&graph)?;
         let ranges = relaxed_supernodes(&ordered.parent, &ordered.column_counts());
         let (list, rows) = symbolic_factor(&ordered, &ranges);
-        Some(Supernodes {
-            position: ordered.position.iter().map(|k| *k as u32).collect(),
-            list,
-            rows,
-        })
+        Some(Supernodes { position: ordered.position.iter().map(|k| *k as u32).collect(), list, rows })
     }
 }
 
 /// Symbolic factorization: computes the rows below every supernode. They are the rows with an entry in its columns, and
 /// the rows of the update matrices of its children.
-fn symbolic_factor(
-    ordered: &OrderedGraph<'_>,
-    ranges: &[ColumnRange],
-) -> (Vec<Supernode>, Vec<u32>) {
+fn symbolic_factor(ordered: &OrderedGraph<'_>, ranges: &[ColumnRange]) -> (Vec<Supernode>, Vec<u32>) {
     let n = ordered.parent.len();
     let mut supernode_of = vec![0; n];
     for (g, range) in ranges.iter().enumerate() {
@@ -129,12 +122,7 @@ impl ColumnRange {
             17..=48 => share < 0.15,
             _ => share < 0.05,
         };
-        is_worth_it.then_some(ColumnRange {
-            first: self.first,
-            width,
-            rows: parent.rows,
-            zeros,
-        })
+        is_worth_it.then_some(ColumnRange { first: self.first, width, rows: parent.rows, zeros })
     }
 }
 
@@ -147,18 +135,12 @@ fn relaxed_supernodes(parent: &[Option<usize>], counts: &[usize]) -> Vec<ColumnR
     for p in parent.iter().flatten() {
         children[*p] += 1;
     }
-    let continues =
-        |k: usize| parent[k - 1] == Some(k) && counts[k - 1] == counts[k] + 1 && children[k] == 1;
+    let continues = |k: usize| parent[k - 1] == Some(k) && counts[k - 1] == counts[k] + 1 && children[k] == 1;
     let firsts: Vec<usize> = (0..n).filter(|k| *k == 0 || !continues(*k)).collect();
     let mut ranges: Vec<ColumnRange> = Vec::new();
     for (k, first) in firsts.iter().enumerate() {
         let end = firsts.get(k + 1).copied().unwrap_or(n);
-        let mut range = ColumnRange {
-            first: *first,
-            width: end - first,
-            rows: counts[end - 1] - 1,
-            zeros: 0.0,
-        };
+        let mut range = ColumnRange { first: *first, width: end - first, rows: counts[end - 1] - 1, zeros: 0.0 };
         // In a postorder, the last child comes just before its parent. Only this child can be merged.
         while let Some(last) = ranges.last() {
             let above = parent[last.end() - 1];

@@ -10,11 +10,7 @@ mod factor;
 
 /// Five random columns for each pair of neighbours in a lattice of blocks, and for each block of the first row and
 /// the ground.
-fn lattice(
-    wide: usize,
-    high: usize,
-    numbers: &mut RandomNumbers,
-) -> (usize, Vec<Vec<(usize, f64)>>) {
+fn lattice(wide: usize, high: usize, numbers: &mut RandomNumbers) -> (usize, Vec<Vec<(usize, f64)>>) {
     let mut columns = Vec::new();
     let mut pair = |blocks: &[usize]| {
         for _ in 0..5 {
@@ -44,9 +40,7 @@ fn kinematic(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Quad
         unknowns: loads.len(),
         quadratic: Vec::new(),
         linear: loads.iter().map(|v| -v).collect(),
-        matrix: entries
-            .flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v)))
-            .collect(),
+        matrix: entries.flat_map(|(k, column)| column.iter().map(move |(i, v)| (k, *i, *v))).collect(),
         bound: cost.to_vec(),
         equalities: 0,
     }
@@ -68,12 +62,7 @@ fn forces(loads: &[f64], columns: &[Vec<(usize, f64)>], cost: &[f64]) -> Quadrat
 }
 
 fn criteria() -> StoppingCriteria {
-    StoppingCriteria {
-        tolerance: TOLERANCE,
-        crossover: None,
-        iterations: 100,
-        deadline: None,
-    }
+    StoppingCriteria { tolerance: TOLERANCE, crossover: None, iterations: 100, deadline: None }
 }
 
 fn solved(problem: &QuadraticProgram) -> Answer {
@@ -122,10 +111,7 @@ fn an_optimum_of_either_form_meets_its_conditions_and_has_the_cost_of_clarabel()
         assert_eq!(answer.status, Status::Solved);
         let left = columns(&problem, &answer.z);
         for (k, sum) in left.iter().enumerate() {
-            assert!(
-                (sum + problem.linear[k]).abs() < 1e-6,
-                "balance of {k}: {sum}"
-            );
+            assert!((sum + problem.linear[k]).abs() < 1e-6, "balance of {k}: {sum}");
         }
         for (k, row) in rows(&problem, &answer.x).iter().enumerate() {
             assert!((row + answer.s[k] - cost[k]).abs() < 1e-6, "row {k}");
@@ -133,28 +119,16 @@ fn an_optimum_of_either_form_meets_its_conditions_and_has_the_cost_of_clarabel()
             assert!(answer.s[k] * answer.z[k] < 1e-5, "complementarity of {k}");
         }
         let other = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
-        let (ours, theirs) = (
-            product(&problem.linear, &answer.x),
-            product(&problem.linear, &other.x),
-        );
-        assert!(
-            (ours - theirs).abs() < 1e-6 * theirs.abs().max(1.0),
-            "{ours} and {theirs}"
-        );
+        let (ours, theirs) = (product(&problem.linear, &answer.x), product(&problem.linear, &other.x));
+        assert!((ours - theirs).abs() < 1e-6 * theirs.abs().max(1.0), "{ours} and {theirs}");
 
         let problem = forces(&loads, &list, &cost);
         let answer = solved(&problem);
         assert_eq!(answer.status, Status::Solved);
         let sum = product(&problem.linear, &answer.x);
-        assert!(
-            (sum + ours).abs() < 1e-6 * ours.abs().max(1.0),
-            "{sum} and {ours}"
-        );
+        assert!((sum + ours).abs() < 1e-6 * ours.abs().max(1.0), "{sum} and {ours}");
         for (k, row) in rows(&problem, &answer.x).iter().enumerate() {
-            assert!(
-                (row + answer.s[k] - problem.bound[k]).abs() < 1e-6,
-                "row {k}"
-            );
+            assert!((row + answer.s[k] - problem.bound[k]).abs() < 1e-6, "row {k}");
         }
         for (k, sum) in columns(&problem, &answer.z).iter().enumerate() {
             assert!((sum + problem.linear[k]).abs() < 1e-6, "column {k}: {sum}");
@@ -199,10 +173,7 @@ fn a_program_without_an_optimum_gets_a_certificate() {
     let sums = columns(&kinematic(&loads, &both, &cheap), &answer.z);
     assert!(sums.iter().all(|v| v.abs() < 1e-6));
     assert!(product(&cheap, &answer.z) < 0.0);
-    assert_eq!(
-        solved(&forces(&loads, &both, &cheap)).status,
-        Status::Unbounded
-    );
+    assert_eq!(solved(&forces(&loads, &both, &cheap)).status, Status::Unbounded);
 }
 
 #[test]
@@ -211,16 +182,10 @@ fn the_solver_stops_after_its_iterations_and_at_its_deadline() {
     let (unknowns, list) = lattice(6, 6, &mut numbers);
     let loads: Vec<f64> = (0..unknowns).map(|_| numbers.next()).collect();
     let problem = kinematic(&loads, &list, &vec![1.0; list.len()]);
-    let few = StoppingCriteria {
-        iterations: 2,
-        ..criteria()
-    };
+    let few = StoppingCriteria { iterations: 2, ..criteria() };
     let answer = solve_any_size(&problem, few, 0.0).expect("the form of the program is accepted");
     assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 2));
-    let late = StoppingCriteria {
-        deadline: Some(Instant::now()),
-        ..criteria()
-    };
+    let late = StoppingCriteria { deadline: Some(Instant::now()), ..criteria() };
     let answer = solve_any_size(&problem, late, 0.0).expect("the form of the program is accepted");
     assert_eq!((answer.status, answer.iterations), (Status::Unsolved, 0));
 }
@@ -234,10 +199,7 @@ fn other_kinds_of_programs_are_left_to_clarabel() {
     let taken = |problem: &QuadraticProgram| solve_any_size(problem, criteria(), 0.0).is_some();
     assert!(taken(&plain) && taken(&forces(&loads, &list, &cost)));
     assert!(solve(&plain, criteria()).is_none(), "too few blocks");
-    let few = StoppingCriteria {
-        iterations: 1,
-        ..criteria()
-    };
+    let few = StoppingCriteria { iterations: 1, ..criteria() };
     let unsolved = |least_work: f64| solve_any_size(&plain, few, least_work);
     assert!(unsolved(0.0).is_some_and(|a| a.status == Status::Unsolved));
     assert!(unsolved(1e9).is_none(), "a chain without a result");
@@ -285,16 +247,8 @@ fn the_least_norm_velocities_and_amounts_are_those_of_clarabel() {
     for problem in [shortest, smallest] {
         let ours = solved(&problem);
         let theirs = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
-        assert_eq!(
-            (ours.status, theirs.status),
-            (Status::Solved, Status::Solved)
-        );
-        for (a, b) in ours
-            .x
-            .iter()
-            .zip(&theirs.x)
-            .chain(ours.z.iter().zip(&theirs.z))
-        {
+        assert_eq!((ours.status, theirs.status), (Status::Solved, Status::Solved));
+        for (a, b) in ours.x.iter().zip(&theirs.x).chain(ours.z.iter().zip(&theirs.z)) {
             assert!((a - b).abs() < 1e-4, "{a} and {b}");
         }
         let half = |x: &[f64]| 0.5 * product(x, x);
@@ -354,9 +308,7 @@ fn least_squares_with_floors_meet_their_conditions_and_have_the_cost_of_clarabel
         let floors = ours.z[unknowns..].iter().filter(|z| **z > 1e-3).count();
         assert!(floors > 20, "{floors} amounts at their floors");
         // Floors far below all amounts give the same result as floors at −100. With these, clarabel converges.
-        problem.bound[unknowns..]
-            .iter_mut()
-            .for_each(|floor| *floor = floor.min(100.0));
+        problem.bound[unknowns..].iter_mut().for_each(|floor| *floor = floor.min(100.0));
         let theirs = crate::solve::by_clarabel(&problem, Conditioning::Full.into(), 100);
         assert_eq!(theirs.status, Status::Solved);
         let cost = |x: &[f64]| 0.5 * product(x, &squares(x));

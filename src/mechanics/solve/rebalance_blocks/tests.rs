@@ -22,10 +22,7 @@ fn tower(weights: &[f64], friction: f64) -> Program {
             })
             .collect(),
         grips: Vec::new(),
-        scale: Scale {
-            length: 1.0,
-            force: 1.0,
-        },
+        scale: Scale { length: 1.0, force: 1.0 },
     }
 }
 
@@ -57,11 +54,7 @@ fn a_light_block_on_heavy_blocks_is_balanced_relative_to_its_own_weight() {
 #[test]
 fn a_correction_balances_without_tension() {
     let program = tower(&[1.0], 0.0);
-    let start = Amounts {
-        normal: vec![[0.9, 0.0]],
-        friction: vec![0.0],
-        grip: Vec::new(),
-    };
+    let start = Amounts { normal: vec![[0.9, 0.0]], friction: vec![0.0], grip: Vec::new() };
     let mut effort = Effort::default();
     let found = rebalance_absolute(&program, &start, &mut effort).expect("it stands");
     for normal in found.normal[0] {

@@ -152,10 +152,7 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
             continue;
         }
         // Number one connected part of the structure after the other.
-        let farthest = breadth_first(block, &place)
-            .last()
-            .copied()
-            .unwrap_or(block);
+        let farthest = breadth_first(block, &place).last().copied().unwrap_or(block);
         for found in breadth_first(farthest, &place) {
             place[found] = next;
             next += 1;
@@ -173,13 +170,7 @@ mod tests {
     fn a_band_is_solved_with_row_exchanges() {
         // [0 2 0; 3 0 1; 0 4 5] x = [4, 6, 23], x = (1, 2, 3).
         let mut band = Band::new(3, 1);
-        for (row, column, value) in [
-            (0, 1, 2.0),
-            (1, 0, 3.0),
-            (1, 2, 1.0),
-            (2, 1, 4.0),
-            (2, 2, 5.0),
-        ] {
+        for (row, column, value) in [(0, 1, 2.0), (1, 0, 3.0), (1, 2, 1.0), (2, 1, 4.0), (2, 2, 5.0)] {
             band.add(row, column, value);
         }
         let x = band.factor().solve(&[4.0, 6.0, 23.0]);

@@ -81,13 +81,7 @@ pub(super) fn search(program: &Program) -> SearchOutcome {
 
 /// True if the springs come to rest in the pattern of a relaxation's solution `x`. Tries this pattern as it is, and
 /// with the decisions of the node imposed on it.
-fn leads_to_rest(
-    program: &Program,
-    springs: &Springs,
-    layout: &VariableLayout,
-    node: &Node,
-    x: &[f64],
-) -> bool {
+fn leads_to_rest(program: &Program, springs: &Springs, layout: &VariableLayout, node: &Node, x: &[f64]) -> bool {
     let u = &x[..program.loads.len()];
     // A robot's spring exerts its given force at displacement 0. Choose the given forces so that, at the displacements
     // of the solution, the springs exert the robots' forces of the solution.
@@ -95,7 +89,5 @@ fn leads_to_rest(
     let given: Vec<f64> = components.map(|(f, g)| f + g.column.dot(u)).collect();
     let robots = Springs::with_given_forces(program, &given, 1.0);
     let pattern = robots.pattern(u, &robots.all_pressed());
-    [node.impose_on(&pattern), pattern]
-        .iter()
-        .any(|pattern| robots.rest(pattern, u).is_some())
+    [node.impose_on(&pattern), pattern].iter().any(|pattern| robots.rest(pattern, u).is_some())
 }

@@ -36,8 +36,7 @@ const NEGLIGIBLE_MULTIPLIER: f64 = 1e-7;
 /// `z` are the multipliers that the solver returned with the status `Infeasible`, one for each row.
 pub(super) fn proves_infeasible(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
     proves_when_corrected(conic, z, program)
-        || largest_gain(conic)
-            .is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
+        || largest_gain(conic).is_some_and(|largest_gain| proves_when_corrected(conic, &largest_gain, program))
 }
 
 /// Computes the multipliers of largest gain −bᵀz with Aᵀz = 0, |z| ≤ 1, and z ≥ 0 on inequalities. `None` if b = 0, or
@@ -53,9 +52,7 @@ fn largest_gain(conic: &QuadraticProgram) -> Option<Vec<f64>> {
     }
     // The unknowns are the multipliers. The rows are Aᵀz = 0, then z ≤ 1, and −z ≤ 1 (−z ≤ 0 for inequalities).
     let equal = conic.matrix.iter();
-    let mut matrix: Vec<(usize, usize, f64)> = equal
-        .map(|(row, column, value)| (*column, *row, *value))
-        .collect();
+    let mut matrix: Vec<(usize, usize, f64)> = equal.map(|(row, column, value)| (*column, *row, *value)).collect();
     let mut bound = vec![0.0; conic.unknowns];
     for row in 0..rows {
         let least = if row < conic.equalities { 1.0 } else { 0.0 };
@@ -112,9 +109,7 @@ fn correct_multipliers(conic: &QuadraticProgram, z: &[f64]) -> Option<Vec<f64>> 
     // Only multipliers that are not 0 may change.
     let rows: Vec<usize> = (0..z.len()).filter(|row| z[*row] != 0.0).collect();
     let mut number = vec![usize::MAX; z.len()];
-    rows.iter()
-        .enumerate()
-        .for_each(|(k, row)| number[*row] = k);
+    rows.iter().enumerate().for_each(|(k, row)| number[*row] = k);
     let entries = conic.matrix.iter();
     // Compute the least change of these multipliers with Aᵀ·change = −error.
     let correction = QuadraticProgram {
@@ -154,17 +149,8 @@ fn transpose_product(conic: &QuadraticProgram, z: &[f64]) -> Vec<f64> {
 /// True if the gain −bᵀz exceeds both the contribution of the residuals that a verdict tolerates and the largest
 /// |xᵀAᵀz| for x within [`MAX_DISPLACEMENT`].
 fn proves(conic: &QuadraticProgram, z: &[f64], program: &Program) -> bool {
-    let z: Vec<f64> = z
-        .iter()
-        .enumerate()
-        .map(|(row, z)| {
-            if row < conic.equalities {
-                *z
-            } else {
-                z.max(0.0)
-            }
-        })
-        .collect();
+    let z: Vec<f64> =
+        z.iter().enumerate().map(|(row, z)| if row < conic.equalities { *z } else { z.max(0.0) }).collect();
     let gain = -conic.bound.iter().zip(&z).map(|(b, z)| b * z).sum::<f64>();
     let error: f64 = transpose_product(conic, &z).iter().map(|v| v.abs()).sum();
     let loads = &program.loads;

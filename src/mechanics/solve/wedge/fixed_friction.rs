@@ -32,11 +32,7 @@ impl Springs<'_> {
         let mut friction_limits = vec![0.0; self.tangents.len()];
         let mut ground: f64 = 1.0;
         for _ in 0..MAX_ITERATIONS {
-            let answer = solve(
-                &self.least_energy(&friction_limits, ground),
-                TOLERANCE,
-                Conditioning::Full,
-            );
+            let answer = solve(&self.least_energy(&friction_limits, ground), TOLERANCE, Conditioning::Full);
             if answer.status != Status::Solved {
                 return None;
             }
@@ -49,9 +45,7 @@ impl Springs<'_> {
             // Fixed-point step: the normal forces determine the next friction limits.
             let normal: Vec<f64> = self.points.iter().map(|p| -p.column.dot(&u)).collect();
             let sums = normal_sums(self, normal.iter().map(|n| n.max(0.0)));
-            for ((limit, sum), contact) in
-                (friction_limits.iter_mut().zip(&sums)).zip(&self.program.contacts)
-            {
+            for ((limit, sum), contact) in (friction_limits.iter_mut().zip(&sums)).zip(&self.program.contacts) {
                 *limit = contact.friction * sum;
             }
             if ground < NEWTON_GROUND
@@ -113,19 +107,13 @@ impl Springs<'_> {
         for (k, tangent) in self.tangents.iter().enumerate() {
             // q ≥ ±(s − e).
             let (spring, slide) = (stretched + k, slid + k);
-            conic
-                .quadratic
-                .push((spring, spring, self.tangential_stiffness));
+            conic.quadratic.push((spring, spring, self.tangential_stiffness));
             conic.linear[slide] = friction_limits[k];
             for sign in [1.0, -1.0] {
                 let row = conic.bound.len();
                 let entries = tangent.entries();
-                conic
-                    .matrix
-                    .extend(entries.map(|(k, v)| (row, k, sign * v)));
-                conic
-                    .matrix
-                    .extend([(row, spring, -sign), (row, slide, -1.0)]);
+                conic.matrix.extend(entries.map(|(k, v)| (row, k, sign * v)));
+                conic.matrix.extend([(row, spring, -sign), (row, slide, -1.0)]);
                 conic.bound.push(0.0);
             }
         }

@@ -112,11 +112,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     let given: Vec<f64> = columns(program)
         .iter()
         .filter_map(|column| match column.force {
-            Force::Grip {
-                grip,
-                component,
-                sign,
-            } if sign > 0.0 => Some(given[grip][component]),
+            Force::Grip { grip, component, sign } if sign > 0.0 => Some(given[grip][component]),
             _ => None,
         })
         .collect();
@@ -130,9 +126,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     if !given.is_empty() && springs.find_rest().is_ok() {
         return SelfStressCheck::FromRest;
     }
-    if program.blocks <= MAX_BLOCKS_FIXED_FRICTION
-        && springs.find_rest_by_fixed_friction().is_some()
-    {
+    if program.blocks <= MAX_BLOCKS_FIXED_FRICTION && springs.find_rest_by_fixed_friction().is_some() {
         return SelfStressCheck::FromRest;
     }
     // Search for a proof that there is no state of rest.
@@ -140,18 +134,12 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     if found == SearchOutcome::RestFound {
         return SelfStressCheck::FromRest;
     }
-    let rests = |stiffness: &f64| {
-        Springs::with_given_forces(program, &given, *stiffness)
-            .find_rest()
-            .is_ok()
-    };
+    let rests = |stiffness: &f64| Springs::with_given_forces(program, &given, *stiffness).find_rest().is_ok();
     if OTHER_STIFFNESSES.iter().any(rests) {
         return SelfStressCheck::Undecided(WedgingUndecided::Stiffness);
     }
     match found {
-        SearchOutcome::NoRest(ruled_out) => {
-            SelfStressCheck::OnlyWedged(self_stress(program, motion, ruled_out))
-        }
+        SearchOutcome::NoRest(ruled_out) => SelfStressCheck::OnlyWedged(self_stress(program, motion, ruled_out)),
         _ => SelfStressCheck::Undecided(WedgingUndecided::NotFound),
     }
 }
@@ -166,25 +154,17 @@ fn self_stress(program: &Program, motion: Vec<f64>, ruled_out: Vec<RuledOut>) ->
     for point in &springs.points {
         let opening = point.column.dot(&motion);
         presses_nothing &= opening >= -VELOCITY_TOL;
-        moved[point.contact] |= opening > VELOCITY_TOL
-            || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
+        moved[point.contact] |=
+            opening > VELOCITY_TOL || springs.tangents[point.contact].dot(&motion).abs() > VELOCITY_TOL;
     }
     let contacts: Vec<usize> = (0..moved.len()).filter(|k| moved[*k]).collect();
     // Compute the least sum of normal forces at these contacts.
     let cost = |column: &Column| match column.force {
-        Force::Ray {
-            contact, normal, ..
-        } if moved[contact] => normal,
+        Force::Ray { contact, normal, .. } if moved[contact] => normal,
         _ => 0.0,
     };
     let mut effort = Effort::default();
-    let pressed = dual(
-        &program.loads,
-        &columns(program),
-        Conditioning::Full,
-        &mut effort,
-        cost,
-    );
+    let pressed = dual(&program.loads, &columns(program), Conditioning::Full, &mut effort, cost);
     SelfStress {
         motion,
         contacts,

@@ -41,11 +41,7 @@ impl Springs<'_> {
     fn spring_loads(&self, pattern: &Pattern) -> Vec<f64> {
         let mut loads = self.program.loads.clone();
         for (grip, limit) in self.grips.iter().zip(&pattern.limits) {
-            let given = if *limit == 0.0 {
-                grip.given
-            } else {
-                limit * grip.limit
-            };
+            let given = if *limit == 0.0 { grip.given } else { limit * grip.limit };
             grip.column.add_to(&mut loads, -given);
         }
         loads
@@ -69,11 +65,7 @@ impl Springs<'_> {
             let force = (-self.tangential_stiffness * tangent.dot(u)).clamp(-limit, limit);
             tangent.add_to(&mut residual, -force);
         }
-        let sum: f64 = residual
-            .iter()
-            .zip(u)
-            .map(|(r, u)| (r + ground * u) * (r + ground * u))
-            .sum();
+        let sum: f64 = residual.iter().zip(u).map(|(r, u)| (r + ground * u) * (r + ground * u)).sum();
         sum.sqrt()
     }
 
@@ -81,12 +73,7 @@ impl Springs<'_> {
     /// pattern. Updates the displacements and the pattern, and returns true if equilibrium was found.
     ///
     /// After [`FULL_STEPS`] steps a line search shortens the steps, because full steps may cycle.
-    pub(super) fn balance_with_ground(
-        &self,
-        ground: f64,
-        u: &mut Vec<f64>,
-        pattern: &mut Pattern,
-    ) -> bool {
+    pub(super) fn balance_with_ground(&self, ground: f64, u: &mut Vec<f64>, pattern: &mut Pattern) -> bool {
         for step in 0..MAX_STEPS {
             // Newton step: solve the linear system of this pattern.
             let stiffness = self.stiffness(pattern, ground);
@@ -147,9 +134,6 @@ impl Springs<'_> {
             ground *= SOFTENING_FACTOR;
         }
         let largest = u.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        Err(u
-            .iter()
-            .map(|v| v / largest.max(f64::MIN_POSITIVE))
-            .collect())
+        Err(u.iter().map(|v| v / largest.max(f64::MIN_POSITIVE)).collect())
     }
 }

@@ -34,10 +34,7 @@ impl Node {
     pub fn root(springs: &Springs) -> Node {
         let contacts = springs.program.contacts.iter();
         let slides = contacts.map(|c| (!(c.friction > 0.0)).then_some(Slide::Forth));
-        Node {
-            pressed: vec![None; springs.points.len()],
-            slides: slides.collect(),
-        }
+        Node { pressed: vec![None; springs.points.len()], slides: slides.collect() }
     }
 
     /// Returns the children of this node for a branch at the point or face `at`. The last child of the list is explored
@@ -49,21 +46,17 @@ impl Node {
             child
         };
         match at {
-            Branch::Point(k) => [false, true]
-                .map(|pressed| with(&|c| c.pressed[k] = Some(pressed)))
-                .to_vec(),
-            Branch::Face(k) => [Slide::Forth, Slide::Back, Slide::Sticks]
-                .map(|slides| with(&|c| c.slides[k] = Some(slides)))
-                .to_vec(),
+            Branch::Point(k) => [false, true].map(|pressed| with(&|c| c.pressed[k] = Some(pressed))).to_vec(),
+            Branch::Face(k) => {
+                [Slide::Forth, Slide::Back, Slide::Sticks].map(|slides| with(&|c| c.slides[k] = Some(slides))).to_vec()
+            }
         }
     }
 
     /// True if a face may transmit a friction force: at least one of its points presses or is undecided.
     pub fn may_carry(&self, springs: &Springs, contact: usize) -> bool {
         let points = springs.points.iter().zip(&self.pressed);
-        points
-            .filter(|(p, _)| p.contact == contact)
-            .any(|(_, pressed)| *pressed != Some(false))
+        points.filter(|(p, _)| p.contact == contact).any(|(_, pressed)| *pressed != Some(false))
     }
 
     /// Returns the decisions of the node, with the indices of their contacts and application points.
@@ -77,9 +70,7 @@ impl Node {
         let points = self.pressed.iter().enumerate();
         let faces = self.slides.iter().enumerate();
         RuledOut {
-            points: points
-                .filter_map(|(k, pressed)| Some((springs.points[k].contact, end(k), (*pressed)?)))
-                .collect(),
+            points: points.filter_map(|(k, pressed)| Some((springs.points[k].contact, end(k), (*pressed)?))).collect(),
             faces: faces
                 .filter(|(k, _)| springs.program.contacts[*k].friction > 0.0)
                 .filter_map(|(k, slides)| Some((k, (*slides)?)))
@@ -92,9 +83,7 @@ impl Node {
     pub fn first_open(&self, springs: &Springs) -> Option<Branch> {
         let point = self.pressed.iter().position(Option::is_none);
         let face = |k: &usize| self.slides[*k].is_none() && self.may_carry(springs, *k);
-        point
-            .map(Branch::Point)
-            .or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
+        point.map(Branch::Point).or_else(|| (0..self.slides.len()).find(face).map(Branch::Face))
     }
 
     /// Returns a copy of `pattern` in which the decided points and faces have the states that the node decides.

@@ -56,13 +56,7 @@ impl VariableLayout {
         let faces = points + springs.points.len();
         let grips = faces + springs.tangents.len();
         let sum: f64 = springs.program.loads.iter().map(|v| v.abs()).sum();
-        VariableLayout {
-            points,
-            faces,
-            grips,
-            end: grips + springs.grips.len(),
-            size: sum.max(f64::MIN_POSITIVE),
-        }
+        VariableLayout { points, faces, grips, end: grips + springs.grips.len(), size: sum.max(f64::MIN_POSITIVE) }
     }
 
     /// Returns the part of a solution `x` that contains the forces and torques of the robots.
@@ -73,20 +67,12 @@ impl VariableLayout {
     /// Builds the relaxation of a node. Its objective favours complementarity: min Σ (N + (N + g)) over the open
     /// points, plus a small quadratic term.
     pub fn relaxation(&self, springs: &Springs, node: &Node) -> QuadraticProgram {
-        let mut builder = Builder {
-            equal: Rows::default(),
-            at_most: Rows::default(),
-            linear: vec![0.0; self.end],
-        };
+        let mut builder = Builder { equal: Rows::default(), at_most: Rows::default(), linear: vec![0.0; self.end] };
         self.add_balance(springs, &mut builder);
         let pressing = self.add_points(springs, node, &mut builder);
         self.add_faces(springs, node, &pressing, &mut builder);
         self.add_robots(springs, &mut builder);
-        let Builder {
-            equal,
-            at_most,
-            linear,
-        } = builder;
+        let Builder { equal, at_most, linear } = builder;
         // The equalities come first, as the solver requires.
         let equalities = equal.bound.len();
         let rows = at_most.entries.into_iter();
@@ -159,13 +145,7 @@ impl VariableLayout {
     }
 
     /// Adds the springs' law at the faces, T = −slip, limited to ±μ(N1 + N2). The law is relaxed for open faces.
-    fn add_faces(
-        &self,
-        springs: &Springs,
-        node: &Node,
-        pressing: &[Vec<usize>],
-        builder: &mut Builder,
-    ) {
+    fn add_faces(&self, springs: &Springs, node: &Node, pressing: &[Vec<usize>], builder: &mut Builder) {
         for (k, tangent) in springs.tangents.iter().enumerate() {
             let friction = self.faces + k;
             let mu = springs.program.contacts[k].friction;

@@ -81,14 +81,10 @@ impl Springs<'_> {
             }
         }
         // Friction is the force of the spring if the face sticks, otherwise ±μ(N1 + N2).
-        let friction = pattern
-            .slides
-            .iter()
-            .enumerate()
-            .map(|(k, slides)| match slides {
-                Slide::Sticks => -self.tangential_stiffness * slip[k],
-                _ => slides.friction_sign() * self.program.contacts[k].friction * sum[k],
-            });
+        let friction = pattern.slides.iter().enumerate().map(|(k, slides)| match slides {
+            Slide::Sticks => -self.tangential_stiffness * slip[k],
+            _ => slides.friction_sign() * self.program.contacts[k].friction * sum[k],
+        });
         let grips = self.grips.iter().zip(&pattern.limits).zip(yielded);
         Rest {
             friction: friction.collect(),
@@ -119,42 +115,26 @@ impl Springs<'_> {
 
     /// Returns, for each block, the largest entry of its own load, and Σ |force| on it.
     fn force_sizes(&self, rest: &Rest) -> Vec<(f64, f64)> {
-        let own = self
-            .program
-            .loads
-            .chunks(3)
-            .map(|r| (r.iter().fold(0.0, |m: f64, v| m.max(v.abs())), 0.0));
+        let own = self.program.loads.chunks(3).map(|r| (r.iter().fold(0.0, |m: f64, v| m.max(v.abs())), 0.0));
         let mut force_sizes: Vec<(f64, f64)> = own.collect();
         let mut add = |column: &Column, force: f64| {
             for (row, value) in column.entries() {
                 force_sizes[row / 3].1 += (value * force).abs();
             }
         };
-        self.points
-            .iter()
-            .zip(&rest.normal)
-            .for_each(|(p, f)| add(&p.column, *f));
-        self.tangents
-            .iter()
-            .zip(&rest.friction)
-            .for_each(|(t, f)| add(t, *f));
-        self.grips
-            .iter()
-            .zip(&rest.grips)
-            .for_each(|(g, f)| add(&g.column, *f));
+        self.points.iter().zip(&rest.normal).for_each(|(p, f)| add(&p.column, *f));
+        self.tangents.iter().zip(&rest.friction).for_each(|(t, f)| add(t, *f));
+        self.grips.iter().zip(&rest.grips).for_each(|(g, f)| add(&g.column, *f));
         force_sizes
     }
 
     /// True if the residual of every block is within the tolerance, which is a fraction of the block's own load plus
     /// the rounding error of the forces on it.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
-        self.force_sizes(rest)
-            .iter()
-            .zip(residual.chunks(3))
-            .all(|((own, forces), residual)| {
-                let allowed = BALANCE_TOL * own + ROUNDING_TOL * forces;
-                residual.iter().all(|v| v.abs() <= allowed)
-            })
+        self.force_sizes(rest).iter().zip(residual.chunks(3)).all(|((own, forces), residual)| {
+            let allowed = BALANCE_TOL * own + ROUNDING_TOL * forces;
+            residual.iter().all(|v| v.abs() <= allowed)
+        })
     }
 
     /// True if the forces obey the springs' law at all points and faces, and the limits of the robots.
@@ -168,29 +148,19 @@ impl Springs<'_> {
             .map(|(k, c)| {
                 // The tolerance is a fraction of the smaller load of the two blocks, plus a far smaller fraction of the
                 // contact's own forces.
-                let lighter = c.from.as_ref().map_or(force_sizes[c.on.0].0, |f| {
-                    force_sizes[c.on.0].0.min(force_sizes[f.0].0)
-                });
+                let lighter =
+                    c.from.as_ref().map_or(force_sizes[c.on.0].0, |f| force_sizes[c.on.0].0.min(force_sizes[f.0].0));
                 LAW_TOL * lighter + 1e-3 * LAW_TOL * (normal[k].abs() + rest.friction[k].abs())
             })
             .collect();
         // Points: N = max(0, −gap), for springs of stiffness 1. N is 0 or −gap already, so only N ≥ 0 and N + gap ≥ 0
         // remain to be checked, up to the tolerance.
-        let points = self
-            .points
-            .iter()
-            .zip(gap)
-            .zip(&rest.normal)
-            .all(|((p, gap), normal)| {
-                let allowed = allowed[p.contact];
-                *normal >= -allowed && (normal + gap) >= -allowed
-            });
+        let points = self.points.iter().zip(gap).zip(&rest.normal).all(|((p, gap), normal)| {
+            let allowed = allowed[p.contact];
+            *normal >= -allowed && (normal + gap) >= -allowed
+        });
         // Robots: every component within its limit.
-        let limits = self
-            .grips
-            .iter()
-            .zip(&rest.grips)
-            .all(|(g, f)| f.abs() <= g.limit * (1.0 + LAW_TOL));
+        let limits = self.grips.iter().zip(&rest.grips).all(|(g, f)| f.abs() <= g.limit * (1.0 + LAW_TOL));
         points
             && limits
             && contacts.iter().enumerate().all(|(k, c)| {

@@ -100,11 +100,7 @@ pub(super) struct Springs<'a> {
 impl<'a> Springs<'a> {
     /// Creates the springs of a program. `given` contains, for each simulated component of a robot in the order of the
     /// grips, the force of its spring at displacement 0.
-    pub(super) fn with_given_forces(
-        program: &'a Program,
-        given: &[f64],
-        tangential_stiffness: f64,
-    ) -> Springs<'a> {
+    pub(super) fn with_given_forces(program: &'a Program, given: &[f64], tangential_stiffness: f64) -> Springs<'a> {
         let mut springs = Springs::new(program, tangential_stiffness);
         for (grip, given) in springs.grips.iter_mut().zip(given) {
             grip.given = *given;
@@ -119,10 +115,7 @@ impl<'a> Springs<'a> {
             contacts: program
                 .contacts
                 .iter()
-                .map(|c| crate::program::ContactTerm {
-                    friction: 0.0,
-                    ..c.clone()
-                })
+                .map(|c| crate::program::ContactTerm { friction: 0.0, ..c.clone() })
                 .collect(),
             grips: Vec::new(),
             ..program.clone()
@@ -142,22 +135,10 @@ impl<'a> Springs<'a> {
         let grips = columns(program)
             .into_iter()
             .filter(|c| matches!(c.force, Force::Grip { sign, .. } if sign > 0.0))
-            .map(|column| SpringGrip {
-                column,
-                limit: column.limit,
-                given: 0.0,
-            })
+            .map(|column| SpringGrip { column, limit: column.limit, given: 0.0 })
             .collect();
         let (position, distance) = order(program);
-        Springs {
-            program,
-            points,
-            tangents,
-            grips,
-            tangential_stiffness,
-            position,
-            bandwidth: 3 * distance + 2,
-        }
+        Springs { program, points, tangents, grips, tangential_stiffness, position, bandwidth: 3 * distance + 2 }
     }
 
     /// Returns the pattern with all points pressed and no face sliding.
@@ -172,11 +153,7 @@ impl<'a> Springs<'a> {
     /// Returns which points press, which faces slide and which robots are at a limit at the displacements `u`. A point
     /// or face for which only rounding would decide keeps its entry of `former`.
     pub(super) fn pattern(&self, u: &[f64], former: &Pattern) -> Pattern {
-        let size = |column: &Column| {
-            column
-                .entries()
-                .fold(0.0, |m: f64, (r, v)| m.max((u[r] * v).abs()))
-        };
+        let size = |column: &Column| column.entries().fold(0.0, |m: f64, (r, v)| m.max((u[r] * v).abs()));
         // A point is pressed if its opening is negative.
         let mut found = former.clone();
         let mut normal = vec![0.0; self.tangents.len()];
@@ -205,11 +182,7 @@ impl<'a> Springs<'a> {
         // A robot yields if the force of its spring exceeds the robot's limit.
         for (grip, limit) in self.grips.iter().zip(&mut found.limits) {
             let force = grip.given - grip.column.dot(u);
-            *limit = if force.abs() > grip.limit {
-                force.signum()
-            } else {
-                0.0
-            };
+            *limit = if force.abs() > grip.limit { force.signum() } else { 0.0 };
         }
         found
     }
@@ -235,11 +208,7 @@ impl<'a> Springs<'a> {
             let sign = pattern.slides[k].friction_sign();
             if sign != 0.0 {
                 // Friction sign·μ·N with N = −g acts on the blocks as −sign·μ·g.
-                enter(
-                    &self.tangents[k],
-                    &point.column,
-                    sign * self.program.contacts[k].friction,
-                );
+                enter(&self.tangents[k], &point.column, sign * self.program.contacts[k].friction);
             }
         }
         // Add the springs along the faces that stick.

@@ -22,12 +22,7 @@ impl Assembly {
         for (number, body) in self.bodies.iter().enumerate() {
             let root = sets.find(number);
             let part = *part_of_root[root].get_or_insert_with(|| {
-                parts.push(Assembly {
-                    bodies: Vec::new(),
-                    contacts: Vec::new(),
-                    grips: Vec::new(),
-                    ..*self
-                });
+                parts.push(Assembly { bodies: Vec::new(), contacts: Vec::new(), grips: Vec::new(), ..*self });
                 parts.len() - 1
             });
             place.push((part, parts[part].bodies.len()));
@@ -35,11 +30,7 @@ impl Assembly {
         }
         for contact in &self.contacts {
             let (part, on) = place[contact.on];
-            parts[part].contacts.push(AssemblyContact {
-                on,
-                from: contact.from.map(|body| place[body].1),
-                ..*contact
-            });
+            parts[part].contacts.push(AssemblyContact { on, from: contact.from.map(|body| place[body].1), ..*contact });
         }
         for grip in &self.grips {
             let (part, body) = place[grip.body];
@@ -64,9 +55,7 @@ pub(crate) struct DisjointSets {
 impl DisjointSets {
     /// Creates `count` sets. Each contains one of the numbers 0 … `count` − 1.
     pub fn new(count: usize) -> DisjointSets {
-        DisjointSets {
-            parent: (0..count).collect(),
-        }
+        DisjointSets { parent: (0..count).collect() }
     }
 
     /// Returns the least member of the set that contains `number`.

@@ -21,17 +21,9 @@ impl Assembly {
             let from = contact.from.and_then(|body| group[body]);
             contact.with_bodies(group[contact.on], from)
         });
-        let grips = self.grips.iter().filter_map(|grip| {
-            Some(AssemblyGrip {
-                body: group[grip.body]?,
-                ..*grip
-            })
-        });
+        let grips = self.grips.iter().filter_map(|grip| Some(AssemblyGrip { body: group[grip.body]?, ..*grip }));
         Assembly {
-            bodies: members
-                .iter()
-                .filter_map(|list| merged_body(list))
-                .collect(),
+            bodies: members.iter().filter_map(|list| merged_body(list)).collect(),
             contacts: contacts.collect(),
             grips: grips.collect(),
             ..*self
@@ -67,11 +59,7 @@ impl AssemblyContact {
     /// `None` means the ground. Returns `None` if both are the same body or both are the ground.
     ///
     /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.
-    pub(super) fn with_bodies(
-        &self,
-        on: Option<usize>,
-        from: Option<usize>,
-    ) -> Option<AssemblyContact> {
+    pub(super) fn with_bodies(&self, on: Option<usize>, from: Option<usize>) -> Option<AssemblyContact> {
         match (on, from) {
             _ if on == from => None,
             (Some(on), from) => Some(AssemblyContact { on, from, ..*self }),
@@ -100,10 +88,7 @@ mod tests {
             corners: [Point::new(at[0], at[1])].into(),
             weight: 1.0,
             listed: LoadVector::ZERO,
-            load: LoadVector {
-                force: Vector::new(force[0], force[1]),
-                moment,
-            },
+            load: LoadVector { force: Vector::new(force[0], force[1]), moment },
         }
     }
 
@@ -132,13 +117,8 @@ mod tests {
             body(2, [1.0, 5.0], [-4.0, 1.0], -2.0),
             body(3, [9.0, 9.0], [7.0, 7.0], 7.0),
         ];
-        let contacts = vec![
-            contact(1, Some(0)),
-            contact(2, Some(1)),
-            contact(3, Some(2)),
-            contact(0, None),
-            contact(3, None),
-        ];
+        let contacts =
+            vec![contact(1, Some(0)), contact(2, Some(1)), contact(3, Some(2)), contact(0, None), contact(3, None)];
         let assembly = Assembly {
             bodies,
             contacts,
@@ -159,27 +139,15 @@ mod tests {
             let own = velocity + crate::geometry::quarter_turn(arm) * spin;
             load.force.dot(&own) + load.moment * spin
         };
-        let apart: f64 = [0, 2]
-            .map(|k| &assembly.bodies[k])
-            .map(|b| work(b.load, b.centroid - two.centroid))
-            .iter()
-            .sum();
+        let apart: f64 =
+            [0, 2].map(|k| &assembly.bodies[k]).map(|b| work(b.load, b.centroid - two.centroid)).iter().sum();
         let together = work(two.load, Vector::zeros());
         assert!((together - apart).abs() < 1e-12, "{together}, {apart}");
 
         // The contacts are: on the first piece from the second, the reverse, and two between the second piece
         // and the ground. One of these two is reversed.
-        let seen: Vec<_> = joined
-            .contacts
-            .iter()
-            .map(|c| (c.on, c.from, c.normal.y))
-            .collect();
-        let expected = [
-            (0, Some(1), 1.0),
-            (1, Some(0), 1.0),
-            (1, None, -1.0),
-            (1, None, 1.0),
-        ];
+        let seen: Vec<_> = joined.contacts.iter().map(|c| (c.on, c.from, c.normal.y)).collect();
+        let expected = [(0, Some(1), 1.0), (1, Some(0), 1.0), (1, None, -1.0), (1, None, 1.0)];
         assert_eq!(seen, expected);
         assert_eq!(joined.contacts[2].bodies[1], BodyId::Block(BlockId(3)));
     }

@@ -52,25 +52,16 @@ pub struct LoadVector {
 
 impl LoadVector {
     /// No load.
-    pub const ZERO: LoadVector = LoadVector {
-        force: Vector::new(0.0, 0.0),
-        moment: 0.0,
-    };
+    pub const ZERO: LoadVector = LoadVector { force: Vector::new(0.0, 0.0), moment: 0.0 };
 
     /// Returns the sum of two load vectors about the same centroid.
     pub fn plus(self, other: LoadVector) -> LoadVector {
-        LoadVector {
-            force: self.force + other.force,
-            moment: self.moment + other.moment,
-        }
+        LoadVector { force: self.force + other.force, moment: self.moment + other.moment }
     }
 
     /// Returns the load vector multiplied by a factor.
     pub fn times(self, factor: f64) -> LoadVector {
-        LoadVector {
-            force: self.force * factor,
-            moment: self.moment * factor,
-        }
+        LoadVector { force: self.force * factor, moment: self.moment * factor }
     }
 
     /// Returns the size of the load in newtons: the magnitude of the force, or the absolute moment divided by `length`
@@ -201,10 +192,7 @@ impl Assembly {
     /// Recomputes the load vector of each body from gravity and from the body's weight and listed loads.
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
-            let weight = LoadVector {
-                force: self.pull * body.weight,
-                moment: 0.0,
-            };
+            let weight = LoadVector { force: self.pull * body.weight, moment: 0.0 };
             body.load = weight.plus(body.listed.times(self.load_factor));
         }
         self
@@ -214,20 +202,14 @@ impl Assembly {
     /// numbers: its force, its moment divided by L, and its weight under the current gravity.
     pub fn heaviest_load(&self) -> f64 {
         let pull = self.pull.norm();
-        self.bodies
-            .iter()
-            .map(|body| body.load.size(self.length).max(body.weight * pull))
-            .fold(0.0, f64::max)
+        self.bodies.iter().map(|body| body.load.size(self.length).max(body.weight * pull)).fold(0.0, f64::max)
     }
 }
 
 /// Returns the load vector about `centroid` that is equivalent to a force at the point `at` and a torque. The units are
 /// metres, newtons and N·m.
 pub fn load_about(centroid: Point, at: Point, force: Vector, torque: f64) -> LoadVector {
-    LoadVector {
-        force,
-        moment: cross(at - centroid, force) + torque,
-    }
+    LoadVector { force, moment: cross(at - centroid, force) + torque }
 }
 
 /// Returns the characteristic length L of a frame in metres: the median length of its edge interfaces.

@@ -51,15 +51,8 @@ impl Assembly {
         let lengths = part.contacts.iter().map(|c| (c.ends[1] - c.ends[0]).norm());
         let lengths: Vec<f64> = lengths.filter(|length| *length > 0.0).collect();
         let radii = part.bodies.iter().map(|body| body.radius());
-        part.length = super::median(lengths)
-            .or_else(|| super::median(radii.collect()))
-            .unwrap_or(self.length);
-        Substructure {
-            assembly: part,
-            bodies: bodies.to_vec(),
-            contacts,
-            grips,
-        }
+        part.length = super::median(lengths).or_else(|| super::median(radii.collect())).unwrap_or(self.length);
+        Substructure { assembly: part, bodies: bodies.to_vec(), contacts, grips }
     }
 
     /// Returns the connected components of the bodies for which `member` is true, as lists of body indices in ascending

@@ -23,12 +23,8 @@ impl Effect for CornerContacts {
                 Applicability::skipped("not requested; corner contacts are unreliable")
             }
             0 => Applicability::skipped("no corner touches another body"),
-            1 if context.scene.lists_contacts() => {
-                Applicability::Applies("the scene lists 1 contact".to_owned())
-            }
-            n if context.scene.lists_contacts() => {
-                Applicability::Applies(format!("the scene lists {n} contacts"))
-            }
+            1 if context.scene.lists_contacts() => Applicability::Applies("the scene lists 1 contact".to_owned()),
+            n if context.scene.lists_contacts() => Applicability::Applies(format!("the scene lists {n} contacts")),
             1 => Applicability::Applies("1 corner touches another body".to_owned()),
             n => Applicability::Applies(format!("{n} corners touch another body")),
         }

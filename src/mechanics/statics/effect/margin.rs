@@ -14,10 +14,6 @@ const NAME: EffectName = EffectName::Margins;
 pub fn report(decided_count: Option<usize>) -> EffectReport {
     match decided_count {
         None => EffectReport::skipped(NAME, "not requested", 0),
-        Some(n) => EffectReport::simulated(
-            NAME,
-            format!("requested; computed {}", counted(n, "verdict")),
-            0,
-        ),
+        Some(n) => EffectReport::simulated(NAME, format!("requested; computed {}", counted(n, "verdict")), 0),
     }
 }

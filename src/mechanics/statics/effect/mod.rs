@@ -83,25 +83,17 @@ impl EffectName {
     pub fn meaning(self) -> &'static str {
         match self {
             EffectName::Weight => "gravity acts on each block at its centroid",
-            EffectName::Contact => {
-                "blocks press on each other and on the ground where edges touch, and never pull"
-            }
+            EffectName::Contact => "blocks press on each other and on the ground where edges touch, and never pull",
             EffectName::Friction => "contacts resist sliding, up to μ times the normal force",
             EffectName::Kernel => "contact forces act at a distance from the ends of interfaces",
             EffectName::Robots => "robots hold blocks by a force, up to their limits",
             EffectName::RobotTorque => "robots also hold blocks by a torque, up to their limits",
             EffectName::Loads => "external forces and torques that the scene lists",
             EffectName::CornerContacts => "corners that touch an edge or a corner also carry force",
-            EffectName::Sticking => {
-                "the least adhesion, or robot force beyond the limits, with which it would stand"
-            }
+            EffectName::Sticking => "the least adhesion, or robot force beyond the limits, with which it would stand",
             EffectName::Mechanism => "the motion by which it falls",
-            EffectName::Margins => {
-                "how far loads, friction, tilt and geometry may change before the verdict changes"
-            }
-            EffectName::Wedging => {
-                "whether it stands only by a self-stress that its loads do not build up"
-            }
+            EffectName::Margins => "how far loads, friction, tilt and geometry may change before the verdict changes",
+            EffectName::Wedging => "whether it stands only by a self-stress that its loads do not build up",
         }
     }
 }
@@ -129,21 +121,11 @@ pub struct EffectReport {
 
 impl EffectReport {
     fn simulated(effect: EffectName, why: String, unknowns: usize) -> EffectReport {
-        EffectReport {
-            effect,
-            simulated: true,
-            why,
-            unknowns,
-        }
+        EffectReport { effect, simulated: true, why, unknowns }
     }
 
     fn skipped(effect: EffectName, why: impl Into<String>, unknowns: usize) -> EffectReport {
-        EffectReport {
-            effect,
-            simulated: false,
-            why: why.into(),
-            unknowns,
-        }
+        EffectReport { effect, simulated: false, why: why.into(), unknowns }
     }
 }
 
@@ -180,10 +162,7 @@ impl Applicability {
 
     /// Returns the result for a skipped effect. `saved_unknowns` is the number of unknowns that the effect would add.
     fn skipped_saving(reason: &str, saved_unknowns: usize) -> Applicability {
-        Applicability::Skipped {
-            reason: reason.to_owned(),
-            saved_unknowns,
-        }
+        Applicability::Skipped { reason: reason.to_owned(), saved_unknowns }
     }
 }
 
@@ -226,10 +205,9 @@ pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
                 effect.contribute(context, &mut assembly);
                 EffectReport::simulated(effect.name(), why, 0)
             }
-            Applicability::Skipped {
-                reason,
-                saved_unknowns,
-            } => EffectReport::skipped(effect.name(), reason, saved_unknowns),
+            Applicability::Skipped { reason, saved_unknowns } => {
+                EffectReport::skipped(effect.name(), reason, saved_unknowns)
+            }
         });
     }
     // Edge and corner contacts come from two effects. Sort them, because results list contacts in the order of the
@@ -240,9 +218,5 @@ pub fn assemble(context: &FrameContext) -> (Assembly, Vec<EffectReport>) {
 
 /// Writes a number with a noun, such as `1 block` or `2 blocks`.
 fn counted(n: usize, noun: &str) -> String {
-    if n == 1 {
-        format!("1 {noun}")
-    } else {
-        format!("{n} {noun}s")
-    }
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }

@@ -37,10 +37,7 @@ impl Effect for Robots {
                     robot: hold.robot,
                     body,
                     at: hold.at,
-                    limits: Limits {
-                        torque: 0.0,
-                        ..limits
-                    },
+                    limits: Limits { torque: 0.0, ..limits },
                 });
             }
         }

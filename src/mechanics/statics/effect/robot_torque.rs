@@ -20,14 +20,8 @@ impl Effect for RobotTorque {
         let torques = holds.iter().map(|h| robots[h.robot.0].limits.torque);
         match torques.filter(|torque| *torque > 0.0).count() {
             _ if holds.is_empty() => Applicability::skipped("no robot holds a block"),
-            0 => Applicability::skipped_saving(
-                "every holding robot's torque limit is 0",
-                2 * holds.len(),
-            ),
-            n => Applicability::Applies(format!(
-                "{} may apply a torque",
-                counted(n, "holding robot")
-            )),
+            0 => Applicability::skipped_saving("every holding robot's torque limit is 0", 2 * holds.len()),
+            n => Applicability::Applies(format!("{} may apply a torque", counted(n, "holding robot"))),
         }
     }
 

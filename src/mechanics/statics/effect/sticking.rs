@@ -25,15 +25,10 @@ pub enum AdhesionSearch {
 pub fn report(blocks: usize, search: AdhesionSearch, unknowns: usize) -> EffectReport {
     match search {
         AdhesionSearch::Found => {
-            let why = format!(
-                "no admissible forces balance the {}",
-                counted(blocks, "block")
-            );
+            let why = format!("no admissible forces balance the {}", counted(blocks, "block"));
             EffectReport::simulated(NAME, why, unknowns)
         }
-        AdhesionSearch::NotNeeded => {
-            EffectReport::skipped(NAME, "the frame stands without it", unknowns)
-        }
+        AdhesionSearch::NotNeeded => EffectReport::skipped(NAME, "the frame stands without it", unknowns),
         AdhesionSearch::NotRequested => {
             let why = "only the verdict was asked for, and a motion proves that it falls";
             EffectReport::skipped(NAME, why, unknowns)

@@ -34,9 +34,7 @@ pub fn report(wedging: Wedging) -> EffectReport {
     match wedging {
         Wedging::NotRequested => EffectReport::skipped(NAME, "not requested", 0),
         Wedging::Falls => EffectReport::skipped(NAME, "the frame does not stand", 0),
-        Wedging::Undecided(why) => {
-            EffectReport::simulated(NAME, format!("requested, but undecided: {why}"), 0)
-        }
+        Wedging::Undecided(why) => EffectReport::simulated(NAME, format!("requested, but undecided: {why}"), 0),
         Wedging::FromRest => EffectReport::simulated(
             NAME,
             "requested: springs without initial stress come to rest under the loads".to_string(),
@@ -44,9 +42,7 @@ pub fn report(wedging: Wedging) -> EffectReport {
         ),
         Wedging::OnlyByWedging(shown) => EffectReport::simulated(
             NAME,
-            format!(
-                "requested: springs without initial stress do not come to rest under the loads; {shown}"
-            ),
+            format!("requested: springs without initial stress do not come to rest under the loads; {shown}"),
             0,
         ),
     }

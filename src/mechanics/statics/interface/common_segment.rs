@@ -35,13 +35,7 @@ impl CommonSegment {
     /// Returns the common segment of the edges `a` and `b`, which run in opposite directions.
     pub(super) fn new(a: Edge, b: Edge) -> CommonSegment {
         let along = (a.vector() - b.vector()).normalize();
-        let mut segment = CommonSegment {
-            a,
-            b,
-            along,
-            start: 0.0,
-            end: 0.0,
-        };
+        let mut segment = CommonSegment { a, b, along, start: 0.0, end: 0.0 };
         segment.start = f64::max(0.0, segment.place(b.to));
         segment.end = f64::min(segment.place(a.to), segment.place(b.from));
         segment
@@ -67,10 +61,7 @@ impl CommonSegment {
     /// outside the first body.
     fn height(&self, e: Edge, s: f64) -> f64 {
         let outward = self.outward();
-        let (h0, h1) = (
-            outward.dot(&(e.from - self.a.from)),
-            outward.dot(&(e.to - self.a.from)),
-        );
+        let (h0, h1) = (outward.dot(&(e.from - self.a.from)), outward.dot(&(e.to - self.a.from)));
         let (t0, t1) = (self.place(e.from), self.place(e.to));
         h0 + (h1 - h0) * ((s - t0) / (t1 - t0)).clamp(0.0, 1.0)
     }

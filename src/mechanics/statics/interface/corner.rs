@@ -77,16 +77,11 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
         let (tip, at) = (&place.tip, place.tip.at);
         let reach = tolerance_between(tip.body, tip.body);
         let point = [at.x, at.y];
-        let query = Aabb {
-            min: point,
-            max: point,
-        };
+        let query = Aabb { min: point, max: point };
         let mut candidates: Vec<&CornerSide> = index.intersecting(query.grown(reach)).collect();
         candidates.sort_unstable_by_key(|candidate| candidate.number);
         for other in candidates {
-            let Some(pair) =
-                ordered(tip.body, other.tip.body).filter(|_| tip.body != other.tip.body)
-            else {
+            let Some(pair) = ordered(tip.body, other.tip.body).filter(|_| tip.body != other.tip.body) else {
                 continue;
             };
             let tolerance = tolerance_between(pair[0], pair[1]);
@@ -94,24 +89,12 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
                 continue;
             };
             let ends = ends_of_pair.entry(pair).or_default();
-            let is_covered = ends
-                .iter()
-                .any(|ends| distance_to_segment(at, *ends) <= SAME_CONTACT_REACH * tolerance);
+            let is_covered = ends.iter().any(|ends| distance_to_segment(at, *ends) <= SAME_CONTACT_REACH * tolerance);
             if !is_covered {
                 ends.push([at, at]);
-                let normal = if pair[0] == tip.body {
-                    into_tip
-                } else {
-                    -into_tip
-                };
+                let normal = if pair[0] == tip.body { into_tip } else { -into_tip };
                 let friction = scene.friction_between(pair[0], pair[1]);
-                found.push(Interface {
-                    bodies: pair,
-                    kind: ContactKind::Corner,
-                    ends: [at, at],
-                    normal,
-                    friction,
-                });
+                found.push(Interface { bodies: pair, kind: ContactKind::Corner, ends: [at, at], normal, friction });
             }
         }
     }
@@ -124,25 +107,10 @@ fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
     for body in bodies(scene) {
         for ring in scene.body(body).polygon.rings() {
             for i in 0..ring.len() {
-                let (before, at, after) = (
-                    ring[(i + ring.len() - 1) % ring.len()],
-                    ring[i],
-                    ring[(i + 1) % ring.len()],
-                );
-                let tip = Tip {
-                    body,
-                    at,
-                    before: at - before,
-                    after: after - at,
-                };
-                places.push(CornerSide {
-                    number: places.len(),
-                    side: Edge {
-                        from: at,
-                        to: after,
-                    },
-                    tip,
-                });
+                let (before, at, after) =
+                    (ring[(i + ring.len() - 1) % ring.len()], ring[i], ring[(i + 1) % ring.len()]);
+                let tip = Tip { body, at, before: at - before, after: after - at };
+                places.push(CornerSide { number: places.len(), side: Edge { from: at, to: after }, tip });
             }
         }
     }
@@ -168,10 +136,6 @@ fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
 fn distance_to_segment(p: Point, ends: [Point; 2]) -> f64 {
     let along = ends[1] - ends[0];
     let square = along.norm_squared();
-    let s = if square > 0.0 {
-        (along.dot(&(p - ends[0])) / square).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let s = if square > 0.0 { (along.dot(&(p - ends[0])) / square).clamp(0.0, 1.0) } else { 0.0 };
     (p - (ends[0] + along * s)).norm()
 }

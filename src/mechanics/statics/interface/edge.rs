@@ -62,8 +62,7 @@ impl Side {
     /// others. With the direction, the box overlaps only a few, because each joint has a different direction.
     fn bounds(&self) -> Aabb<3> {
         let along = self.edge.vector();
-        let angle =
-            (2.0 * self.search_distance / along.norm()).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
+        let angle = (2.0 * self.search_distance / along.norm()).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
         // Add a thousandth, because `compare` tests the sine, which is slightly smaller than the angle. `direction`
         // changes by at most 1 per radian.
         let angle = 1.001 * angle;
@@ -89,8 +88,7 @@ impl Side {
             turned
         });
         let margin = 2.0 * Tolerance::MAX_ANGLE;
-        let is_needed =
-            move |bounds: &Aabb<3>| bounds.max[2] >= -margin && bounds.min[2] <= FULL_TURN + margin;
+        let is_needed = move |bounds: &Aabb<3>| bounds.max[2] >= -margin && bounds.min[2] <= FULL_TURN + margin;
         opposite.into_iter().filter(is_needed)
     }
 }
@@ -128,9 +126,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
     let sides = index.all().map(|(_, side)| side);
     for a in sides.filter(|a| matches!(a.body, BodyId::Block(_))) {
         for b in a.facing().flat_map(|query| index.intersecting(query)) {
-            let Some(bodies) =
-                ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body)
-            else {
+            let Some(bodies) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body) else {
                 continue;
             };
             if let Some(relation) = compare(scene, bodies, a, b) {
@@ -145,11 +141,7 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
 
 /// Returns all edges of a scene, and the size of its smallest block in metres.
 fn sides(scene: &Scene) -> (Vec<Side>, f64) {
-    let count = |body: BodyId| {
-        (scene.body(body).polygon.rings().iter())
-            .map(Vec::len)
-            .sum::<usize>()
-    };
+    let count = |body: BodyId| (scene.body(body).polygon.rings().iter()).map(Vec::len).sum::<usize>();
     let mut sides: Vec<Side> = Vec::with_capacity(bodies(scene).map(count).sum());
     let mut smallest = f64::INFINITY;
     for body in bodies(scene) {
@@ -162,12 +154,7 @@ fn sides(scene: &Scene) -> (Vec<Side>, f64) {
             }
             BodyId::Ground(_) => f64::INFINITY,
         };
-        sides.extend((polygon.edges().enumerate()).map(|(number, edge)| Side {
-            body,
-            number,
-            edge,
-            search_distance,
-        }));
+        sides.extend((polygon.edges().enumerate()).map(|(number, edge)| Side { body, number, edge, search_distance }));
     }
     (sides, smallest)
 }
@@ -184,12 +171,7 @@ struct Collection {
 }
 
 /// Converts pairs of edges to interfaces, near misses and slivers. Pairs of the same two bodies must be consecutive.
-fn collect(
-    scene: &Scene,
-    pairs: Vec<Pair>,
-    sides: &BoxIndex<Side, 3>,
-    smallest: f64,
-) -> Interfaces {
+fn collect(scene: &Scene, pairs: Vec<Pair>, sides: &BoxIndex<Side, 3>, smallest: f64) -> Interfaces {
     let mut found = Collection::default();
     found.interfaces.reserve(pairs.len());
     let mut pairs = pairs.into_iter().peekable();
@@ -231,11 +213,7 @@ impl Collection {
     fn add_touching(&mut self, interface: Interface, distance: f64, smallest: f64) {
         // A gap counts as an open joint only if it is wide enough for the smallest stone, which may keep it open.
         if distance > 0.0 && MAX_PINNED_SIZE_PER_GAP * distance >= smallest {
-            self.open_joints.push(NearMiss {
-                bodies: interface.bodies,
-                at: interface.middle(),
-                distance,
-            });
+            self.open_joints.push(NearMiss { bodies: interface.bodies, at: interface.middle(), distance });
         }
         self.interfaces.push(interface);
     }
@@ -251,24 +229,14 @@ impl Collection {
 
     /// Adds the gaps between two bodies as near misses. If the bodies touch, gaps that only follow from a rounded
     /// outline are left out.
-    fn add_gaps(
-        &mut self,
-        scene: &Scene,
-        bodies: [BodyId; 2],
-        open: Vec<GapSegment>,
-        touching: Vec<Point>,
-    ) {
+    fn add_gaps(&mut self, scene: &Scene, bodies: [BodyId; 2], open: Vec<GapSegment>, touching: Vec<Point>) {
         let tolerance = scene.tolerance_between(bodies[0], bodies[1]);
         let longest = longest_outline_edge(scene, bodies);
         for gap in without_outline(open, touching, tolerance, scene.misfit, longest) {
             if gap.distance() <= MAX_REPORTED_GAPS * tolerance.gap {
                 self.notices.add_near_contact(scene, bodies, gap.distance());
             }
-            self.near_misses.push(NearMiss {
-                bodies,
-                at: gap.at,
-                distance: gap.distance(),
-            });
+            self.near_misses.push(NearMiss { bodies, at: gap.at, distance: gap.distance() });
         }
     }
 }
@@ -294,25 +262,16 @@ fn touching_points(
     if !interfaces.is_empty() {
         return interfaces.iter().flat_map(|i| i.ends).collect();
     }
-    only_touching_corner(scene, bodies, sides)
-        .into_iter()
-        .collect()
+    only_touching_corner(scene, bodies, sides).into_iter().collect()
 }
 
 /// Returns the only point at which corners of the first body touch the second. `None` if no corner touches, or if
 /// corners touch at different points.
-fn only_touching_corner(
-    scene: &Scene,
-    bodies: [BodyId; 2],
-    sides: &BoxIndex<Side, 3>,
-) -> Option<Point> {
+fn only_touching_corner(scene: &Scene, bodies: [BodyId; 2], sides: &BoxIndex<Side, 3>) -> Option<Point> {
     let gap = scene.tolerance_between(bodies[0], bodies[1]).gap;
     let touches = |at: &Point| {
         // The range of directions in this query covers a full turn, so edges of any direction are found.
-        let query = Aabb {
-            min: [at.x - gap, at.y - gap, -FULL_TURN],
-            max: [at.x + gap, at.y + gap, 2.0 * FULL_TURN],
-        };
+        let query = Aabb { min: [at.x - gap, at.y - gap, -FULL_TURN], max: [at.x + gap, at.y + gap, 2.0 * FULL_TURN] };
         let candidates = sides.intersecting(query);
         let mut candidates = candidates.filter(|side| side.body == bodies[1]);
         candidates.any(|side| {
@@ -325,9 +284,7 @@ fn only_touching_corner(
     let corners = scene.body(bodies[0]).polygon.rings().iter().flatten();
     let mut touching = corners.filter(|at| touches(at));
     let first = *touching.next()?;
-    touching
-        .all(|at| (at - first).norm() <= JOIN_REACH * gap)
-        .then_some(first)
+    touching.all(|at| (at - first).norm() <= JOIN_REACH * gap).then_some(first)
 }
 
 /// Compares edge `a` of the first body with edge `b` of the second. Returns their relation, or `None` if they do not
@@ -357,8 +314,7 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     }
     let distance = segment.distance();
     if distance > tolerance.gap {
-        let is_near_miss =
-            segment.depth() >= -tolerance.gap && distance <= search_distance && length > distance;
+        let is_near_miss = segment.depth() >= -tolerance.gap && distance <= search_distance && length > distance;
         return is_near_miss.then(|| Relation::Apart(segment.open()));
     }
     if !is_parallel_within(tolerance.gap) {

@@ -69,9 +69,8 @@ pub(super) fn without_outline(
         next += 1;
         segments.retain(|segment| {
             let reach = JOIN_REACH * tolerance.gap + OUTLINE_REACH_PER_GAP * segment.distance();
-            let is_outline = segment.distance() > misfit
-                && segment.length() <= longest
-                && (segment.narrow.0 - from).norm() <= reach;
+            let is_outline =
+                segment.distance() > misfit && segment.length() <= longest && (segment.narrow.0 - from).norm() <= reach;
             if is_outline {
                 reached.push(segment.wide.0);
             }

@@ -136,14 +136,11 @@ impl SegmentGrid {
                     let Some(Some(other)) = self.segments.get(*n) else {
                         return false;
                     };
-                    let is_collinear = cross(one.normal, other.normal).abs() <= SAME_LINE_TOL
-                        && one.normal.dot(&other.normal) > 0.0;
+                    let is_collinear =
+                        cross(one.normal, other.normal).abs() <= SAME_LINE_TOL && one.normal.dot(&other.normal) > 0.0;
                     is_collinear && (p - other.ends[which]).norm() <= self.reach
                 };
-                first = first
-                    .into_iter()
-                    .chain(numbers.iter().copied().find(continues))
-                    .min();
+                first = first.into_iter().chain(numbers.iter().copied().find(continues)).min();
             }
         }
         first

@@ -37,13 +37,7 @@ impl LatticeEdges {
 
     /// Returns the interfaces in which the body `id`, made of `cells`, is the first of the two bodies. For the last
     /// block of a scene, these are all its interfaces.
-    pub(crate) fn interfaces_of(
-        &self,
-        scene: &Scene,
-        lattice: &Lattice,
-        id: BodyId,
-        cells: &[Cell],
-    ) -> Vec<Interface> {
+    pub(crate) fn interfaces_of(&self, scene: &Scene, lattice: &Lattice, id: BodyId, cells: &[Cell]) -> Vec<Interface> {
         let own = boundary(cells).into_iter();
         self.interfaces(scene, lattice, own.map(|step| (step, id)))
     }
@@ -61,9 +55,7 @@ impl LatticeEdges {
         let mut shared: BTreeMap<([BodyId; 2], Node), BTreeMap<Node, Node>> = BTreeMap::new();
         for ((a, b), one) in edges {
             for other in self.owners.get(&(b, a)).into_iter().flatten() {
-                if let Some(pair) =
-                    ordered(one, *other).filter(|pair| pair[0] == one && one != *other)
-                {
+                if let Some(pair) = ordered(one, *other).filter(|pair| pair[0] == one && one != *other) {
                     let direction = (b.0 - a.0, b.1 - a.1);
                     shared.entry((pair, direction)).or_default().insert(a, b);
                 }
@@ -112,13 +104,7 @@ fn joined(
 ///
 /// The first body lies to the left of the direction from `begin` to `end`, so the normal into it is this direction
 /// rotated anticlockwise by 90°.
-fn interface(
-    scene: &Scene,
-    lattice: &Lattice,
-    pair: [BodyId; 2],
-    begin: Node,
-    end: Node,
-) -> Interface {
+fn interface(scene: &Scene, lattice: &Lattice, pair: [BodyId; 2], begin: Node, end: Node) -> Interface {
     let (from, to) = (lattice.node(begin), lattice.node(end));
     Interface {
         bodies: pair,

@@ -189,11 +189,7 @@ impl Interfaces {
     fn sort(&mut self) {
         self.all.sort_by(|a, b| {
             let place = |i: &Interface| [i.ends[0].x, i.ends[0].y, i.ends[1].x, i.ends[1].y];
-            a.bodies.cmp(&b.bodies).then_with(|| {
-                place(a)
-                    .partial_cmp(&place(b))
-                    .unwrap_or(std::cmp::Ordering::Equal)
-            })
+            a.bodies.cmp(&b.bodies).then_with(|| place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal))
         });
     }
 
@@ -220,11 +216,7 @@ impl Interfaces {
             let mut pinned_gaps = self.pinned_gaps.iter();
             pinned_gaps.any(|p| is_present(BodyId::Block(p.stone)) && p.contains(i))
         };
-        self.all
-            .iter()
-            .filter(|i| is_present(i.bodies[0]) && is_present(i.bodies[1]))
-            .filter(|i| !is_open(i))
-            .collect()
+        self.all.iter().filter(|i| is_present(i.bodies[0]) && is_present(i.bodies[1])).filter(|i| !is_open(i)).collect()
     }
 }
 

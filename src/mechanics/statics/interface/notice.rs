@@ -29,8 +29,7 @@ impl Notices {
     /// Records two bodies with edges that are `distance` metres apart, which is more than the tolerance.
     pub(super) fn add_near_contact(&mut self, scene: &Scene, bodies: [BodyId; 2], distance: f64) {
         let names = bodies.map(|body| scene.name(body));
-        self.unjoined
-            .push((format!("{} and {}", names[0], names[1]), distance));
+        self.unjoined.push((format!("{} and {}", names[0], names[1]), distance));
     }
 
     /// Returns the notices as sentences for users, with lengths in the unit of the scene. There is at most one

@@ -66,19 +66,14 @@ pub(super) const MAX_PINNED_SIZE_PER_GAP: f64 = 4.0;
 
 /// Finds the joints in `open_joints` that a stone keeps open. The gaps of all joints in `open_joints` are within the
 /// tolerance.
-pub(super) fn pinned_gaps(
-    scene: &Scene,
-    all: &[Interface],
-    open_joints: &[NearMiss],
-) -> Vec<PinnedGap> {
+pub(super) fn pinned_gaps(scene: &Scene, all: &[Interface], open_joints: &[NearMiss]) -> Vec<PinnedGap> {
     if open_joints.is_empty() {
         return Vec::new();
     }
     let contacts = ContactsByBody::new(all);
     let pinned = open_joints.iter().filter_map(|gap| {
-        let is_small_enough = |body: &BodyId| {
-            size(&scene.body(*body).polygon) <= MAX_PINNED_SIZE_PER_GAP * gap.distance
-        };
+        let is_small_enough =
+            |body: &BodyId| size(&scene.body(*body).polygon) <= MAX_PINNED_SIZE_PER_GAP * gap.distance;
         let stone = pinning_stone(gap, &contacts, is_small_enough, 0.0)?;
         Some(PinnedGap { gap: *gap, stone })
     });

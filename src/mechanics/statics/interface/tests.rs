@@ -17,12 +17,7 @@ fn odd(corners: &[Pair]) -> Vec<Pair> {
 }
 
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Pair> {
-    odd(&[
-        [x, y],
-        [x + width, y],
-        [x + width, y + height],
-        [x, y + height],
-    ])
+    odd(&[[x, y], [x + width, y], [x + width, y + height], [x, y + height]])
 }
 
 /// A scene with these parts of the ground and these blocks, and with corner contacts.
@@ -60,14 +55,8 @@ fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
         let at = |apart: f64| {
             let place = |p: &Pair| turned(*p, outward);
             let block: Vec<Pair> = odd(&tip.iter().map(place).collect::<Vec<_>>());
-            let block = block
-                .iter()
-                .map(|p| [p[0] + apart * outward[0], p[1] + apart * outward[1]])
-                .collect();
-            scene(
-                vec![odd(&slab.iter().map(place).collect::<Vec<_>>())],
-                vec![block],
-            )
+            let block = block.iter().map(|p| [p[0] + apart * outward[0], p[1] + apart * outward[1]]).collect();
+            scene(vec![odd(&slab.iter().map(place).collect::<Vec<_>>())], vec![block])
         };
         let gap = gap(&at(0.0), BodyId::Ground(0));
         for (apart, touches) in [(0.0, true), (0.9 * gap, true), (1.2 * gap, false)] {
@@ -88,14 +77,8 @@ fn a_tip_touches_an_edge_on_any_side_within_the_tolerance_and_no_farther() {
 fn tips_that_meet_press_along_their_bisector() {
     // The block's lower left corner meets the ground's upper right corner. Then its lower right corner meets the
     // ground's upper left corner.
-    for (x, normal) in [
-        (0.0, core::f64::consts::FRAC_1_SQRT_2),
-        (-3.0, -core::f64::consts::FRAC_1_SQRT_2),
-    ] {
-        let scene = scene(
-            vec![rectangle(-2.0, -1.0, 2.0, 1.0)],
-            vec![rectangle(x, 0.0, 1.0, 1.0)],
-        );
+    for (x, normal) in [(0.0, core::f64::consts::FRAC_1_SQRT_2), (-3.0, -core::f64::consts::FRAC_1_SQRT_2)] {
+        let scene = scene(vec![rectangle(-2.0, -1.0, 2.0, 1.0)], vec![rectangle(x, 0.0, 1.0, 1.0)]);
         let found = Interfaces::new(&scene).all;
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(near(found[0].normal, [normal, normal.abs()]), "{found:?}");
@@ -109,15 +92,7 @@ fn a_corner_is_a_contact_only_away_from_edge_contacts() {
     let kinds: Vec<ContactKind> = alone.iter().map(|i| i.kind).collect();
     assert_eq!(kinds, [ContactKind::Edge]);
     // A table with a flat leg, and a pointed leg 2 m away from it.
-    let table = odd(&[
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 2.0],
-        [2.5, 2.0],
-        [3.0, 0.0],
-        [3.5, 3.0],
-        [0.0, 3.0],
-    ]);
+    let table = odd(&[[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [2.5, 2.0], [3.0, 0.0], [3.5, 3.0], [0.0, 3.0]]);
     let mut found = Interfaces::new(&scene(floor(), vec![table])).all;
     found.sort_by_key(|i| i.kind == ContactKind::Corner);
     assert_eq!(found.len(), 2, "{found:?}");
@@ -140,10 +115,7 @@ fn interfaces_are_sorted_by_bodies_and_then_by_position() {
     outline.pop();
     outline.pop();
     outline.push([19.0, 3.0]);
-    let mut blocks: Vec<Vec<Pair>> = (0..5)
-        .rev()
-        .map(|k| rectangle(4.0 * f64::from(k), 0.0, 3.5, 1.0))
-        .collect();
+    let mut blocks: Vec<Vec<Pair>> = (0..5).rev().map(|k| rectangle(4.0 * f64::from(k), 0.0, 3.5, 1.0)).collect();
     blocks.push(odd(&outline));
     let scene = scene(vec![rectangle(-5.0, -1.0, 40.0, 1.0)], blocks);
     let found = Interfaces::new(&scene).all;
@@ -189,20 +161,14 @@ fn edges_touch_within_the_tolerance_and_are_near_misses_beyond_it() {
     assert_eq!(apart.notices.len(), 1);
     assert_eq!(apart.notices[0], words);
     let both = Interfaces::new(&at(29.0 * gap, 20.0 * gap));
-    assert_eq!(
-        both.notices,
-        [words + ", and so do 1 other pair(s) of edges"]
-    );
+    assert_eq!(both.notices, [words + ", and so do 1 other pair(s) of edges"]);
     // At a larger distance there is a near miss without a notice. Beyond a hundredth of the block's size there is
     // none.
     let apart = Interfaces::new(&at(31.0 * gap, 0.0));
     assert_eq!((apart.near_misses.len(), apart.notices.len()), (1, 0));
     let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
     for (share, seen) in [(0.0099, 1), (0.0101, 0)] {
-        assert_eq!(
-            Interfaces::new(&at(share * size, 0.0)).near_misses.len(),
-            seen
-        );
+        assert_eq!(Interfaces::new(&at(share * size, 0.0)).near_misses.len(), seen);
     }
 }
 
@@ -211,10 +177,7 @@ fn a_contact_too_short_to_count_is_reported_with_its_length() {
     // A brick on a floor. A second brick, one layer higher, overlaps the first by only 10⁻⁷ m.
     let scene = scene(
         vec![rectangle(-5.0, -1.0, 10.0, 1.0)],
-        vec![
-            rectangle(0.0, 0.0, 2.0, 1.0),
-            rectangle(-2.0 + 1e-7, 1.0, 2.0, 1.0),
-        ],
+        vec![rectangle(0.0, 0.0, 2.0, 1.0), rectangle(-2.0 + 1e-7, 1.0, 2.0, 1.0)],
     );
     let limit = scene.tolerance_between(FIRST, SECOND).min_length;
     let found = Interfaces::new(&scene);
@@ -251,15 +214,7 @@ fn edges_of_any_length_may_be_inclined_by_the_gap() {
 
 #[test]
 fn an_additional_corner_in_a_straight_edge_changes_nothing() {
-    let floor = odd(&[
-        [-5.0, -1.0],
-        [5.0, -1.0],
-        [5.0, 0.0],
-        [2.5, 0.0],
-        [1.0, 0.0],
-        [0.25, 0.0],
-        [-5.0, 0.0],
-    ]);
+    let floor = odd(&[[-5.0, -1.0], [5.0, -1.0], [5.0, 0.0], [2.5, 0.0], [1.0, 0.0], [0.25, 0.0], [-5.0, 0.0]]);
     let scene = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
     let found = Interfaces::new(&scene).all;
     assert_eq!(found.len(), 1, "{found:?}");

@@ -40,32 +40,15 @@ pub struct Resultant {
 /// assert_eq!(sum.at, Point::new(1.0, 1.0));
 /// assert_eq!(sum.force, Vector::new(-2.0, 4.0));
 /// ```
-pub fn from_point_forces(
-    interface: &Interface,
-    kernel: f64,
-    normal: [f64; 2],
-    friction: f64,
-) -> Resultant {
+pub fn from_point_forces(interface: &Interface, kernel: f64, normal: [f64; 2], friction: f64) -> Resultant {
     let points = interface.application_points(kernel);
     let sum = normal[0] + normal[1];
-    let at = if sum > 0.0 {
-        points[0] + (points[1] - points[0]) * (normal[1] / sum)
-    } else {
-        interface.middle()
-    };
-    Resultant {
-        on: interface.bodies[0],
-        at,
-        force: interface.normal * sum + interface.tangent() * friction,
-    }
+    let at = if sum > 0.0 { points[0] + (points[1] - points[0]) * (normal[1] / sum) } else { interface.middle() };
+    Resultant { on: interface.bodies[0], at, force: interface.normal * sum + interface.tangent() * friction }
 }
 
 /// Returns the used fraction of the available friction, |T| / (μ (N1 + N2)); 0 if no friction is available.
 pub fn friction_used(interface: &Interface, normal: [f64; 2], friction: f64) -> f64 {
     let available = interface.friction * (normal[0] + normal[1]);
-    if available > 0.0 {
-        friction.abs() / available
-    } else {
-        0.0
-    }
+    if available > 0.0 { friction.abs() / available } else { 0.0 }
 }

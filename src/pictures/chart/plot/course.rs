@@ -67,16 +67,9 @@ fn draw_lines<'c>(
         // Connect only neighbouring steps, so that a step without a value interrupts the line.
         let pairs = (1..values.len()).filter_map(|i| Some([at(i - 1)?, at(i)?]));
         for pair in pairs {
-            axes.draw_series(LineSeries::new(
-                pair,
-                colour.stroke_width(2 * UNITS_PER_PIXEL as u32),
-            ))?;
+            axes.draw_series(LineSeries::new(pair, colour.stroke_width(2 * UNITS_PER_PIXEL as u32)))?;
         }
-        axes.draw_series(
-            points
-                .iter()
-                .map(|at| Circle::new(*at, 3 * UNITS_PER_PIXEL, colour.filled())),
-        )?;
+        axes.draw_series(points.iter().map(|at| Circle::new(*at, 3 * UNITS_PER_PIXEL, colour.filled())))?;
         if let Some(end) = points.last() {
             ends.push((axes.backend_coord(end).1, name));
         }

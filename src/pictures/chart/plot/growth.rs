@@ -4,8 +4,7 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
 
 use super::{
-    DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large,
-    tick, words_from,
+    DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, tick, words_from,
 };
 use crate::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
 
@@ -41,10 +40,7 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
         .caption(&chart.title, font(17))
         .x_label_area_size(46 * UNITS_PER_PIXEL)
         .y_label_area_size(66 * UNITS_PER_PIXEL)
-        .build_cartesian_2d(
-            (0.8 * least..1.25 * most).log_scale(),
-            (ten(low)..ten(high)).log_scale(),
-        )?;
+        .build_cartesian_2d((0.8 * least..1.25 * most).log_scale(), (ten(low)..ten(high)).log_scale())?;
     axes.configure_mesh()
         .x_labels(4)
         .y_labels((high - low + 3).clamp(4, 10) as usize)
@@ -63,11 +59,7 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
     draw_names(&area, &ends)?;
     if all().any(|p| p.wrong) {
         let y = (LARGE_SIZE.1 - 24) * UNITS_PER_PIXEL;
-        let cross = Cross::new(
-            (NAMES_LEFT + 5 * UNITS_PER_PIXEL, y),
-            5 * UNITS_PER_PIXEL,
-            cross_stroke(),
-        );
+        let cross = Cross::new((NAMES_LEFT + 5 * UNITS_PER_PIXEL, y), 5 * UNITS_PER_PIXEL, cross_stroke());
         area.draw(&cross)?;
         let at = (NAMES_LEFT + 18 * UNITS_PER_PIXEL, y);
         area.draw(&Text::new(chart.wrong.clone(), at, words_from(font(12))))?;
@@ -78,11 +70,7 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
 
 /// Returns the colour and the width in pixels of a line. Highlighted lines are dark and thick.
 fn style(is_highlighted: bool) -> (RGBColor, i32) {
-    if is_highlighted {
-        (HIGHLIGHT_COLOUR, 3)
-    } else {
-        (OTHER_COLOUR, 1)
-    }
+    if is_highlighted { (HIGHLIGHT_COLOUR, 3) } else { (OTHER_COLOUR, 1) }
 }
 
 /// Returns the stroke of the crosses that mark wrong results.
@@ -98,16 +86,12 @@ fn draw_lines<'c>(
     let mut ends = Vec::new();
     for is_highlighted in [false, true] {
         let (colour, width) = style(is_highlighted);
-        for line in lines
-            .iter()
-            .filter(|line| line.is_highlighted == is_highlighted)
-        {
+        for line in lines.iter().filter(|line| line.is_highlighted == is_highlighted) {
             let points = || line.points.iter().map(|p| (p.x, p.y));
             let stroke = colour.stroke_width((width * UNITS_PER_PIXEL) as u32);
             axes.draw_series(LineSeries::new(points(), stroke))?;
             let right = line.points.iter().filter(|p| !p.wrong);
-            let dot =
-                |p: &Point| Circle::new((p.x, p.y), (3 + width) * UNITS_PER_PIXEL, colour.filled());
+            let dot = |p: &Point| Circle::new((p.x, p.y), (3 + width) * UNITS_PER_PIXEL, colour.filled());
             axes.draw_series(right.map(dot))?;
             let wrong = line.points.iter().filter(|p| p.wrong);
             let cross = |p: &Point| Cross::new((p.x, p.y), 5 * UNITS_PER_PIXEL, cross_stroke());
@@ -134,9 +118,7 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> DrawingResult {
         area.draw(&PathElement::new(joint, thin))?;
         let face = match end.line.is_highlighted {
             true => {
-                let bold = (FONT_FAMILY, 12 * UNITS_PER_PIXEL)
-                    .into_font()
-                    .style(FontStyle::Bold);
+                let bold = (FONT_FAMILY, 12 * UNITS_PER_PIXEL).into_font().style(FontStyle::Bold);
                 bold.color(&HIGHLIGHT_COLOUR)
             }
             false => font(12),
@@ -160,9 +142,7 @@ fn name_heights(ends: &[LineEnd<'_>]) -> Vec<i32> {
     // From bottom to top: move names up again, so that no name is far below the end of its line.
     let mut below = (LARGE_SIZE.1 - 66) * UNITS_PER_PIXEL;
     for (height, end) in heights.iter_mut().zip(ends).rev() {
-        *height = (*height)
-            .min(below)
-            .min((*height + end.y) / 2 + MIN_NAME_DISTANCE);
+        *height = (*height).min(below).min((*height + end.y) / 2 + MIN_NAME_DISTANCE);
         below = *height - MIN_NAME_DISTANCE;
     }
     heights

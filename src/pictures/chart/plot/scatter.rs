@@ -3,9 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::{
-    DrawingResult, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from,
-};
+use super::{DrawingResult, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from};
 use crate::chart::{LARGE_SIZE, Scatter, power_of_ten};
 
 /// The colour of the Pareto front.
@@ -25,10 +23,7 @@ pub(in crate::pictures::chart) fn scatter(chart: &Scatter, svg: &mut String) -> 
         .caption(&chart.title, font(17))
         .x_label_area_size(46 * UNITS_PER_PIXEL)
         .y_label_area_size(66 * UNITS_PER_PIXEL)
-        .build_cartesian_2d(
-            (ten(left)..ten(right)).log_scale(),
-            (ten(low)..ten(high)).log_scale(),
-        )?;
+        .build_cartesian_2d((ten(left)..ten(right)).log_scale(), (ten(low)..ten(high)).log_scale())?;
     let label = |v: &f64| power_of_ten(libm::round(libm::log10(*v)) as i32);
     // The greatest number of labels that plotters may draw on an axis, including the labels at both ends.
     let every = |low: i32, high: i32| (high - low + 3).clamp(4, 10) as usize;
@@ -59,10 +54,7 @@ fn cross_stroke() -> ShapeStyle {
 /// Draws the Pareto front, above it the series of points, and on top the crosses that mark wrong results.
 fn draw_points(axes: &mut LogAxes<'_, '_>, chart: &Scatter) -> DrawingResult {
     let front = stair(&chart.front.1);
-    axes.draw_series(LineSeries::new(
-        front,
-        FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32),
-    ))?;
+    axes.draw_series(LineSeries::new(front, FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32)))?;
     for series in &chart.series {
         let [r, g, b] = series.colour;
         let colour = RGBColor(r, g, b);
@@ -103,11 +95,7 @@ fn draw_legend(area: &Page<'_>, chart: &Scatter) -> DrawingResult {
     };
     for series in &chart.series {
         let [r, g, b] = series.colour;
-        let dot = Circle::new(
-            (x + 12 * UNITS_PER_PIXEL, y),
-            4 * UNITS_PER_PIXEL,
-            RGBColor(r, g, b).filled(),
-        );
+        let dot = Circle::new((x + 12 * UNITS_PER_PIXEL, y), 4 * UNITS_PER_PIXEL, RGBColor(r, g, b).filled());
         area.draw(&dot)?;
         words(&series.name, y)?;
         y += 20 * UNITS_PER_PIXEL;
@@ -115,20 +103,13 @@ fn draw_legend(area: &Page<'_>, chart: &Scatter) -> DrawingResult {
     if !front.is_empty() {
         y += 8 * UNITS_PER_PIXEL;
         let line = vec![(x, y), (x + 24 * UNITS_PER_PIXEL, y)];
-        area.draw(&PathElement::new(
-            line,
-            FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32),
-        ))?;
+        area.draw(&PathElement::new(line, FRONT_COLOUR.stroke_width(6 * UNITS_PER_PIXEL as u32)))?;
         words(name, y)?;
         y += 20 * UNITS_PER_PIXEL;
     }
     if chart.series.iter().flat_map(|s| &s.points).any(|p| p.wrong) {
         y += 4 * UNITS_PER_PIXEL;
-        area.draw(&Cross::new(
-            (x + 12 * UNITS_PER_PIXEL, y),
-            8 * UNITS_PER_PIXEL,
-            cross_stroke(),
-        ))?;
+        area.draw(&Cross::new((x + 12 * UNITS_PER_PIXEL, y), 8 * UNITS_PER_PIXEL, cross_stroke()))?;
         words(&chart.wrong, y)?;
     }
     Ok(())

@@ -55,13 +55,7 @@ impl Ink {
             let next = own.get(i + 1).copied().unwrap_or(start);
             self.sides.push(ConvexSide::new(*corner, next, own));
         }
-        let piece = ConvexPiece {
-            is_label,
-            first,
-            end: self.corners.len(),
-            min,
-            max,
-        };
+        let piece = ConvexPiece { is_label, first, end: self.corners.len(), min, max };
         if let Some(grid) = &mut self.grid {
             grid.add(self.pieces.len(), &piece);
         }
@@ -78,18 +72,9 @@ impl Ink {
 
     /// True if `matches` is true for a piece whose bounding box overlaps the box from `min` to `max`. The search stops
     /// at the first such piece, and `matches` is called at most once for each piece.
-    fn any_near(
-        &self,
-        min: PagePoint,
-        max: PagePoint,
-        mut matches: impl FnMut(&ConvexPiece) -> bool,
-    ) -> bool {
+    fn any_near(&self, min: PagePoint, max: PagePoint, mut matches: impl FnMut(&ConvexPiece) -> bool) -> bool {
         let mut tested = |piece: &ConvexPiece| {
-            piece.min.x < max.x
-                && piece.max.x > min.x
-                && piece.min.y < max.y
-                && piece.max.y > min.y
-                && matches(piece)
+            piece.min.x < max.x && piece.max.x > min.x && piece.min.y < max.y && piece.max.y > min.y && matches(piece)
         };
         let Some(grid) = &self.grid else {
             return self.pieces.iter().any(tested);
@@ -118,12 +103,7 @@ impl Ink {
             return;
         }
         let (x, y) = (-dy / length * width / 2.0, dx / length * width / 2.0);
-        self.convex([
-            from.moved(x, y),
-            to.moved(x, y),
-            to.moved(-x, -y),
-            from.moved(-x, -y),
-        ]);
+        self.convex([from.moved(x, y), to.moved(x, y), to.moved(-x, -y), from.moved(-x, -y)]);
     }
 
     /// Adds a disc. The disc is stored as the regular octagon around it.
@@ -131,10 +111,7 @@ impl Ink {
         let corner_radius = radius / libm::cos(TAU / 16.0);
         let corner = |i: u32| {
             let angle = TAU * (f64::from(i) + 0.5) / 8.0;
-            centre.moved(
-                corner_radius * libm::cos(angle),
-                corner_radius * libm::sin(angle),
-            )
+            centre.moved(corner_radius * libm::cos(angle), corner_radius * libm::sin(angle))
         };
         self.convex((0..8).map(corner));
     }
@@ -187,10 +164,8 @@ impl Ink {
     /// Returns the number of labels and leader lines that the line between two points crosses, and the number of other
     /// pieces of ink that it crosses.
     pub(super) fn crossed(&self, from: PagePoint, to: PagePoint) -> (usize, usize) {
-        let (min, max) = (
-            PagePoint::new(from.x.min(to.x), from.y.min(to.y)),
-            PagePoint::new(from.x.max(to.x), from.y.max(to.y)),
-        );
+        let (min, max) =
+            (PagePoint::new(from.x.min(to.x), from.y.min(to.y)), PagePoint::new(from.x.max(to.x), from.y.max(to.y)));
         let (mut labels, mut others) = (0, 0);
         self.any_near(min, max, |piece| {
             let sides = &self.sides[piece.first..piece.end];
@@ -198,11 +173,7 @@ impl Ink {
             if !sides.iter().any(|side| side.separates(&line))
                 && !separated(&line, &self.corners[piece.first..piece.end])
             {
-                let count = if piece.is_label {
-                    &mut labels
-                } else {
-                    &mut others
-                };
+                let count = if piece.is_label { &mut labels } else { &mut others };
                 *count += 1;
             }
             false
@@ -229,16 +200,8 @@ struct ConvexSide {
 impl ConvexSide {
     fn new(from: PagePoint, to: PagePoint, piece: &[PagePoint]) -> ConvexSide {
         let along = (to.x - from.x, to.y - from.y);
-        let side = ConvexSide {
-            from,
-            along,
-            own: (0.0, 0.0),
-            touch: TOUCH_TOL * libm::hypot(along.0, along.1),
-        };
-        ConvexSide {
-            own: side.offset_range(piece),
-            ..side
-        }
+        let side = ConvexSide { from, along, own: (0.0, 0.0), touch: TOUCH_TOL * libm::hypot(along.0, along.1) };
+        ConvexSide { own: side.offset_range(piece), ..side }
     }
 
     /// Returns the signed distance of a point from the line through this side, multiplied by the length of the side.
@@ -265,16 +228,8 @@ impl ConvexSide {
     fn separates_box(&self, min: PagePoint, max: PagePoint) -> bool {
         // One corner of the box has the least offset, and another the greatest. The direction of the side determines
         // which corners.
-        let (below, above) = if self.along.0 >= 0.0 {
-            (min.y, max.y)
-        } else {
-            (max.y, min.y)
-        };
-        let (right, left) = if self.along.1 >= 0.0 {
-            (max.x, min.x)
-        } else {
-            (min.x, max.x)
-        };
+        let (below, above) = if self.along.0 >= 0.0 { (min.y, max.y) } else { (max.y, min.y) };
+        let (right, left) = if self.along.1 >= 0.0 { (max.x, min.x) } else { (min.x, max.x) };
         let least = self.offset(PagePoint::new(right, below));
         let most = self.offset(PagePoint::new(left, above));
         self.is_disjoint((least, most))
@@ -331,12 +286,8 @@ impl Grid {
         // Limit the size of the grid: a page is only a few thousand pixels wide. Pieces far outside the page share the
         // outermost cells.
         let cell = |v: f64| (v / CELL_SIDE).floor().clamp(-20.0, 200.0);
-        let ends =
-            |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
-        let (mut x, mut y) = (
-            (f64::INFINITY, f64::NEG_INFINITY),
-            (f64::INFINITY, f64::NEG_INFINITY),
-        );
+        let ends = |ends: (f64, f64), min: f64, max: f64| (ends.0.min(cell(min)), ends.1.max(cell(max)));
+        let (mut x, mut y) = ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY));
         for piece in pieces {
             x = ends(x, piece.min.x, piece.max.x);
             y = ends(y, piece.min.y, piece.max.y);
@@ -358,12 +309,7 @@ impl Grid {
     }
 
     fn add(&mut self, number: usize, piece: &ConvexPiece) {
-        let Cells {
-            left,
-            right,
-            top,
-            bottom,
-        } = self.cells(piece.min, piece.max);
+        let Cells { left, right, top, bottom } = self.cells(piece.min, piece.max);
         for y in top..=bottom {
             for x in left..=right {
                 self.lists[y * self.columns + x].push(Entry { number, left, top });
@@ -374,9 +320,8 @@ impl Grid {
     /// Returns the cells that the box from `min` to `max` touches. A part of the box outside the grid belongs to the
     /// nearest cells of the grid.
     fn cells(&self, min: PagePoint, max: PagePoint) -> Cells {
-        let cell = |v: f64, first: f64, count: usize| {
-            (((v / CELL_SIDE).floor() - first).max(0.0) as usize).min(count - 1)
-        };
+        let cell =
+            |v: f64, first: f64, count: usize| (((v / CELL_SIDE).floor() - first).max(0.0) as usize).min(count - 1);
         Cells {
             left: cell(min.x, self.left, self.columns),
             right: cell(max.x, self.left, self.columns),

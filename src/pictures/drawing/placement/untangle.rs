@@ -29,10 +29,7 @@ pub(super) fn untangle(
         let request = &requests[number];
         let centre = to.at.moved(to.width / 2.0, to.height / 2.0);
         let rect = centred(centre, request.size);
-        let (width, height) = (
-            rect.width + 2.0 * LABEL_CLEARANCE,
-            rect.height + 2.0 * LABEL_CLEARANCE,
-        );
+        let (width, height) = (rect.width + 2.0 * LABEL_CLEARANCE, rect.height + 2.0 * LABEL_CLEARANCE);
         let kept = centred(centre, (width, height));
         let free = within(page, kept) && ink_without_labels.clear(kept) && !avoid(number, rect);
         free.then(|| Placed::with_leader(rect, request.anchor))
@@ -128,11 +125,7 @@ mod tests {
 
     #[test]
     fn labels_with_crossing_leaders_exchange_positions_and_others_stay() {
-        let page = PageRect {
-            at: PagePoint::new(0.0, 0.0),
-            width: 200.0,
-            height: 100.0,
-        };
+        let page = PageRect { at: PagePoint::new(0.0, 0.0), width: 200.0, height: 100.0 };
         let request = |x: f64| LabelRequest {
             anchor: PagePoint::new(x, 20.0),
             first_ring: 4.0,
@@ -150,25 +143,10 @@ mod tests {
         let mut placed = vec![at(120.0, &requests[0]), at(40.0, &requests[1])];
         assert_eq!(crossings(&placed, 0, 1), 2);
         let none = |_: usize, _: PageRect| false;
-        assert!(untangle(
-            &Ink::default(),
-            page,
-            &requests,
-            &mut placed,
-            &none
-        ));
+        assert!(untangle(&Ink::default(), page, &requests, &mut placed, &none));
         assert_eq!(crossings(&placed, 0, 1), 0);
-        assert_eq!(
-            placed,
-            vec![at(40.0, &requests[0]), at(120.0, &requests[1])]
-        );
-        assert!(!untangle(
-            &Ink::default(),
-            page,
-            &requests,
-            &mut placed,
-            &none
-        ));
+        assert_eq!(placed, vec![at(40.0, &requests[0]), at(120.0, &requests[1])]);
+        assert!(!untangle(&Ink::default(), page, &requests, &mut placed, &none));
         // If ink is in the way, no label is moved.
         let mut ink = Ink::default();
         ink.rect(centred(PagePoint::new(40.0, 80.0), (20.0, 10.0)));

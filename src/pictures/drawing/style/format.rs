@@ -61,11 +61,7 @@ impl Theme {
     /// assert!(problems.to_string().contains("the nearest known key is `failure`"));
     /// # Ok::<(), drystone::drawing::style::format::StyleProblems>(())
     /// ```
-    pub fn read(
-        text: &str,
-        notation: Notation,
-        base: Option<&Theme>,
-    ) -> Result<Theme, StyleProblems> {
+    pub fn read(text: &str, notation: Notation, base: Option<&Theme>) -> Result<Theme, StyleProblems> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let value = match notation {
             Notation::Json => value::json(text),
@@ -75,21 +71,13 @@ impl Theme {
         let value = value.map_err(|problem| StyleProblems(vec![problem]))?;
         let mut reading = ThemeReader::default();
         let Value::Table(entries) = value else {
-            reading.note(
-                "",
-                format!("{} is not a style", value.stated()),
-                "give a table of keys and values".into(),
-            );
+            reading.note("", format!("{} is not a style", value.stated()), "give a table of keys and values".into());
             return Err(StyleProblems(reading.problems));
         };
         let named = reading.base(&entries);
         let mut theme = base.cloned().or(named).unwrap_or_default();
         reading.theme(&entries, &mut theme);
-        if reading.problems.is_empty() {
-            Ok(theme)
-        } else {
-            Err(StyleProblems(reading.problems))
-        }
+        if reading.problems.is_empty() { Ok(theme) } else { Err(StyleProblems(reading.problems)) }
     }
 
     /// Writes the whole theme as a style file in JSON. Reading this file gives the same theme.
@@ -106,10 +94,7 @@ impl Theme {
             format!("[{}]", colours.join(", "))
         };
         let mut lines = Vec::new();
-        if let Some(name) = Theme::NAMES
-            .iter()
-            .find(|name| Theme::named(name).as_ref() == Some(self))
-        {
+        if let Some(name) = Theme::NAMES.iter().find(|name| Theme::named(name).as_ref() == Some(self)) {
             lines.push(format!("  \"theme\": \"{name}\""));
         }
         for (key, field) in COLOUR_FIELDS {
@@ -118,19 +103,15 @@ impl Theme {
         for (key, field) in LIST_FIELDS {
             lines.push(format!("  \"{key}\": {}", list(field(&mut theme))));
         }
-        let known = ramp::NAMES
-            .iter()
-            .find(|name| ramp::named(name).as_ref() == Some(&self.amplitudes));
+        let known = ramp::NAMES.iter().find(|name| ramp::named(name).as_ref() == Some(&self.amplitudes));
         let amplitudes = match known {
             Some(name) => format!("\"{name}\""),
             None => list(&stops(&self.amplitudes)),
         };
         lines.push(format!("  \"{AMPLITUDES_KEY}\": {amplitudes}"));
-        let widths =
-            WIDTH_FIELDS.map(|(key, field, ..)| format!("\"{key}\": {}", field(&mut theme.widths)));
+        let widths = WIDTH_FIELDS.map(|(key, field, ..)| format!("\"{key}\": {}", field(&mut theme.widths)));
         lines.push(format!("  \"widths\": {{ {} }}", widths.join(", ")));
-        let sizes =
-            SIZE_FIELDS.map(|(key, field)| format!("\"{key}\": {}", field(&mut theme.sizes)));
+        let sizes = SIZE_FIELDS.map(|(key, field)| format!("\"{key}\": {}", field(&mut theme.sizes)));
         lines.push(format!("  \"sizes\": {{ {} }}", sizes.join(", ")));
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
@@ -165,12 +146,7 @@ const LIST_FIELDS: [ListField; 2] = [("arrows", |t| &mut t.arrows), ("robots", |
 const AMPLITUDES_KEY: &str = "amplitudes";
 
 /// A field of [`Widths`]: its key, the field, its least and largest value, and its unit.
-type WidthField = (
-    &'static str,
-    fn(&mut Widths) -> &mut f64,
-    [f64; 2],
-    &'static str,
-);
+type WidthField = (&'static str, fn(&mut Widths) -> &mut f64, [f64; 2], &'static str);
 
 const WIDTH_FIELDS: [WidthField; 6] = [
     ("force", |w| &mut w.force, [0.005, 0.5], LENGTH_UNIT),

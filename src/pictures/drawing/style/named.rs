@@ -42,9 +42,7 @@ impl Theme {
             outline: Colour::hex(0x808080),
             motion: Colour::hex(0x4479b4),
             safe: Colour::hex(0x008066),
-            amplitudes: ramp::between(&all(&[
-                0xfef3dd, 0xfbc795, 0xf08f78, 0xcf5f7c, 0x943a86, 0x56207c,
-            ])),
+            amplitudes: ramp::between(&all(&[0xfef3dd, 0xfbc795, 0xf08f78, 0xcf5f7c, 0x943a86, 0x56207c])),
             stands: Colour::hex(0x17824f),
             falls: Colour::hex(0x9c1515),
             undecided: Colour::hex(0x6b7280),
@@ -98,9 +96,7 @@ impl Theme {
             outline: Colour::hex(0xe4e7eb),
             motion: Colour::hex(0x0072b2),
             safe: Colour::hex(0x009e73),
-            amplitudes: ramp::between(&all(&[
-                0xfff4c4, 0xd8c67a, 0x8a8779, 0x52637e, 0x25406b, 0x0a2a57,
-            ])),
+            amplitudes: ramp::between(&all(&[0xfff4c4, 0xd8c67a, 0x8a8779, 0x52637e, 0x25406b, 0x0a2a57])),
             stands: Colour::hex(0x0072b2),
             falls: Colour::hex(0x7d3600),
             undecided: Colour::hex(0x5d646e),

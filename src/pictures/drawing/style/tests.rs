@@ -22,13 +22,7 @@ struct LeastDistances {
 
 impl LeastDistances {
     fn all(self) -> [f64; 5] {
-        [
-            self.neighbours,
-            self.robots,
-            self.failure,
-            self.ground,
-            self.letters,
-        ]
+        [self.neighbours, self.robots, self.failure, self.ground, self.letters]
     }
 }
 
@@ -47,19 +41,13 @@ fn least(theme: &Theme, sight: Sight) -> LeastDistances {
         theme.amplitudes.iter().copied().chain(others)
     };
     LeastDistances {
-        neighbours: closest(
-            &mut (0..arrows.len()).map(|i| apart(theme.arrow(i), theme.arrow(i + 1))),
-        ),
-        robots: closest(
-            &mut arrows
-                .iter()
-                .flat_map(|a| robots.iter().map(move |r| apart(*a, *r))),
-        ),
+        neighbours: closest(&mut (0..arrows.len()).map(|i| apart(theme.arrow(i), theme.arrow(i + 1)))),
+        robots: closest(&mut arrows.iter().flat_map(|a| robots.iter().map(move |r| apart(*a, *r)))),
         failure: closest(&mut moving().map(|a| apart(failure, a))),
         ground: closest(
-            &mut moving().chain([failure]).flat_map(|a| {
-                below().map(move |b| apart(a, b).max(apart(theme.casing_on(b, a), b)))
-            }),
+            &mut moving()
+                .chain([failure])
+                .flat_map(|a| below().map(move |b| apart(a, b).max(apart(theme.casing_on(b, a), b)))),
         ),
         letters: closest(&mut below().map(|b| apart(theme.letters_on(b, None), b))),
     }
@@ -77,23 +65,14 @@ fn least_of(theme: &Theme, sights: &[Sight]) -> [f64; 5] {
 }
 
 const FULL: &[Sight] = &[Sight::Full];
-const ALL: &[Sight] = &[
-    Sight::Full,
-    Sight::Protanopia,
-    Sight::Deuteranopia,
-    Sight::Tritanopia,
-];
+const ALL: &[Sight] = &[Sight::Full, Sight::Protanopia, Sight::Deuteranopia, Sight::Tritanopia];
 
 /// Checks the numbers in the table at [`Theme`]. A change of a colour may change them.
 #[test]
 fn distances_between_colours_are_those_of_the_documentation() {
     let described = [
         (Theme::thesis(), FULL, [13.1, 24.9, 35.5, 33.1, 38.8]),
-        (
-            Theme::paper(),
-            &[Sight::Grey][..],
-            [14.7, 35.5, 17.0, 36.9, 44.1],
-        ),
+        (Theme::paper(), &[Sight::Grey][..], [14.7, 35.5, 17.0, 36.9, 44.1]),
         (Theme::colourblind(), ALL, [12.1, 17.9, 12.5, 27.0, 35.7]),
         (Theme::dark(), FULL, [23.6, 17.7, 34.7, 30.0, 38.2]),
     ];
@@ -110,25 +89,13 @@ fn distances_between_colours_are_those_of_the_documentation() {
 #[test]
 fn colours_that_can_meet_differ_clearly_in_each_theme() {
     for theme in [Theme::paper(), Theme::colourblind(), Theme::dark()] {
-        assert!(
-            least_of(&theme, FULL).iter().all(|d| *d > 15.0),
-            "{theme:?}"
-        );
+        assert!(least_of(&theme, FULL).iter().all(|d| *d > 15.0), "{theme:?}");
     }
-    for (theme, sights) in [
-        (Theme::paper(), &[Sight::Grey][..]),
-        (Theme::colourblind(), ALL),
-    ] {
-        assert!(
-            least_of(&theme, sights).iter().all(|d| *d > 12.0),
-            "{theme:?}"
-        );
+    for (theme, sights) in [(Theme::paper(), &[Sight::Grey][..]), (Theme::colourblind(), ALL)] {
+        assert!(least_of(&theme, sights).iter().all(|d| *d > 12.0), "{theme:?}");
     }
     // The distances show a bad theme: pure red has the same lightness as one of the greens of the thesis.
-    let printed = Theme {
-        failure: Colour::hex(0xff0000),
-        ..Theme::thesis()
-    };
+    let printed = Theme { failure: Colour::hex(0xff0000), ..Theme::thesis() };
     assert!(least(&printed, Sight::Grey).failure < 0.5);
     assert!(least(&Theme::thesis(), Sight::Grey).failure > 12.0);
     // Two robots next to each other differ too, and the arrows appear black on the page of `paper`.
@@ -136,10 +103,7 @@ fn colours_that_can_meet_differ_clearly_in_each_theme() {
     assert!((lightness(paper.robot(0)) - lightness(paper.robot(1))).abs() > 13.0);
     assert!(paper.arrows.iter().all(|a| lightness(*a) < 35.0));
     let ends = [0, 255].map(|i| lightness(paper.amplitudes[i]));
-    assert!(
-        (ends[0] - 95.0).abs() < 1.0 && (ends[1] - 35.0).abs() < 1.0,
-        "{ends:?}"
-    );
+    assert!((ends[0] - 95.0).abs() < 1.0 && (ends[1] - 35.0).abs() < 1.0, "{ends:?}");
 }
 
 #[test]
@@ -157,13 +121,7 @@ fn larger_amplitudes_are_darker_on_a_light_page_and_lighter_on_a_dark_page() {
         // In a grey print, the mark of unstable blocks differs from the mark of stable blocks.
         let marks = lightness(theme.stands) - lightness(theme.falls);
         assert!(marks.abs() > 10.0, "{name}: {marks}");
-        assert!(
-            theme
-                .arrows
-                .iter()
-                .all(|a| difference(*a, theme.load) > 15.0),
-            "{name}"
-        );
+        assert!(theme.arrows.iter().all(|a| difference(*a, theme.load) > 15.0), "{name}");
     }
 }
 
@@ -174,26 +132,14 @@ fn letters_are_legible_on_every_possible_background() {
         let plain = [theme.page, theme.ground, theme.block];
         let motion = theme.page.mixed(theme.motion, 0.38);
         let below = theme.amplitudes.iter().chain(&plain).chain([&motion]);
-        let of = || {
-            theme
-                .arrows
-                .iter()
-                .chain(&theme.robots)
-                .chain([&theme.failure, &theme.load])
-        };
+        let of = || theme.arrows.iter().chain(&theme.robots).chain([&theme.failure, &theme.load]);
         for below in below.copied().chain(ramp::named("plasma").expect("known")) {
             for of in of().map(|c| Some(*c)).chain([None]) {
                 let reads = contrast(theme.letters_on(below, of), below);
                 assert!(reads >= 4.5, "{name}: {reads} on {}", below.css());
             }
         }
-        for words in [
-            theme.ink,
-            theme.faint,
-            theme.stands,
-            theme.falls,
-            theme.undecided,
-        ] {
+        for words in [theme.ink, theme.faint, theme.stands, theme.falls, theme.undecided] {
             let reads = contrast(words, theme.page);
             assert!(reads >= 4.5, "{name}: {reads} of {}", words.css());
         }
@@ -206,13 +152,7 @@ fn letters_are_legible_on_every_possible_background() {
 fn the_marks_of_verdicts_are_legible_on_every_page() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
-        for mark in [
-            theme.stands,
-            theme.falls,
-            theme.undecided,
-            theme.ink,
-            theme.faint,
-        ] {
+        for mark in [theme.stands, theme.falls, theme.undecided, theme.ink, theme.faint] {
             let contrast = (lightness(mark) - lightness(theme.page)).abs();
             assert!(contrast > 50.0, "{name}: {} {contrast}", mark.css());
         }
@@ -224,29 +164,16 @@ fn every_theme_can_be_written_and_read_again() {
     for name in Theme::NAMES {
         let theme = Theme::named(name).expect(name);
         let text = theme.to_json();
-        assert_eq!(
-            Theme::read(&text, Notation::Json, None),
-            Ok(theme.clone()),
-            "{text}"
-        );
+        assert_eq!(Theme::read(&text, Notation::Json, None), Ok(theme.clone()), "{text}");
         // The file contains every value, so the base theme has no influence.
         for base in Theme::NAMES {
             let base = Theme::named(base);
-            assert_eq!(
-                Theme::read(&text, Notation::Json, base.as_ref()),
-                Ok(theme.clone())
-            );
+            assert_eq!(Theme::read(&text, Notation::Json, base.as_ref()), Ok(theme.clone()));
         }
         assert!(text.len() < 2000, "{text}");
     }
-    let own = Theme {
-        failure: Colour::hex(0x123456),
-        sizes: Sizes {
-            caption: 11.25,
-            ..Sizes::DEFAULT
-        },
-        ..Theme::dark()
-    };
+    let own =
+        Theme { failure: Colour::hex(0x123456), sizes: Sizes { caption: 11.25, ..Sizes::DEFAULT }, ..Theme::dark() };
     let text = own.to_json();
     assert!(!text.contains("theme"), "{text}");
     assert_eq!(Theme::read(&text, Notation::Json, None), Ok(own));
@@ -262,15 +189,8 @@ fn a_style_file_changes_only_the_values_it_contains() {
         failure: Colour::hex(0xdd0000),
         robots: vec![Colour::hex(0xabcdef)],
         amplitudes: ramp::between(&[Colour::BLACK, Colour::WHITE]),
-        widths: Widths {
-            casing: 0.0,
-            force: 0.08,
-            ..Widths::DEFAULT
-        },
-        sizes: Sizes {
-            title: 30.0,
-            ..Sizes::DEFAULT
-        },
+        widths: Widths { casing: 0.0, force: 0.08, ..Widths::DEFAULT },
+        sizes: Sizes { title: 30.0, ..Sizes::DEFAULT },
         ..Theme::paper()
     };
     for (text, notation) in [(json, Notation::Json), (toml, Notation::Toml)] {
@@ -278,10 +198,7 @@ fn a_style_file_changes_only_the_values_it_contains() {
     }
     // A requested theme takes precedence over the theme that the file names.
     let dark = Theme::read(json, Notation::Json, Some(&Theme::dark())).expect("valid");
-    assert_eq!(
-        (dark.page, dark.failure),
-        (Theme::dark().page, expected.failure)
-    );
+    assert_eq!((dark.page, dark.failure), (Theme::dark().page, expected.failure));
     let grey = Theme::read("amplitudes = 'viridis'", Notation::Toml, None).expect("valid");
     assert_eq!(Some(grey.amplitudes), ramp::named("viridis"));
     assert_eq!(Theme::read("{}", Notation::Json, None), Ok(Theme::thesis()));
@@ -335,15 +252,9 @@ fn texts_that_are_not_a_style_are_refused_with_a_reason() {
         ("", Notation::Json, "not JSON"),
         ("ink = 2020-01-01", Notation::Toml, "not a colour"),
         ("[widths]\nforce = nan", Notation::Toml, "cannot be drawn"),
-        (
-            "{ \"sizes\": { \"key\": 1e999 } }",
-            Notation::Json,
-            "not JSON",
-        ),
+        ("{ \"sizes\": { \"key\": 1e999 } }", Notation::Json, "not JSON"),
     ] {
-        let described = Theme::read(text, notation, None)
-            .expect_err(text)
-            .to_string();
+        let described = Theme::read(text, notation, None).expect_err(text).to_string();
         assert!(described.contains(words), "{text}: {described}");
     }
     let deep = "[".repeat(100_000);

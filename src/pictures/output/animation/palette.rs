@@ -35,10 +35,7 @@ impl Palette {
             nearest.map_or(UNCHANGED_INDEX, |(number, _)| number as u8 + 1)
         };
         let numbers = counts.keys().map(|colour| (*colour, number(colour)));
-        Some(Palette {
-            numbers: numbers.collect(),
-            colours,
-        })
+        Some(Palette { numbers: numbers.collect(), colours })
     }
 
     /// Returns the number of indices in the palette, including the index of unchanged pixels.

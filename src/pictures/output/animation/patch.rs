@@ -42,13 +42,8 @@ pub(super) fn patches(
         {
             return Err(PngError::Encode("the pictures differ in size".to_owned()));
         }
-        match (
-            patch(last.as_ref(), &raster, hundredths),
-            patches.last_mut(),
-        ) {
-            (None, Some(before)) => {
-                before.hundredths = before.hundredths.saturating_add(hundredths)
-            }
+        match (patch(last.as_ref(), &raster, hundredths), patches.last_mut()) {
+            (None, Some(before)) => before.hundredths = before.hundredths.saturating_add(hundredths),
             (patch, _) => patches.extend(patch),
         }
         last = Some(raster);
@@ -72,10 +67,7 @@ fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Pa
         });
     };
     let rows = before.rgba.chunks(across).zip(raster.rgba.chunks(across));
-    let changed: Vec<usize> = rows
-        .enumerate()
-        .filter_map(|(y, (old, new))| (old != new).then_some(y))
-        .collect();
+    let changed: Vec<usize> = rows.enumerate().filter_map(|(y, (old, new))| (old != new).then_some(y)).collect();
     let (top, bottom) = (*changed.first()?, *changed.last()?);
     let (mut left, mut right) = (across, 0);
     for y in changed {

@@ -37,11 +37,7 @@ fn a_gif_shows_every_picture_for_its_time() {
     let bytes = gif(&steps, Size::Natural, &Fonts::default()).expect("drawn");
     let pictures = shown(&bytes);
     let delays: Vec<u16> = pictures.iter().map(|(_, delay)| *delay).collect();
-    assert_eq!(
-        delays,
-        [50, 50, 100],
-        "equal consecutive pictures are merged"
-    );
+    assert_eq!(delays, [50, 50, 100], "equal consecutive pictures are merged");
     for ((picture, _), x) in pictures.iter().zip([0, 5, 20]) {
         assert_eq!(picture[15 * 60 + x], [0x20, 0x40, 0x60]);
         assert_eq!(picture[15 * 60 + x + 10], [0xff; 3]);
@@ -68,17 +64,10 @@ fn an_animated_png_begins_with_its_first_picture_and_counts_all() {
 #[test]
 fn animations_that_cannot_be_shown_are_refused_with_a_reason() {
     let fonts = Fonts::default();
-    let refused = |steps: &[Step]| {
-        gif(steps, Size::Natural, &fonts)
-            .expect_err("refused")
-            .to_string()
-    };
+    let refused = |steps: &[Step]| gif(steps, Size::Natural, &fonts).expect_err("refused").to_string();
     assert!(refused(&[]).contains("nothing to show"));
     assert!(refused(&[step(0, 0.0)]).contains("0.01 to 600 seconds"));
-    let clear = Step {
-        svg: "<svg xmlns='http://www.w3.org/2000/svg' width='6' height='4'/>".to_owned(),
-        seconds: 1.0,
-    };
+    let clear = Step { svg: "<svg xmlns='http://www.w3.org/2000/svg' width='6' height='4'/>".to_owned(), seconds: 1.0 };
     assert!(refused(&[clear]).contains("transparent"));
 }
 
@@ -91,13 +80,8 @@ fn many_colours_are_reduced_to_similar_ones() {
             format!("<rect x='{x}' y='{y}' width='1' height='1' fill='rgb({red},{green},90)'/>")
         })
         .collect();
-    let svg =
-        format!("<svg xmlns='http://www.w3.org/2000/svg' width='30' height='30'>{squares}</svg>");
-    let bytes = gif(
-        &[Step { svg, seconds: 1.0 }],
-        Size::Natural,
-        &Fonts::default(),
-    );
+    let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' width='30' height='30'>{squares}</svg>");
+    let bytes = gif(&[Step { svg, seconds: 1.0 }], Size::Natural, &Fonts::default());
     let pictures = shown(&bytes.expect("drawn"));
     for (number, pixel) in pictures[0].0.iter().enumerate() {
         let wanted = [(number % 30 * 8) as u8, (number / 30 * 8) as u8, 90];

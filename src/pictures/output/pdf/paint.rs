@@ -69,10 +69,7 @@ pub(super) fn stroke(of: &usvg::Stroke) -> Option<Stroke> {
             usvg::LineJoin::Bevel => LineJoin::Bevel,
         },
         opacity: share(of.opacity()),
-        dash: of.dasharray().map(|array| StrokeDash {
-            array: array.to_vec(),
-            offset: of.dashoffset(),
-        }),
+        dash: of.dasharray().map(|array| StrokeDash { array: array.to_vec(), offset: of.dashoffset() }),
     })
 }
 

@@ -66,10 +66,7 @@ impl PdfPainter<'_, '_> {
             return;
         }
         for span in text.layouted() {
-            let (fill, stroke) = (
-                span.fill.as_ref().and_then(fill),
-                span.stroke.as_ref().and_then(stroke),
-            );
+            let (fill, stroke) = (span.fill.as_ref().and_then(fill), span.stroke.as_ref().and_then(stroke));
             for run in tree::runs(span) {
                 let Some(font) = self.font(run.face) else {
                     continue;
@@ -107,8 +104,7 @@ impl PdfPainter<'_, '_> {
         }
         let at = Point::from_xy(first.at.0 as f32, first.at.1 as f32);
         let size = run.size as f32;
-        self.surface
-            .draw_glyphs(at, &glyphs, font, &words, size, outlined);
+        self.surface.draw_glyphs(at, &glyphs, font, &words, size, outlined);
     }
 
     fn font(&mut self, face: Face) -> Option<Font> {

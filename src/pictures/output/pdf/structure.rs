@@ -20,9 +20,7 @@ pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     for (role, content) in tags {
         if let Some(Role::Cell { table, row, head }) = role {
             let cell: Node = match head {
-                true => {
-                    TagGroup::with_children(Tag::TH(TableHeaderScope::Column), vec![content]).into()
-                }
+                true => TagGroup::with_children(Tag::TH(TableHeaderScope::Column), vec![content]).into(),
                 false => TagGroup::with_children(Tag::TD, vec![content]).into(),
             };
             if open.as_ref().is_none_or(|o| o.0 != table) {
@@ -52,9 +50,7 @@ pub(super) fn grouped(tags: Tags) -> Vec<Node> {
 }
 
 fn table_of((_, rows): (usize, Vec<(usize, Vec<Node>)>)) -> Node {
-    let rows = rows
-        .into_iter()
-        .map(|(_, cells)| TagGroup::with_children(Tag::TR, cells).into());
+    let rows = rows.into_iter().map(|(_, cells)| TagGroup::with_children(Tag::TR, cells).into());
     TagGroup::with_children(Tag::Table, rows.collect()).into()
 }
 

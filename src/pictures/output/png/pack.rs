@@ -9,28 +9,18 @@ use super::{Compression, PngError};
 const NO_FILTER: u8 = 0;
 
 /// Returns the bytes of a PNG file. `per_metre` is the resolution in pixels per metre that the file records, if any.
-pub(super) fn encode(
-    pixels: Pixmap,
-    per_metre: Option<u32>,
-    compression: Compression,
-) -> Result<Vec<u8>, PngError> {
+pub(super) fn encode(pixels: Pixmap, per_metre: Option<u32>, compression: Compression) -> Result<Vec<u8>, PngError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, pixels.width(), pixels.height());
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
-        xppu: n,
-        yppu: n,
-        unit: png::Unit::Meter,
-    }));
+    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions { xppu: n, yppu: n, unit: png::Unit::Meter }));
     let rows = fewest(pixels, &mut encoder);
     let failed = |e: png::EncodingError| PngError::Encode(e.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
     // Compress all rows at once. If rows were compressed one by one, the compressor would clear its buffers each time
     // and take twice as long.
     let packed = miniz_oxide::deflate::compress_to_vec_zlib(&rows, compression.level());
-    writer
-        .write_chunk(png::chunk::IDAT, &packed)
-        .map_err(failed)?;
+    writer.write_chunk(png::chunk::IDAT, &packed).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
@@ -94,9 +84,7 @@ fn runs(pixels: &Pixmap, table: &mut Table) -> Option<Vec<(u8, usize)>> {
 /// once, because figures have large areas of one colour.
 fn alike(row: &[PremultipliedColorU8], first: PremultipliedColorU8) -> usize {
     let (eights, _) = row.as_chunks::<8>();
-    let same = |eight: &&[PremultipliedColorU8; 8]| {
-        eight.iter().fold(true, |same, p| same & (*p == first))
-    };
+    let same = |eight: &&[PremultipliedColorU8; 8]| eight.iter().fold(true, |same, p| same & (*p == first));
     let whole = 8 * eights.iter().take_while(same).count();
     whole + row[whole..].iter().take_while(|p| **p == first).count()
 }
@@ -115,10 +103,7 @@ struct Table {
 
 impl Default for Table {
     fn default() -> Table {
-        Table {
-            found: Vec::new(),
-            places: [None; TABLE_SIZE],
-        }
+        Table { found: Vec::new(), places: [None; TABLE_SIZE] }
     }
 }
 
@@ -126,8 +111,7 @@ impl Table {
     /// Returns the index of a colour. A colour that is not yet in the table gets the next index. Returns `None` if all
     /// indices are used.
     fn number(&mut self, colour: PremultipliedColorU8) -> Option<u8> {
-        let bits =
-            u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
+        let bits = u32::from_le_bytes([colour.red(), colour.green(), colour.blue(), colour.alpha()]);
         // Multiplicative hashing: the factor is 2³² divided by the golden ratio. The high bits of the product depend on
         // all channels.
         let mut place = (bits.wrapping_mul(0x9e37_79b9) >> 22) as usize;
@@ -144,10 +128,7 @@ impl Table {
     }
 }
 
-fn rows<const N: usize>(
-    pixels: &Pixmap,
-    bytes: impl Fn(PremultipliedColorU8) -> [u8; N],
-) -> Vec<u8> {
+fn rows<const N: usize>(pixels: &Pixmap, bytes: impl Fn(PremultipliedColorU8) -> [u8; N]) -> Vec<u8> {
     let (width, height) = (pixels.width() as usize, pixels.height() as usize);
     let mut rows = vec![NO_FILTER; (1 + N * width) * height];
     let all = pixels.pixels().chunks_exact(width);

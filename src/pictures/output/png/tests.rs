@@ -2,9 +2,7 @@
 //! picture as the full SVG.
 
 use super::*;
-use crate::drawing::{
-    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
-};
+use crate::drawing::{Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text};
 use crate::output::svg;
 
 fn words(words: &str, face: Face) -> String {
@@ -66,20 +64,14 @@ fn compression_does_not_change_the_pixels() {
                 <rect width='600' height='40' fill='url(#r)'";
     // A palette with a translucent colour; many opaque colours; many translucent colours.
     for (inside, colour_type) in [
-        (
-            "<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(),
-            3,
-        ),
+        ("<rect width='9' height='9' fill='#123456' opacity='0.4'/>".to_owned(), 3),
         (format!("{ramp}/>"), 2),
         (format!("{ramp} opacity='0.9'/>"), 6),
     ] {
-        let svg = format!(
-            "<svg xmlns='http://www.w3.org/2000/svg' width='600' height='40'>{inside}</svg>"
-        );
+        let svg = format!("<svg xmlns='http://www.w3.org/2000/svg' width='600' height='40'>{inside}</svg>");
         let drawn = rgba(&svg, Size::Natural).expect("drawn").rgba.concat();
-        let [small, quick] = [Compression::Small, Compression::Quick].map(|compression| {
-            render_in(&svg, Size::Natural, &Fonts::default(), compression).expect("packed")
-        });
+        let [small, quick] = [Compression::Small, Compression::Quick]
+            .map(|compression| render_in(&svg, Size::Natural, &Fonts::default(), compression).expect("packed"));
         assert_eq!(small[25], colour_type, "the PNG's colour type");
         assert!(small.len() <= quick.len());
         for packed in [small, quick] {
@@ -91,10 +83,7 @@ fn compression_does_not_change_the_pixels() {
 #[test]
 fn the_same_text_gives_the_same_bytes() {
     let svg = words("Same", Face::Serif);
-    assert_eq!(
-        render(&svg, Size::Scale(2.5)).expect("one"),
-        render(&svg, Size::Scale(2.5)).expect("two")
-    );
+    assert_eq!(render(&svg, Size::Scale(2.5)).expect("one"), render(&svg, Size::Scale(2.5)).expect("two"));
 }
 
 #[test]
@@ -110,36 +99,18 @@ fn impossible_sizes_and_invalid_text_are_refused_with_a_reason() {
         Size::Width(31_000),
     ] {
         let refused = render(&svg, size).expect_err("out of range");
-        assert!(
-            matches!(refused, PngError::Size { .. })
-                && refused.to_string().contains("at most 100 million")
-        );
+        assert!(matches!(refused, PngError::Size { .. }) && refused.to_string().contains("at most 100 million"));
     }
-    assert!(matches!(
-        render("no svg", Size::Natural),
-        Err(PngError::Svg(_))
-    ));
+    assert!(matches!(render("no svg", Size::Natural), Err(PngError::Svg(_))));
 }
 
 fn shapes() -> Vec<Item> {
     let p = PagePoint::new;
     let ink = Colour::hex(0x2f4f8f);
     let ring = Outline::ring([p(8.126, 9.0), p(61.3, 14.625), p(40.007, 51.44)]);
-    let ground = Outline::ring([
-        p(-900.0, 70.31),
-        p(950.5, 70.31),
-        p(950.5, 400.0),
-        p(-900.0, 400.0),
-    ]);
+    let ground = Outline::ring([p(-900.0, 70.31), p(950.5, 70.31), p(950.5, 400.0), p(-900.0, 400.0)]);
     let slope = Outline::ring([p(-70.0, 60.0), p(210.5, 75.0), p(90.0, 140.0)]);
-    let within = Group {
-        clip: Some(PageRect {
-            at: p(12.3, 20.7),
-            width: 90.4,
-            height: 61.9,
-        }),
-        ..Group::default()
-    };
+    let within = Group { clip: Some(PageRect { at: p(12.3, 20.7), width: 90.4, height: 61.9 }), ..Group::default() };
     let words = |x, y, words: &str, face, size| Text::new(p(x, y), words, face, size, ink);
     vec![
         Path::filled(ring.clone(), Colour::hex(0xcf5f7c)).into(),
@@ -149,57 +120,24 @@ fn shapes() -> Vec<Item> {
             Stroke::new(ink, 0.6).dashed([4.0, 2.5, 1.0]).mitred(),
         )
         .into(),
-        Path::filled(Outline::circle(p(90.0, 30.0), 12.345), Colour::WHITE)
-            .with_stroke(Stroke::new(ink, 2.0))
-            .into(),
-        Path::filled(Outline::circle(p(100.0, 40.0), 20.0), Colour::BLACK)
-            .with_opacity(0.35)
-            .into(),
-        Path::filled(Outline::circle(p(120.0, 20.0), 20.0), ink)
-            .cased(Colour::WHITE, 2.5)
-            .with_opacity(0.625)
-            .into(),
+        Path::filled(Outline::circle(p(90.0, 30.0), 12.345), Colour::WHITE).with_stroke(Stroke::new(ink, 2.0)).into(),
+        Path::filled(Outline::circle(p(100.0, 40.0), 20.0), Colour::BLACK).with_opacity(0.35).into(),
+        Path::filled(Outline::circle(p(120.0, 20.0), 20.0), ink).cased(Colour::WHITE, 2.5).with_opacity(0.625).into(),
         // A path without area and an empty path.
         Path::filled(Outline::line([p(1.0, 1.0), p(9.0, 1.0)]), ink).into(),
         Path::filled(Outline::default(), ink).into(),
         within
             .clone()
-            .with(
-                Path::filled(ground, Colour::hex(0x2f4f4f))
-                    .with_stroke(Stroke::new(Colour::hex(0x808080), 1.7)),
-            )
+            .with(Path::filled(ground, Colour::hex(0x2f4f4f)).with_stroke(Stroke::new(Colour::hex(0x808080), 1.7)))
             .with(Path::filled(slope, Colour::hex(0x808080)).with_opacity(0.5))
-            .with(words(
-                30.0,
-                60.0,
-                "within, and cut off",
-                Face::SansBold,
-                14.0,
-            ))
+            .with(words(30.0, 60.0, "within, and cut off", Face::SansBold, 14.0))
             .into(),
         Group::with_class("labels")
-            .with(
-                words(70.0, 20.0, "Größe 12.5 kN · AVATAR", Face::Sans, 12.5)
-                    .with_halo(Colour::WHITE, 2.0),
-            )
-            .with(
-                words(70.0, 36.25, "Keystone fi", Face::SerifItalic, 13.3).anchored(Anchor::Middle),
-            )
+            .with(words(70.0, 20.0, "Größe 12.5 kN · AVATAR", Face::Sans, 12.5).with_halo(Colour::WHITE, 2.0))
+            .with(words(70.0, 36.25, "Keystone fi", Face::SerifItalic, 13.3).anchored(Anchor::Middle))
             .with(words(150.0, 50.0, "שלום 3 石", Face::Serif, 16.0).anchored(Anchor::End))
-            .with(words(
-                20.0,
-                80.0,
-                "  two  spaces <&> ",
-                Face::SerifBold,
-                9.995,
-            ))
-            .with(words(
-                20.0,
-                90.0,
-                "e\u{301}\u{327}a\u{308}",
-                Face::Sans,
-                11.0,
-            ))
+            .with(words(20.0, 80.0, "  two  spaces <&> ", Face::SerifBold, 9.995))
+            .with(words(20.0, 90.0, "e\u{301}\u{327}a\u{308}", Face::Sans, 11.0))
             .with(words(0.0, 0.0, "", Face::Sans, 9.0))
             .with(words(0.0, 9.0, " ", Face::Sans, 9.0))
             .into(),
@@ -209,13 +147,7 @@ fn shapes() -> Vec<Item> {
 #[test]
 fn an_svg_for_pixels_alone_has_the_pixels_of_the_full_svg() {
     for background in [Some(Colour::WHITE), Some(Colour::hex(0xf4f1ea)), None] {
-        let drawing = Drawing {
-            width: 160.37,
-            height: 98.6,
-            background,
-            items: shapes(),
-            ..Drawing::default()
-        };
+        let drawing = Drawing { width: 160.37, height: 98.6, background, items: shapes(), ..Drawing::default() };
         for size in [Size::Natural, Size::Width(97), Size::Width(400)] {
             let full = rgba(&svg::write(&drawing), size).expect("a valid SVG");
             let bare = rgba(&svg::for_pixels(&drawing), size).expect("a valid SVG");

@@ -29,11 +29,7 @@ pub(super) fn embedded(runs: &[Run], mark: &str) -> Result<String, String> {
             continue;
         }
         let font = cut(face, &of_face).map_err(|why| format!("{face:?}: {why}"))?;
-        let kind = if font.starts_with(b"OTTO") {
-            "otf"
-        } else {
-            "ttf"
-        };
+        let kind = if font.starts_with(b"OTTO") { "otf" } else { "ttf" };
         sheet.push_str(&format!(
             "@font-face{{font-family:'{}';font-weight:{};font-style:{};src:url(data:font/{kind};base64,{})}}\n",
             family(face, mark),
@@ -58,11 +54,7 @@ pub(super) fn family(face: Face, mark: &str) -> String {
 fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let whole = FontRef::new(face.data()).map_err(|e| e.to_string())?;
     let mut characters = BTreeMap::new();
-    for c in runs
-        .iter()
-        .flat_map(|r| &r.glyphs)
-        .flat_map(|g| g.characters.chars())
-    {
+    for c in runs.iter().flat_map(|r| &r.glyphs).flat_map(|g| g.characters.chars()) {
         if let Some(glyph) = face.glyph(c) {
             characters.insert(c, glyph);
         }
@@ -73,12 +65,8 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     let new = |glyph: u16| numbers.get(glyph).unwrap_or_default();
     let small = subsetter::subset(face.data(), 0, &numbers).map_err(|e| e.to_string())?;
     let small = FontRef::new(&small).map_err(|e| e.to_string())?;
-    let table = Cmap::from_mappings(
-        characters
-            .iter()
-            .map(|(c, g)| (*c, GlyphId::new(u32::from(new(*g))))),
-    )
-    .map_err(|e| e.to_string())?;
+    let table = Cmap::from_mappings(characters.iter().map(|(c, g)| (*c, GlyphId::new(u32::from(new(*g))))))
+        .map_err(|e| e.to_string())?;
 
     let mut font = FontBuilder::new();
     font.add_table(&table).map_err(|e| e.to_string())?;
@@ -90,19 +78,12 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
         // Write the table `post` in version 3, which has no glyph names. The old names do not fit the new glyph
         // indices.
-        let mut head = post
-            .as_bytes()
-            .get(..32)
-            .ok_or("the post table is truncated")?
-            .to_vec();
+        let mut head = post.as_bytes().get(..32).ok_or("the post table is truncated")?.to_vec();
         head[..4].copy_from_slice(&[0, 3, 0, 0]);
         font.add_raw(Tag::new(b"post"), head);
     }
     let pairs = kerning(&whole, face, runs)?;
-    let pairs: BTreeMap<(u16, u16), i16> = pairs
-        .into_iter()
-        .map(|((a, b), by)| ((new(a), new(b)), by))
-        .collect();
+    let pairs: BTreeMap<(u16, u16), i16> = pairs.into_iter().map(|((a, b), by)| ((new(a), new(b)), by)).collect();
     if let Some(table) = kern(&pairs) {
         font.add_raw(Tag::new(b"kern"), table);
     }
@@ -112,11 +93,7 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
 
 /// Returns the kerning of each pair of neighbouring glyphs in the text, in font units. Negative kerning moves the
 /// second glyph closer to the first.
-fn kerning(
-    font: &FontRef<'_>,
-    face: Face,
-    runs: &[&Run],
-) -> Result<BTreeMap<(u16, u16), i16>, String> {
+fn kerning(font: &FontRef<'_>, face: Face, runs: &[&Run]) -> Result<BTreeMap<(u16, u16), i16>, String> {
     let units = f64::from(font.head().map_err(|e| e.to_string())?.units_per_em());
     let widths = font.hmtx().map_err(|e| e.to_string())?;
     let mut pairs = BTreeMap::new();
@@ -145,22 +122,10 @@ fn kerning(
 /// Returns the bytes of a font's `kern` table: version 0, with one horizontal subtable of format 0. Returns `None` if
 /// there are no pairs or more than 10 000 pairs.
 fn kern(pairs: &BTreeMap<(u16, u16), i16>) -> Option<Vec<u8>> {
-    let count = u16::try_from(pairs.len())
-        .ok()
-        .filter(|n| (1..=10_000).contains(n))?;
+    let count = u16::try_from(pairs.len()).ok().filter(|n| (1..=10_000).contains(n))?;
     let log = count.ilog2() as u16;
     let range = 6 << log;
-    let header = [
-        0,
-        1,
-        0,
-        14 + 6 * count,
-        1,
-        count,
-        range,
-        log,
-        6 * count - range,
-    ];
+    let header = [0, 1, 0, 14 + 6 * count, 1, count, range, log, 6 * count - range];
     let mut table: Vec<u8> = header.iter().flat_map(|n: &u16| n.to_be_bytes()).collect();
     for ((left, right), by) in pairs {
         table.extend(left.to_be_bytes());

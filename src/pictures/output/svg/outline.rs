@@ -7,10 +7,7 @@ use crate::drawing::{Outline, PagePoint, Segment};
 /// # Panics
 /// Panics if the number is not finite.
 pub(super) fn number(value: f64) -> String {
-    assert!(
-        value.is_finite(),
-        "a drawing holds the number {value}; every number of a drawing is finite"
-    );
+    assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
     let mut text = format!("{value:.2}");
     let kept = text.trim_end_matches('0').trim_end_matches('.').len();
     text.truncate(kept);
@@ -19,10 +16,7 @@ pub(super) fn number(value: f64) -> String {
 
 /// Appends the SVG path data of an outline to `data`.
 pub(super) fn steps(data: &mut String, outline: &Outline) {
-    let mut pen = Steps {
-        data: std::mem::take(data),
-        ..Steps::default()
-    };
+    let mut pen = Steps { data: std::mem::take(data), ..Steps::default() };
     for segment in &outline.segments {
         match *segment {
             Segment::Move(p) => pen.begin(p),
@@ -118,10 +112,7 @@ impl Steps {
 /// Rounds the coordinates of a point (pixels) to whole hundredths of a pixel.
 fn hundredths(point: PagePoint) -> (i64, i64) {
     let whole = |value: f64| {
-        assert!(
-            value.is_finite(),
-            "a drawing holds the number {value}; every number of a drawing is finite"
-        );
+        assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
         // `as` saturates, but only for points far outside any page.
         (value * 100.0).round() as i64
     };
@@ -131,10 +122,7 @@ fn hundredths(point: PagePoint) -> (i64, i64) {
 /// Appends a number of hundredths to `data` as a decimal number without trailing zeros. This function is faster than
 /// `format!`; a drawing has thousands of numbers.
 fn put(data: &mut String, hundredths: i64) {
-    let (whole, part) = (
-        hundredths.unsigned_abs() / 100,
-        hundredths.unsigned_abs() % 100,
-    );
+    let (whole, part) = (hundredths.unsigned_abs() / 100, hundredths.unsigned_abs() % 100);
     if hundredths < 0 {
         data.push('-');
     }
@@ -182,14 +170,8 @@ mod tests {
         for (value, expected) in cases {
             assert_eq!(number(value), expected);
         }
-        for (hundredths, expected) in [
-            (0, "0"),
-            (-5, "-.05"),
-            (70, ".7"),
-            (-1230, "-12.3"),
-            (4, ".04"),
-            (101, "1.01"),
-        ] {
+        for (hundredths, expected) in [(0, "0"), (-5, "-.05"), (70, ".7"), (-1230, "-12.3"), (4, ".04"), (101, "1.01")]
+        {
             let mut text = String::new();
             put(&mut text, hundredths);
             assert_eq!(text, expected);
@@ -220,11 +202,7 @@ mod tests {
     fn rounding_errors_do_not_add_up() {
         let outline = Outline::line((0..=3000).map(|i| PagePoint::new(f64::from(i) / 3.0, 0.5)));
         let data = written(&outline);
-        let sum: f64 = data
-            .trim_start_matches("M0 .5h")
-            .split(' ')
-            .map(|n| n.parse::<f64>().expect("a number"))
-            .sum();
+        let sum: f64 = data.trim_start_matches("M0 .5h").split(' ').map(|n| n.parse::<f64>().expect("a number")).sum();
         assert!((sum - 1000.0).abs() < 1e-6, "{sum}");
     }
 }

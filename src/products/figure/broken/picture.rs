@@ -3,9 +3,7 @@
 use super::super::option::Options;
 use crate::drawing::hatch::{hatch, lines};
 use crate::drawing::text::width;
-use crate::drawing::{
-    Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text,
-};
+use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text};
 use crate::geometry::{Bounds, Point};
 use crate::scene::{BodyId, Code, Sketch, SketchedBody};
 
@@ -58,11 +56,7 @@ pub(super) fn structure(
             BodyId::Ground(_) => theme.ground,
             BodyId::Block(_) => theme.block,
         };
-        let stroke = if wrong(body.id) {
-            Stroke::new(theme.failure, 2.0)
-        } else {
-            Stroke::new(theme.outline, 1.2)
-        };
+        let stroke = if wrong(body.id) { Stroke::new(theme.failure, 2.0) } else { Stroke::new(theme.outline, 1.2) };
         let shape = Group::with_class("body")
             .titled(body.name.clone())
             .with(Path::filled(outline.clone(), fill).with_opacity(0.75))
@@ -70,18 +64,13 @@ pub(super) fn structure(
         group = group.with(shape);
     }
     for mark in marks.iter().filter(|m| m.code == Some(Code::Overlap)) {
-        let pair: Vec<&SketchedBody> = (mark.bodies.iter())
-            .filter_map(|id| sketch.body(*id))
-            .collect();
+        let pair: Vec<&SketchedBody> = (mark.bodies.iter()).filter_map(|id| sketch.body(*id)).collect();
         if let [a, b] = pair[..] {
             let rings = |body: &SketchedBody| -> Vec<Vec<PagePoint>> {
                 let ring = |ring: &Vec<Point>| ring.iter().map(|p| camera.place(*p)).collect();
                 body.rings.iter().map(ring).collect()
             };
-            let common = shared(
-                &hatch(&rings(a), rect, HATCH_SPACING),
-                &hatch(&rings(b), rect, HATCH_SPACING),
-            );
+            let common = shared(&hatch(&rings(a), rect, HATCH_SPACING), &hatch(&rings(b), rect, HATCH_SPACING));
             let stroke = Stroke::new(theme.failure, 1.4);
             group = group.with(Path::stroked(lines(&common), stroke));
         }
@@ -105,12 +94,7 @@ fn drawn(body: &SketchedBody, camera: &Camera) -> Outline {
 
 /// Draws the name of a block at the centre of its bounding box, or below the centre if a mark covers it. Returns `None`
 /// if there is no space for the name.
-fn name(
-    body: &SketchedBody,
-    marks: &[NumberedMark],
-    camera: &Camera,
-    options: &Options,
-) -> Option<Text> {
+fn name(body: &SketchedBody, marks: &[NumberedMark], camera: &Camera, options: &Options) -> Option<Text> {
     let theme = &options.theme;
     let bounds = Bounds::from_points(body.rings.iter().flatten().copied())?;
     let (size, rect) = (theme.sizes.name, camera.rect(bounds));
@@ -158,11 +142,7 @@ pub(super) fn numbers(marks: &[NumberedMark], camera: &Camera, options: &Options
     let mut taken: Vec<PagePoint> = Vec::new();
     for mark in marks {
         let place = camera.place(mark.at);
-        let colour = if mark.code.is_some() {
-            theme.failure
-        } else {
-            theme.ink
-        };
+        let colour = if mark.code.is_some() { theme.failure } else { theme.ink };
         let stroke = Stroke::new(colour, 1.6);
         let symbol = match mark.code {
             Some(Code::CrossingOutline) => {
@@ -193,25 +173,14 @@ fn cross_arm(at: PagePoint, x: f64, y: f64) -> Outline {
 /// Returns a position next to `place`, at which a disc covers neither `place` nor a disc with its centre in `taken`.
 /// Returns `place` if there is no such position nearby.
 fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
-    const DIRECTIONS: [(f64, f64); 8] = [
-        (0.7, -0.7),
-        (-0.7, -0.7),
-        (0.7, 0.7),
-        (-0.7, 0.7),
-        (0.0, -1.0),
-        (1.0, 0.0),
-        (0.0, 1.0),
-        (-1.0, 0.0),
-    ];
+    const DIRECTIONS: [(f64, f64); 8] =
+        [(0.7, -0.7), (-0.7, -0.7), (0.7, 0.7), (-0.7, 0.7), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
     let clear = |at: &PagePoint| {
         let distance = |other: &PagePoint| libm::hypot(at.x - other.x, at.y - other.y);
-        taken
-            .iter()
-            .all(|other| distance(other) > 2.2 * DISC_RADIUS)
+        taken.iter().all(|other| distance(other) > 2.2 * DISC_RADIUS)
     };
     let far = |turn: usize| 2.2 * DISC_RADIUS * (1 + turn) as f64;
-    let places =
-        (0..20).flat_map(|turn| DIRECTIONS.map(|(x, y)| place.moved(far(turn) * x, far(turn) * y)));
+    let places = (0..20).flat_map(|turn| DIRECTIONS.map(|(x, y)| place.moved(far(turn) * x, far(turn) * y)));
     let mut places = places.filter(clear);
     places.next().unwrap_or(place)
 }
@@ -220,17 +189,8 @@ fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
 pub(super) fn disc(number: usize, at: PagePoint, options: &Options) -> Group {
     let theme = &options.theme;
     let size = 1.2 * DISC_RADIUS;
-    let words = Text::new(
-        at.moved(0.0, 0.36 * size),
-        number.to_string(),
-        Face::SansBold,
-        size,
-        theme.ink,
-    );
+    let words = Text::new(at.moved(0.0, 0.36 * size), number.to_string(), Face::SansBold, size, theme.ink);
     Group::with_class("number")
-        .with(
-            Path::filled(Outline::circle(at, DISC_RADIUS), theme.page)
-                .with_stroke(Stroke::new(theme.ink, 1.2)),
-        )
+        .with(Path::filled(Outline::circle(at, DISC_RADIUS), theme.page).with_stroke(Stroke::new(theme.ink, 1.2)))
         .with(words.anchored(Anchor::Middle))
 }

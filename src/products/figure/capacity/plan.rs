@@ -83,10 +83,7 @@ impl SmallPicture {
 
     /// Returns the bounding box of the small picture in the figure, in metres.
     pub fn bounds(&self) -> Bounds {
-        Bounds {
-            min: self.corner,
-            max: self.place(self.view.max),
-        }
+        Bounds { min: self.corner, max: self.place(self.view.max) }
     }
 }
 
@@ -95,10 +92,7 @@ impl SmallPicture {
     fn bounds_with_number(&self) -> Bounds {
         let own = self.bounds();
         let number = NUMBER_SHARE * own.diagonal();
-        Bounds {
-            min: own.min - Vector::new(number, 0.0),
-            ..own
-        }
+        Bounds { min: own.min - Vector::new(number, 0.0), ..own }
     }
 }
 
@@ -125,10 +119,7 @@ impl<'a> Plan<'a> {
             let own = bounds_of(&ring);
             let right = right(analysis, structure, unit) + GAP_SHARE * size;
             let height = 0.5 * (own.min.y + own.max.y) * scale;
-            (
-                scale,
-                Point::new(right - own.min.x * scale, point.y - height),
-            )
+            (scale, Point::new(right - own.min.x * scale, point.y - height))
         } else {
             (MAX_POLYGON_SHARE * size / farthest, point)
         };
@@ -179,15 +170,11 @@ impl<'a> Plan<'a> {
         let size = structure.width().max(structure.height());
         let is_wide = whole.width() > WIDE_RATIO * whole.height();
         let (share, columns) = match (is_wide, numbers.len()) {
-            (true, n) => (
-                SMALL_PICTURE_SCALES.1 * (whole.width() / source.width()).min(1.4),
-                n,
-            ),
+            (true, n) => (SMALL_PICTURE_SCALES.1 * (whole.width() / source.width()).min(1.4), n),
             (false, 1) => (SMALL_PICTURE_SCALES.0, 1),
             (false, n) => (SMALL_PICTURE_SCALES.0, n.div_ceil(2)),
         };
-        let step = Vector::new(source.width(), source.height()) * share
-            + Vector::new(COLUMN_GAP * size, 0.12 * size);
+        let step = Vector::new(source.width(), source.height()) * share + Vector::new(COLUMN_GAP * size, 0.12 * size);
         let rows = numbers.len().div_ceil(columns.max(1));
         let begin = if is_wide {
             let used = columns as f64 * step.x - COLUMN_GAP * size;
@@ -204,11 +191,7 @@ impl<'a> Plan<'a> {
             mechanism: analysis.edge_mechanism(frame, self.capacity, *edge),
             outward: self.capacity.edges[*edge].normal,
             view: source,
-            corner: begin
-                + Vector::new(
-                    (k % columns) as f64 * step.x,
-                    -((k / columns) as f64) * step.y,
-                ),
+            corner: begin + Vector::new((k % columns) as f64 * step.x, -((k / columns) as f64) * step.y),
             scale: share,
         };
         numbers.iter().enumerate().map(small).collect()
@@ -227,15 +210,12 @@ pub(super) fn falling(analysis: &Analysis, frame: usize, mechanism: &[Motion]) -
 fn structure(analysis: &Analysis) -> Option<Bounds> {
     let scene = &analysis.scene;
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
-    placed
-        .map(|id| scene.blocks[id.0].body.polygon.bounds())
-        .reduce(Bounds::union)
+    placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)
 }
 
 /// Returns the largest x coordinate of the structure and the shown ground, in metres.
 fn right(analysis: &Analysis, structure: Bounds, unit: f64) -> f64 {
-    view::ground_shown(&analysis.scene, unit)
-        .map_or(structure.max.x, |g| structure.max.x.max(g.max.x))
+    view::ground_shown(&analysis.scene, unit).map_or(structure.max.x, |g| structure.max.x.max(g.max.x))
 }
 
 /// Returns the part of the scene that a small picture shows: the blocks of the frame, with space for some ground and
@@ -243,10 +223,7 @@ fn right(analysis: &Analysis, structure: Bounds, unit: f64) -> f64 {
 fn source(analysis: &Analysis, frame: usize, structure: Bounds, unit: f64) -> Bounds {
     let scene = &analysis.scene;
     let placed = scene.frames[frame].placed.iter();
-    let own = placed
-        .map(|id| scene.blocks[id.0].body.polygon.bounds())
-        .reduce(Bounds::union)
-        .unwrap_or(structure);
+    let own = placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union).unwrap_or(structure);
     own.grown((0.09 * own.diagonal()).max(0.4 * unit))
 }
 
@@ -257,10 +234,7 @@ fn middle(points: &[Point]) -> Point {
 
 fn bounds_of(ring: &[Vector]) -> Bounds {
     let all = Bounds::from_points(ring.iter().map(|f| Point::from(*f)));
-    all.unwrap_or(Bounds {
-        min: Point::origin(),
-        max: Point::origin(),
-    })
+    all.unwrap_or(Bounds { min: Point::origin(), max: Point::origin() })
 }
 
 /// Returns every frame for which the carried forces were computed, together with these forces. The scale of the
@@ -342,12 +316,7 @@ fn edges_with_pictures(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usiz
 
 /// Returns the edges of the polygon as they are drawn. An unbounded edge ends at the circle at which forces are cut
 /// off.
-fn sides(
-    capacity: &LoadCapacity,
-    cut: f64,
-    numbers: &[usize],
-    place: &dyn Fn(&Vector) -> Point,
-) -> Vec<DrawnEdge> {
+fn sides(capacity: &LoadCapacity, cut: f64, numbers: &[usize], place: &dyn Fn(&Vector) -> Point) -> Vec<DrawnEdge> {
     let force = |vertex: Option<usize>| vertex.map(|k| capacity.vertices[k].force);
     let mut sides = Vec::new();
     for (k, edge) in capacity.edges.iter().enumerate() {

@@ -23,15 +23,9 @@ impl<'a> Clearance<'a> {
         let blocks = blocks.map(|id| (Some(*id), &scene.blocks[id.0].body.polygon));
         let ground = scene.ground.iter().map(|g| (None, &g.body.polygon));
         // Ignore blocks with schematic outlines: these outlines may already overlap at rest.
-        let is_drawn =
-            |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
+        let is_drawn = |id: Option<BlockId>| id.is_none_or(|id| !scene.blocks[id.0].body.is_schematic);
         let is_listed = scene.lists_contacts();
-        Clearance {
-            bodies: blocks
-                .chain(ground)
-                .filter(|body| !is_listed && is_drawn(body.0))
-                .collect(),
-        }
+        Clearance { bodies: blocks.chain(ground).filter(|body| !is_listed && is_drawn(body.0)).collect() }
     }
 
     /// Returns the pairs of bodies that overlap by more than [`MAX_OVERLAP`] after the displacement. `displaced` is
@@ -51,10 +45,7 @@ impl<'a> Clearance<'a> {
             let near = near.take_while(|other| other.2.min.x <= bounds.max.x);
             for (b, other, others) in near {
                 // Two bodies that move together, or that are both at rest, cannot begin to overlap.
-                if motion(*a) != motion(*b)
-                    && bounds.intersects(*others)
-                    && overlap_share(one, other) > MAX_OVERLAP
-                {
+                if motion(*a) != motion(*b) && bounds.intersects(*others) && overlap_share(one, other) > MAX_OVERLAP {
                     pairs.push([*a, *b]);
                 }
             }

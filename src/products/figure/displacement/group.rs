@@ -12,11 +12,7 @@ const REST_TOL: f64 = 1e-3;
 
 /// Groups the motions of the moving blocks into rigid bodies. Two blocks in contact belong to the same rigid body if
 /// the contact between them is not in `joints`. The rigid bodies are in the order of their first blocks in the scene.
-pub(crate) fn rigid_bodies(
-    analysis: &Analysis,
-    frame: usize,
-    joints: &[Joint],
-) -> Vec<Vec<Motion>> {
+pub(crate) fn rigid_bodies(analysis: &Analysis, frame: usize, joints: &[Joint]) -> Vec<Vec<Motion>> {
     let mut separated = vec![false; analysis.frames[frame].contacts.len()];
     for joint in joints {
         separated[joint.contact] = true;
@@ -26,18 +22,11 @@ pub(crate) fn rigid_bodies(
 
 /// Groups the motions of the moving blocks into connected components. Two blocks are connected if `joins` returns true
 /// for the index of a contact between them. The groups are in the order of their first blocks in the scene.
-pub(crate) fn connected_groups(
-    analysis: &Analysis,
-    frame: usize,
-    joins: impl Fn(usize) -> bool,
-) -> Vec<Vec<Motion>> {
-    let motions: BTreeMap<BlockId, Motion> =
-        moving(analysis, frame).map(|m| (m.block, *m)).collect();
+pub(crate) fn connected_groups(analysis: &Analysis, frame: usize, joins: impl Fn(usize) -> bool) -> Vec<Vec<Motion>> {
+    let motions: BTreeMap<BlockId, Motion> = moving(analysis, frame).map(|m| (m.block, *m)).collect();
     let mut neighbours: BTreeMap<BlockId, Vec<BlockId>> = BTreeMap::new();
     for (number, contact) in analysis.frames[frame].contacts.iter().enumerate() {
-        if let ([BodyId::Block(a), BodyId::Block(b)], true) =
-            (contact.interface.bodies, joins(number))
-        {
+        if let ([BodyId::Block(a), BodyId::Block(b)], true) = (contact.interface.bodies, joins(number)) {
             neighbours.entry(a).or_default().push(b);
             neighbours.entry(b).or_default().push(a);
         }
@@ -68,7 +57,5 @@ pub(crate) fn moving(analysis: &Analysis, frame: usize) -> impl Iterator<Item = 
     let (scene, motions) = (&analysis.scene, &analysis.frames[frame].mechanism);
     let speed = |m: &Motion| m.fastest(scene);
     let fastest = motions.iter().map(speed).fold(0.0, f64::max);
-    motions
-        .iter()
-        .filter(move |m| m.fastest(scene) > REST_TOL * fastest)
+    motions.iter().filter(move |m| m.fastest(scene) > REST_TOL * fastest)
 }

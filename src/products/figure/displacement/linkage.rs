@@ -78,13 +78,8 @@ impl Linkage {
     /// at which the two bodies stay in contact. `joints` are all joints of the frame.
     pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
         let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
-        let within = |body: &Vec<Motion>| {
-            body.iter()
-                .any(|m| group.iter().any(|g| g.block == m.block))
-        };
-        let bodies = rigid_bodies(analysis, frame, joints)
-            .into_iter()
-            .filter(within);
+        let within = |body: &Vec<Motion>| body.iter().any(|m| group.iter().any(|g| g.block == m.block));
+        let bodies = rigid_bodies(analysis, frame, joints).into_iter().filter(within);
         let members: Vec<Member> = bodies.map(|body| member(scene, &body)).collect();
         let mut number_of: BTreeMap<BlockId, usize> = BTreeMap::new();
         for (number, member) in members.iter().enumerate() {
@@ -100,24 +95,11 @@ impl Linkage {
             if bodies[0] == bodies[1] {
                 continue;
             }
-            links.extend(
-                conditions(scene, interface.bodies, interface.normal, joint)
-                    .into_iter()
-                    .map(|(turned, condition)| Link {
-                        bodies: if turned {
-                            [bodies[1], bodies[0]]
-                        } else {
-                            bodies
-                        },
-                        condition,
-                    }),
-            );
+            links.extend(conditions(scene, interface.bodies, interface.normal, joint).into_iter().map(
+                |(turned, condition)| Link { bodies: if turned { [bodies[1], bodies[0]] } else { bodies }, condition },
+            ));
         }
-        Linkage {
-            members,
-            links,
-            length: frame_analysis.length.max(f64::MIN_POSITIVE),
-        }
+        Linkage { members, links, length: frame_analysis.length.max(f64::MIN_POSITIVE) }
     }
 
     /// Returns the number of blocks in the linkage.
@@ -127,9 +109,7 @@ impl Linkage {
 
     /// Returns the blocks of the linkage.
     pub fn blocks(&self) -> impl Iterator<Item = BlockId> {
-        self.members
-            .iter()
-            .flat_map(|member| member.blocks.iter().copied())
+        self.members.iter().flat_map(|member| member.blocks.iter().copied())
     }
 
     /// Returns the displacement of each block. `amplitude` is the displacement, in metres, of a point of speed 1. All
@@ -165,9 +145,7 @@ impl Linkage {
             if gaps.amax() <= CLOSURE_TOL * self.length {
                 let far = |(pose, start): (&Pose, &Pose)| (pose.way - start.way).norm();
                 let correction = poses.iter().zip(start).map(far).fold(0.0, f64::max);
-                let way = start
-                    .iter()
-                    .map(|p| p.way.norm() + p.angle.abs() * self.length);
+                let way = start.iter().map(|p| p.way.norm() + p.angle.abs() * self.length);
                 let way = way.fold(0.0, f64::max);
                 return (correction <= MAX_CORRECTION * way).then_some(poses);
             }
@@ -258,9 +236,7 @@ impl Linkage {
 
     /// Returns the displaced position of a point of a body, metres. `body` is `None` for a body at rest.
     fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
-        body.map_or(point, |body| {
-            self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point)
-        })
+        body.map_or(point, |body| self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point))
     }
 }
 
@@ -296,12 +272,7 @@ fn member(scene: &Scene, body: &[Motion]) -> Member {
 /// Returns the conditions that keep a joint closed. The flag of a condition is true if its two bodies have to be
 /// exchanged: the line of [`Condition::OnLine`] then belongs to the first body of the contact. A joint whose bodies
 /// separate, or that opens while it slides, has no conditions.
-fn conditions(
-    scene: &Scene,
-    bodies: [BodyId; 2],
-    normal: Vector,
-    joint: &Joint,
-) -> Vec<(bool, Condition)> {
+fn conditions(scene: &Scene, bodies: [BodyId; 2], normal: Vector, joint: &Joint) -> Vec<(bool, Condition)> {
     if let Some(at) = joint.hinge {
         return vec![(false, Condition::Hinge(at))];
     }
@@ -310,10 +281,7 @@ fn conditions(
     }
     match joint.touch {
         // The bodies slide along their whole interface, so they stay parallel.
-        None => vec![
-            (false, Condition::Parallel),
-            (false, Condition::OnLine(joint.at, normal)),
-        ],
+        None => vec![(false, Condition::Parallel), (false, Condition::OnLine(joint.at, normal))],
         // A corner of one body slides along an edge of the other body.
         Some(at) => {
             let is_corner = |body: BodyId| {

@@ -24,29 +24,14 @@ impl Displacement {
         // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad, the first
         // terms of the Taylor series are used, with a relative error below 2e-13. They also hold for a pure
         // translation.
-        let (along, aside) = if angle.abs() < 1e-6 {
-            (1.0, 0.5 * angle)
-        } else {
-            (sin / angle, (1.0 - cos) / angle)
-        };
-        let translation =
-            (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
-        Displacement {
-            centre: centroid,
-            sin,
-            cos,
-            translation,
-        }
+        let (along, aside) = if angle.abs() < 1e-6 { (1.0, 0.5 * angle) } else { (sin / angle, (1.0 - cos) / angle) };
+        let translation = (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
+        Displacement { centre: centroid, sin, cos, translation }
     }
 
     /// Creates a rotation by an angle in radians about a point, followed by a translation in metres.
     pub fn from_pose(centre: Point, angle: f64, translation: Vector) -> Displacement {
-        Displacement {
-            centre,
-            sin: libm::sin(angle),
-            cos: libm::cos(angle),
-            translation,
-        }
+        Displacement { centre, sin: libm::sin(angle), cos: libm::cos(angle), translation }
     }
 
     /// Returns the translation that follows the rotation, metres.

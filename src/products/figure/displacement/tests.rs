@@ -93,16 +93,8 @@ fn a_rotation_keeps_its_centre_and_all_distances_and_can_be_inverted() {
     let corner = Point::new(4.0, 1.0);
     for spin in [0.8, -1e-9, 0.0] {
         // The block rotates about the corner: the velocity of the centroid is spin × arm.
-        let velocity = if spin == 0.0 {
-            Vector::new(1.0, -0.5)
-        } else {
-            quarter_turn(centroid - corner) * spin
-        };
-        let motion = Motion {
-            block: BlockId(0),
-            velocity,
-            spin,
-        };
+        let velocity = if spin == 0.0 { Vector::new(1.0, -0.5) } else { quarter_turn(centroid - corner) * spin };
+        let motion = Motion { block: BlockId(0), velocity, spin };
         let moved = Displacement::new(&motion, centroid, 0.6);
         if spin != 0.0 {
             assert!((moved.moved(corner) - corner).norm() < 1e-12);
@@ -128,11 +120,7 @@ fn a_small_block_far_from_a_large_block_does_not_rotate_too_far() {
     };
     // Only the left third of each block rests on ground, so the block tips.
     let ground = |x: f64, size: f64| {
-        format!(
-            r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#,
-            x + size / 3.0,
-            x + size / 3.0
-        )
+        format!(r#"{{ "polygon": [[{x},-1],[{},-1],[{},0],[{x},0]] }}"#, x + size / 3.0, x + size / 3.0)
     };
     let text = format!(
         r#"{{ "drystone": 1, "ground": [{}, {}], "blocks": [{}, {}] }}"#,

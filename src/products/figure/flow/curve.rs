@@ -28,10 +28,7 @@ pub(super) fn moved_inside(polygon: &Polygon, axis: &mut [Point], widths: &[f64]
 /// Returns a Bézier curve from `a` to `b`, as a list of points. `along_a` and `along_b` are its directions at these
 /// points; a direction that points away from the other end is ignored. Of a few curves, the most curved one that does
 /// not leave `polygon` is chosen. If all leave it, the curve is straight.
-pub(super) fn curve(
-    polygon: &Polygon,
-    [(a, along_a), (b, along_b)]: [(Point, Vector); 2],
-) -> Vec<Point> {
+pub(super) fn curve(polygon: &Polygon, [(a, along_a), (b, along_b)]: [(Point, Vector); 2]) -> Vec<Point> {
     let chord = b - a;
     let drawn = |share: f64| -> Vec<Point> {
         let handle = |along: Vector| share * chord.dot(&along).max(0.0);
@@ -50,11 +47,7 @@ pub(super) fn curve(
     // The ends may lie a little outside the block, because bands that share a joint lie next to each other.
     let most = polygon.distance(a).max(polygon.distance(b)) + INSIDE_TOL * polygon.area().sqrt();
     let stays = |points: &Vec<Point>| points.iter().all(|p| polygon.distance(*p) <= most);
-    HANDLE_SHARES
-        .into_iter()
-        .map(drawn)
-        .find(stays)
-        .unwrap_or_else(|| drawn(0.0))
+    HANDLE_SHARES.into_iter().map(drawn).find(stays).unwrap_or_else(|| drawn(0.0))
 }
 
 #[cfg(test)]
@@ -72,10 +65,7 @@ mod tests {
         let block = square();
         // Between two points near the upper edge, with directions that both lead up and out of the block.
         let up = Vector::new(0.3, 1.0).normalize();
-        let ends = [
-            (Point::new(0.0, 1.9), up),
-            (Point::new(2.0, 1.95), Vector::new(1.0, -1.0).normalize()),
-        ];
+        let ends = [(Point::new(0.0, 1.9), up), (Point::new(2.0, 1.95), Vector::new(1.0, -1.0).normalize())];
         let axis = curve(&block, ends);
         assert!(axis.iter().all(|p| block.distance(*p) <= 1e-5), "{axis:?}");
         // With enough space, the curve begins in the direction of the force.

@@ -7,8 +7,7 @@ use super::super::option::ArrowScale;
 use super::super::words::{quantity, round_below_in};
 use super::strand::{Strand, StrandKind, strands};
 use super::{
-    MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_symbol, largest,
-    missing_symbol, widest,
+    MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_symbol, largest, missing_symbol, widest,
 };
 use crate::analysis::Verdict;
 
@@ -53,9 +52,8 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
 fn has_lengthened(marks: &Marks) -> bool {
     let missing = marks.arrows.iter().filter(|a| a.kind.is_failure());
     let scales = missing.map(|a| a.vector.norm() / a.force.norm());
-    let (least, most) = scales.fold((f64::INFINITY, 0.0), |(least, most), scale| {
-        (f64::min(least, scale), f64::max(most, scale))
-    });
+    let (least, most) =
+        scales.fold((f64::INFINITY, 0.0), |(least, most), scale| (f64::min(least, scale), f64::max(most, scale)));
     most > 1.01 * least
 }
 
@@ -80,16 +78,10 @@ fn bands(context: &FigureContext<'_>, unit: f64, all: &[(Verdict, Strand)]) -> V
             true if context.options.is_column() => {
                 format!("; one width under {}", quantity(thin, newtons))
             }
-            true => format!(
-                "; all forces under {} have the same width",
-                quantity(thin, newtons)
-            ),
+            true => format!("; all forces under {} have the same width", quantity(thin, newtons)),
             false => String::new(),
         };
-        let words = format!(
-            "{what}; this width shows {}{least}",
-            quantity(amount, newtons)
-        );
+        let words = format!("{what}; this width shows {}{least}", quantity(amount, newtons));
         entries.push(Entry::Line(carried(theme, verdict), width, words));
     }
     if let Some(verdict) = any(StrandKind::Weight) {

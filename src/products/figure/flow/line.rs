@@ -44,17 +44,8 @@ pub(super) fn path(
         return None;
     }
     let size = polygon.area().sqrt();
-    let search = Search {
-        polygon,
-        miss: LENGTH_TOL * size,
-        second,
-        loads,
-    };
-    let start = TruePath {
-        corners: vec![first.at],
-        amounts: Vec::new(),
-        joins: Vec::new(),
-    };
+    let search = Search { polygon, miss: LENGTH_TOL * size, second, loads };
+    let start = TruePath { corners: vec![first.at], amounts: Vec::new(), joins: Vec::new() };
     search.onward(start, first.force)
 }
 

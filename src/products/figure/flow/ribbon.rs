@@ -32,10 +32,7 @@ fn aside(axis: &[Point], i: usize) -> Vector {
     let across = |along: Vector| quarter_turn(along / along.norm());
     let before = axis[..i].iter().rev().find(apart);
     let behind = axis[i..].iter().find(apart);
-    match (
-        before.map(|p| across(axis[i] - p)),
-        behind.map(|p| across(p - axis[i])),
-    ) {
+    match (before.map(|p| across(axis[i] - p)), behind.map(|p| across(p - axis[i]))) {
         (Some(before), Some(behind)) => {
             let sum = before + behind;
             let half = 0.5 * sum.norm();

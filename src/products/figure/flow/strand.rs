@@ -122,11 +122,7 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
         let (at, force) = (contact.resultant.at, contact.resultant.force);
         if bearing.is_some() {
             for body in contact.interface.bodies {
-                let sign = if body == contact.resultant.on {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let sign = if body == contact.resultant.on { 1.0 } else { -1.0 };
                 act(body, Origin::Contact(number), at, force * sign);
             }
         }
@@ -150,8 +146,7 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
     }
     let applied = scene.applied_forces();
     let (weights, loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
-        (frame.placed.iter().flat_map(|id| &applied[id.0]))
-            .partition(|applied| applied.cause == ForceCause::Weight);
+        (frame.placed.iter().flat_map(|id| &applied[id.0])).partition(|applied| applied.cause == ForceCause::Weight);
     for applied in loads.into_iter().chain(weights) {
         let origin = match applied.cause {
             ForceCause::Weight => Origin::Weight,
@@ -199,12 +194,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
         return None;
     }
     let polygon = &scene.blocks[on.0].body.polygon;
-    let path = line::path(
-        polygon,
-        line_of_action(first),
-        line_of_action(second),
-        &loads,
-    )?;
+    let path = line::path(polygon, line_of_action(first), line_of_action(second), &loads)?;
     let given: Vec<&ForceOnBlock> = forces.iter().filter(given).collect();
     let ends = [first.origin, second.origin];
     let same_place = SAME_PLACE * polygon.area().sqrt();
@@ -245,17 +235,8 @@ fn exact_strands(
         let on_path = (load.at - corner).norm() <= same_place;
         let joining = if on_path && load.origin == Origin::Weight {
             let behind = number + 1;
-            core[behind..]
-                .iter_mut()
-                .for_each(|w| *w = (*w - amount).max(0.0));
-            Strand {
-                amounts: [amount; 2],
-                ..strand(
-                    Origin::Weight,
-                    &path.corners[behind..],
-                    &path.amounts[behind..],
-                )
-            }
+            core[behind..].iter_mut().for_each(|w| *w = (*w - amount).max(0.0));
+            Strand { amounts: [amount; 2], ..strand(Origin::Weight, &path.corners[behind..], &path.amounts[behind..]) }
         } else {
             strand(load.origin, &[load.at, *corner], &[amount])
         };
@@ -266,10 +247,7 @@ fn exact_strands(
 }
 
 fn line_of_action(acting: &ForceOnBlock) -> LineOfAction {
-    LineOfAction {
-        at: acting.at,
-        force: acting.force,
-    }
+    LineOfAction { at: acting.at, force: acting.force }
 }
 
 /// Divides the forces that enter a block among the forces that leave it.
@@ -295,8 +273,7 @@ impl ForceDistribution<'_> {
 
     /// Returns one strand for each pair of a force that enters the block and a force that leaves it.
     fn strands(&self, forces: &[ForceOnBlock]) -> Vec<Strand> {
-        let (ins, outs): (Vec<&ForceOnBlock>, Vec<&ForceOnBlock>) =
-            forces.iter().partition(|f| self.enters(f));
+        let (ins, outs): (Vec<&ForceOnBlock>, Vec<&ForceOnBlock>) = forces.iter().partition(|f| self.enters(f));
         let sum = |side: &[&ForceOnBlock]| side.iter().map(|f| f.force.norm()).sum::<f64>();
         let (entering, leaving) = (sum(&ins), sum(&outs));
         if ins.is_empty() || outs.is_empty() {
@@ -339,8 +316,7 @@ impl ForceDistribution<'_> {
         let mut before = 0.0;
         for other in partners {
             let earlier = place(other) < own;
-            let alike =
-                place(other) == own && core::ptr::from_ref(*other) < core::ptr::from_ref(partner);
+            let alike = place(other) == own && core::ptr::from_ref(*other) < core::ptr::from_ref(partner);
             if earlier || alike {
                 before += share(other);
             }
@@ -365,13 +341,7 @@ impl ForceDistribution<'_> {
         }
     }
 
-    fn strand(
-        &self,
-        from: &ForceOnBlock,
-        to: &ForceOnBlock,
-        ends: [(Point, Vector); 2],
-        widths: [f64; 2],
-    ) -> Strand {
+    fn strand(&self, from: &ForceOnBlock, to: &ForceOnBlock, ends: [(Point, Vector); 2], widths: [f64; 2]) -> Strand {
         let missing = |f: &ForceOnBlock| matches!(f.origin, Origin::Missing(_));
         let kind = match from.origin {
             _ if missing(from) || missing(to) => StrandKind::Missing,

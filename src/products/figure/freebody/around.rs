@@ -26,11 +26,7 @@ pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
 /// Returns the application points of a contact, metres: two points, or one if they coincide.
 pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     let [a, b] = contact.application_points;
-    if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) {
-        vec![a, b]
-    } else {
-        vec![a]
-    }
+    if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) { vec![a, b] } else { vec![a] }
 }
 
 /// Returns the part of the scene that the diagram shows, metres: the whole block, and the nearby parts of the bodies
@@ -42,10 +38,7 @@ pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -
     for body in neighbours(contacts, block) {
         let bounds = analysis.scene.body(body).polygon.bounds();
         let bounds = bounds.grown(0.03 * own.diagonal());
-        view = view.union(Bounds {
-            min: bounds.min.sup(&near.min),
-            max: bounds.max.inf(&near.max),
-        });
+        view = view.union(Bounds { min: bounds.min.sup(&near.min), max: bounds.max.inf(&near.max) });
     }
     view
 }
@@ -83,11 +76,7 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     let friction = contact.friction_force;
     let pressed: f64 = contact.normal_forces.iter().sum();
     let share = |k: usize| {
-        if pressed > 0.0 {
-            contact.normal_forces[k] / pressed
-        } else {
-            0.5
-        }
+        if pressed > 0.0 { contact.normal_forces[k] / pressed } else { 0.5 }
     };
     let corner = |k: usize| Corner {
         at: contact.application_points[k],
@@ -100,17 +89,9 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
         (second.normal, second.friction) = (0.0, 0.0);
         return [first, second];
     }
-    let normal = if own {
-        contact.interface.normal
-    } else {
-        -contact.interface.normal
-    };
+    let normal = if own { contact.interface.normal } else { -contact.interface.normal };
     let left = quarter_turn(normal);
-    if (first.at - second.at).dot(&left) >= 0.0 {
-        [first, second]
-    } else {
-        [second, first]
-    }
+    if (first.at - second.at).dot(&left) >= 0.0 { [first, second] } else { [second, first] }
 }
 
 /// Returns the unit normal of a contact that points into the block.
@@ -125,47 +106,29 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
 /// Returns the other body of a contact of the block.
 pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
     let [first, second] = contact.interface.bodies;
-    if first == BodyId::Block(block) {
-        second
-    } else {
-        first
-    }
+    if first == BodyId::Block(block) { second } else { first }
 }
 
 /// Returns the point at which the unit normal ŝ is drawn, metres: usually the middle of the interface. If the block has
 /// only this interface (`single`), the point is on the outline of the touching body, `clear` metres beyond an end of
 /// the interface, if there is space for the arrow.
-pub(super) fn aside(
-    scene: &Scene,
-    contact: &Contact,
-    block: BlockId,
-    clear: f64,
-    single: bool,
-) -> Point {
+pub(super) fn aside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64, single: bool) -> Point {
     let interface = &contact.interface;
     let (inward, along) = (inward(contact, block), interface.tangent());
     if !single {
         return interface.middle();
     }
     let neighbour = other(contact, block);
-    let tries = [
-        interface.ends[1] + along * clear,
-        interface.ends[0] - along * clear,
-    ];
+    let tries = [interface.ends[1] + along * clear, interface.ends[0] - along * clear];
     let goes_on = |p: &Point| {
         let inside = |beyond: f64| *p + along * beyond - inward * (0.05 * clear);
         let polygon = &scene.body(neighbour).polygon;
         let own = &scene.blocks[block.0].body.polygon;
-        [-0.2, 0.0, 0.2]
-            .iter()
-            .all(|b| polygon.contains(inside(b * clear)))
+        [-0.2, 0.0, 0.2].iter().all(|b| polygon.contains(inside(b * clear)))
             && !polygon.contains(*p + inward * (0.05 * clear))
             && !own.contains(*p + inward * (0.05 * clear))
     };
-    tries
-        .into_iter()
-        .find(goes_on)
-        .unwrap_or(interface.middle())
+    tries.into_iter().find(goes_on).unwrap_or(interface.middle())
 }
 
 /// Returns the widths of the margins that arrows and their names need around the shown part of the scene, in pixels:
@@ -175,10 +138,9 @@ pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera)
     for arrow in arrows {
         let from = camera.place(arrow.at);
         let ends = match arrow.turn {
-            Some(_) => vec![
-                from.moved(-MAX_LENGTH / 2.0, -MAX_LENGTH / 2.0),
-                from.moved(MAX_LENGTH / 2.0, MAX_LENGTH / 2.0),
-            ],
+            Some(_) => {
+                vec![from.moved(-MAX_LENGTH / 2.0, -MAX_LENGTH / 2.0), from.moved(MAX_LENGTH / 2.0, MAX_LENGTH / 2.0)]
+            }
             None => vec![from, from.moved(arrow.along.0, arrow.along.1)],
         };
         let (right, floor) = (shown.at.x + shown.width, shown.at.y + shown.height);
@@ -207,12 +169,7 @@ pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
 
 /// True if the diagram shows coordinates: the block has exactly one interface, and no robot holds the block. In other
 /// cases the dashed lines to the axes would make the picture unreadable.
-pub(super) fn guided(
-    analysis: &Analysis,
-    frame: usize,
-    block: BlockId,
-    contacts: &[&Contact],
-) -> bool {
+pub(super) fn guided(analysis: &Analysis, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
     let holds = &analysis.scene.frames[frame].holds;
     contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
 }

@@ -139,11 +139,7 @@ impl Diagram<'_> {
                 at: force.at,
                 along: (0.0, 0.0),
                 turn: None,
-                width: if missing {
-                    MISSING_WIDTH * SHAFT_WIDTH
-                } else {
-                    SHAFT_WIDTH
-                },
+                width: if missing { MISSING_WIDTH * SHAFT_WIDTH } else { SHAFT_WIDTH },
                 colour: force.colour,
                 hollow: force.is_load(),
                 missing,
@@ -154,21 +150,14 @@ impl Diagram<'_> {
                 } else {
                     self.length(force, force.torque.abs() / edge, largest) / TURN_RADIUS
                 };
-                arrows.push(Arrow {
-                    along: (TURN_RADIUS, 0.0),
-                    turn: Some(sweep * force.torque.signum()),
-                    ..straight
-                });
+                arrows.push(Arrow { along: (TURN_RADIUS, 0.0), turn: Some(sweep * force.torque.signum()), ..straight });
             } else if force.force.norm() > 0.0 {
                 let length = if self.naming {
                     self.shorter * NAMING_LENGTH
                 } else {
                     self.length(force, force.force.norm(), largest)
                 };
-                arrows.push(Arrow {
-                    along: self.on_page(force.force, length),
-                    ..straight
-                });
+                arrows.push(Arrow { along: self.on_page(force.force, length), ..straight });
             }
         }
         arrows
@@ -192,8 +181,8 @@ impl Diagram<'_> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
         let [a, b] = contact.application_points;
-        let friction = (FRICTION_REACH * self.camera.length((b - a).norm()))
-            .clamp(14.0, self.shorter * FRICTION_LENGTH);
+        let friction =
+            (FRICTION_REACH * self.camera.length((b - a).norm())).clamp(14.0, self.shorter * FRICTION_LENGTH);
         let naming = self.shorter * NAMING_LENGTH;
         let mut arrows = Vec::new();
         let given = corners(contact, self.block);
@@ -206,8 +195,7 @@ impl Diagram<'_> {
             for (part, (direction, length, below, what)) in parts.into_iter().enumerate() {
                 let symbol = match self.detail {
                     Detail::Parts => Symbol::new("F", Accent::Arrow, &below),
-                    _ => Symbol::new("x", Accent::None, &k.to_string())
-                        .raised(&format!("({})", number + 1)),
+                    _ => Symbol::new("x", Accent::None, &k.to_string()).raised(&format!("({})", number + 1)),
                 };
                 arrows.push(Arrow {
                     title: format!("{what} {} on block {}", symbol.stated(), self.block_name()),
@@ -230,20 +218,12 @@ impl Diagram<'_> {
     /// interface, from 0.
     fn unit_normal(&self, number: usize, contact: &Contact) -> Arrow {
         let single = self.contacts.len() == 1;
-        let below = if single {
-            String::new()
-        } else {
-            (number + 1).to_string()
-        };
+        let below = if single { String::new() } else { (number + 1).to_string() };
         let symbol = Symbol::new("s", Accent::Hat, &below);
         let clear = FRICTION_LENGTH + 1.2 * self.shorter * UNIT_NORMAL_LENGTH;
         let clear = self.camera.metres(clear);
         Arrow {
-            title: format!(
-                "Unit normal {} into block {}",
-                symbol.stated(),
-                self.block_name()
-            ),
+            title: format!("Unit normal {} into block {}", symbol.stated(), self.block_name()),
             symbol: Some(symbol),
             at: aside(&self.analysis.scene, contact, self.block, clear, single),
             along: self.on_page(inward(contact, self.block), UNIT_NORMAL_LENGTH),

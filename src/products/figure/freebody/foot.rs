@@ -78,9 +78,7 @@ impl Sheet<'_> {
         };
         let wide = text::width(&what, Face::SansBold, 13.5);
         let scale = self.scale();
-        let scaled = scale.as_ref().map_or(0.0, |s| {
-            22.0 + legend::widest(std::slice::from_ref(s), theme)
-        });
+        let scaled = scale.as_ref().map_or(0.0, |s| 22.0 + legend::widest(std::slice::from_ref(s), theme));
         let start = self.width / 2.0 - (wide + 21.0 + scaled) / 2.0 + 7.5;
         let start = PagePoint::new(start, y);
         let colour = verdict::colour(frame_analysis.verdict, theme);
@@ -104,11 +102,7 @@ impl Sheet<'_> {
         let longest = longest(self.analysis, self.block, &self.camera);
         (amount > 0.0).then(|| {
             let length = amount / largest * longest;
-            legend::Entry::Scale(
-                length,
-                SHAFT_WIDTH,
-                quantity(amount, self.analysis.scene.units.force()),
-            )
+            legend::Entry::Scale(length, SHAFT_WIDTH, quantity(amount, self.analysis.scene.units.force()))
         })
     }
 
@@ -130,19 +124,12 @@ impl Sheet<'_> {
             notes.push(format!("{unseen} {forces} under {amount} not drawn"));
         }
         if nameless > 0 {
-            let names = if nameless == 1 {
-                "name has"
-            } else {
-                "names have"
-            };
+            let names = if nameless == 1 { "name has" } else { "names have" };
             notes.push(format!("{nameless} {names} no room"));
         }
         let frame_analysis = &self.analysis.frames[self.frame];
         if frame_analysis.unsupported.contains(&self.block) {
-            notes.push(
-                "the forces on this block do not balance: it falls even if all contacts could stick"
-                    .to_owned(),
-            );
+            notes.push("the forces on this block do not balance: it falls even if all contacts could stick".to_owned());
         }
         notes
     }

@@ -60,11 +60,7 @@ impl Force {
         } else {
             quantity(self.torque, units.torque())
         };
-        format!(
-            "{} {} on block {on}: {amount}",
-            self.what,
-            self.symbol.stated()
-        )
+        format!("{} {} on block {on}: {amount}", self.what, self.symbol.stated())
     }
 }
 
@@ -99,13 +95,7 @@ pub(super) fn forces(
     contacts: &[&Contact],
     options: &Options,
 ) -> Vec<Force> {
-    let source = ForceSource {
-        analysis,
-        frame_analysis: &analysis.frames[frame],
-        block,
-        contacts,
-        options,
-    };
+    let source = ForceSource { analysis, frame_analysis: &analysis.frames[frame], block, contacts, options };
     let mut forces = source.applied();
     for (number, contact) in contacts.iter().enumerate() {
         forces.extend(source.interface(number + 1, contact));
@@ -252,13 +242,7 @@ impl ForceSource<'_> {
     }
 
     /// Creates the entry for a force (N) that the interface `contact` exerts on the block at the point `at`.
-    fn of_contact(
-        &self,
-        contact: &Contact,
-        what: &'static str,
-        symbol: Symbol,
-        (at, force): (Point, Vector),
-    ) -> Force {
+    fn of_contact(&self, contact: &Contact, what: &'static str, symbol: Symbol, (at, force): (Point, Vector)) -> Force {
         Force {
             symbol,
             what,
@@ -274,12 +258,7 @@ impl ForceSource<'_> {
     fn robots(&self) -> Vec<Force> {
         let (scene, theme) = (&self.analysis.scene, &self.options.theme);
         let mut forces = Vec::new();
-        for held in self
-            .frame_analysis
-            .robots
-            .iter()
-            .filter(|r| r.block == self.block)
-        {
+        for held in self.frame_analysis.robots.iter().filter(|r| r.block == self.block) {
             let robot = &scene.robots[held.robot.0];
             let push = Force {
                 symbol: Symbol::new("F", Accent::Arrow, "").raised(&robot.id),
@@ -308,15 +287,8 @@ impl ForceSource<'_> {
         let failures = self.frame_analysis.failures.iter();
         let missing = failures.filter_map(|failure| self.missing_force(failure));
         let numbered = missing.enumerate().map(|(number, force)| {
-            let accent = if force.torque == 0.0 {
-                Accent::Arrow
-            } else {
-                Accent::None
-            };
-            Force {
-                symbol: Symbol::new("X", accent, &(number + 1).to_string()),
-                ..force
-            }
+            let accent = if force.torque == 0.0 { Accent::Arrow } else { Accent::None };
+            Force { symbol: Symbol::new("X", accent, &(number + 1).to_string()), ..force }
         });
         numbered.collect()
     }
@@ -336,10 +308,7 @@ impl ForceSource<'_> {
             Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
                 self.named(bodies.into_iter().find(|body| *body != own)?)
             }
-            _ => format!(
-                "robot {}",
-                self.analysis.scene.robots[failure.robot()?.0].id
-            ),
+            _ => format!("robot {}", self.analysis.scene.robots[failure.robot()?.0].id),
         };
         Some(Force {
             symbol: Symbol::new("X", Accent::None, ""),

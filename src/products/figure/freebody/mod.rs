@@ -73,12 +73,7 @@ const DEFAULT_WIDTH: f64 = 2.0 * MARGIN + SPACE_LEFT + MAX_PICTURE_SIZE;
 /// assert!(svg.contains("Normal force F_s1 on block a: 2.85 N at 108°"));
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
-pub fn freebody(
-    analysis: &Analysis,
-    frame: usize,
-    block: BlockId,
-    options: &Options,
-) -> Option<Drawing> {
+pub fn freebody(analysis: &Analysis, frame: usize, block: BlockId, options: &Options) -> Option<Drawing> {
     let placed = &analysis.scene.frames.get(frame)?.placed;
     if !placed.contains(&block) {
         return None;
@@ -108,12 +103,7 @@ struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    fn new(
-        analysis: &'a Analysis,
-        frame: usize,
-        block: BlockId,
-        options: &'a Options,
-    ) -> Sheet<'a> {
+    fn new(analysis: &'a Analysis, frame: usize, block: BlockId, options: &'a Options) -> Sheet<'a> {
         let frame_analysis = &analysis.frames[frame];
         let touches = |c: &&Contact| c.interface.bodies.contains(&BodyId::Block(block));
         let contacts: Vec<&Contact> = frame_analysis.contacts.iter().filter(touches).collect();
@@ -155,11 +145,7 @@ impl<'a> Sheet<'a> {
             view,
             camera,
             width,
-            picture: PageRect {
-                at: PagePoint::new(left, top),
-                width: room,
-                height: shown.height + pads[1] + pads[3],
-            },
+            picture: PageRect { at: PagePoint::new(left, top), width: room, height: shown.height + pads[1] + pads[3] },
             heading,
         }
     }

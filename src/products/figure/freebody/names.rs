@@ -13,11 +13,7 @@ const MAX_NAMES: usize = 150;
 
 impl Sheet<'_> {
     /// Draws the names of forces, coordinates and bodies. Also returns the number of names for which there is no space.
-    pub(super) fn names(
-        &self,
-        ink: &mut Ink,
-        requests: &[(Symbol, LabelRequest)],
-    ) -> (Group, usize) {
+    pub(super) fn names(&self, ink: &mut Ink, requests: &[(Symbol, LabelRequest)]) -> (Group, usize) {
         let mut group = Group::with_class("labels");
         // The picture has no space for more than `MAX_NAMES` names, so do not try to place the others.
         let (requests, beyond) = requests.split_at(requests.len().min(MAX_NAMES));
@@ -46,12 +42,7 @@ impl Sheet<'_> {
     }
 
     /// Draws the names of forces and coordinates. Returns the number of names for which there is no space.
-    fn name_symbols(
-        &self,
-        ink: &mut Ink,
-        requests: &[(Symbol, LabelRequest)],
-        group: &mut Group,
-    ) -> usize {
+    fn name_symbols(&self, ink: &mut Ink, requests: &[(Symbol, LabelRequest)], group: &mut Group) -> usize {
         let mut nameless = 0;
         let label_requests: Vec<LabelRequest> = requests.iter().map(|w| w.1.clone()).collect();
         let places = place(ink, self.page_of_names(), &label_requests);
@@ -83,20 +74,13 @@ impl Sheet<'_> {
         let request = LabelRequest {
             anchor: self.camera.place(polygon.centroid()),
             first_ring: 4.0,
-            size: (
-                text::width(name, Face::SerifItalic, NAME_SIZE),
-                0.96 * NAME_SIZE,
-            ),
+            size: (text::width(name, Face::SerifItalic, NAME_SIZE), 0.96 * NAME_SIZE),
             preferred: self.inside(polygon),
             with_leader: Vec::new(),
             padding: 8.0,
             max_distance: own.then_some(f64::INFINITY),
         };
-        let room = if own {
-            self.page_of_names()
-        } else {
-            self.camera.rect(self.view)
-        };
+        let room = if own { self.page_of_names() } else { self.camera.rect(self.view) };
         // Never place the name inside another body, because it would look like the name of that body. If there is no
         // other position, the name is left out. The heading names the block of the diagram anyway.
         let covers_other_block = |_: usize, rect: PageRect| {
@@ -116,13 +100,7 @@ impl Sheet<'_> {
             group.items.push(self.leader(leader).into());
         }
         let at = placed.rect.at.moved(0.0, 0.8 * NAME_SIZE);
-        let words = Text::new(
-            at,
-            name,
-            Face::SerifItalic,
-            NAME_SIZE,
-            self.options.theme.faint,
-        );
+        let words = Text::new(at, name, Face::SerifItalic, NAME_SIZE, self.options.theme.faint);
         let label = Group::with_class("name").with(words);
         group.items.push(label.into());
         true

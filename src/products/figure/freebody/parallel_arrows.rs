@@ -29,17 +29,12 @@ pub(super) fn separate_arrows(arrows: &mut [Arrow], camera: &Camera) {
         }
         let true_place = camera.place(arrow.at);
         let (across_x, across_y) = (-y / length * AXIS_DISTANCE, x / length * AXIS_DISTANCE);
-        let places =
-            [0.0, 1.0, -1.0, 2.0, -2.0].map(|k| true_place.moved(k * across_x, k * across_y));
+        let places = [0.0, 1.0, -1.0, 2.0, -2.0].map(|k| true_place.moved(k * across_x, k * across_y));
         let clear = places.into_iter().find(|place| {
             let mut before = before.iter().filter(|other| other.turn.is_none());
             !before.any(|other| {
                 let from = camera.place(other.at);
-                one_line(
-                    other.along,
-                    arrow.along,
-                    (place.x - from.x, place.y - from.y),
-                )
+                one_line(other.along, arrow.along, (place.x - from.x, place.y - from.y))
             })
         });
         if let Some(clear) = clear.filter(|clear| *clear != true_place) {
@@ -51,10 +46,7 @@ pub(super) fn separate_arrows(arrows: &mut [Arrow], camera: &Camera) {
 /// True if two arrows are parallel and overlap. `offset` is the vector from the tail of the first arrow to the tail of
 /// the second, in pixels.
 fn one_line(first: (f64, f64), second: (f64, f64), offset: (f64, f64)) -> bool {
-    let (long, other) = (
-        libm::hypot(first.0, first.1),
-        libm::hypot(second.0, second.1),
-    );
+    let (long, other) = (libm::hypot(first.0, first.1), libm::hypot(second.0, second.1));
     if !(long > 0.0 && other > 0.0) {
         return false;
     }

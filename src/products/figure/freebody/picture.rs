@@ -40,10 +40,7 @@ impl Sheet<'_> {
                 for [from, to] in hatching.iter().filter_map(|line| page.part_of(*line)) {
                     ink.line(from, to, 0.8);
                 }
-                drawn = drawn.with(Path::stroked(
-                    lines(&hatching),
-                    Stroke::new(theme.faint, 0.8),
-                ));
+                drawn = drawn.with(Path::stroked(lines(&hatching), Stroke::new(theme.faint, 0.8)));
             }
             self.add_edges(ink, polygon, page);
             drawn = drawn.with(Path::stroked(outline, Stroke::new(theme.ink, 1.3)));
@@ -75,18 +72,10 @@ impl Sheet<'_> {
 
     /// Draws dashed lines from the application points and the centroid to the left and lower edges of the picture. Adds
     /// the names of their coordinates, such as `c_x`, to `requests`.
-    pub(super) fn guide_lines(
-        &self,
-        ink: &mut Ink,
-        requests: &mut Vec<(Symbol, LabelRequest)>,
-    ) -> Group {
+    pub(super) fn guide_lines(&self, ink: &mut Ink, requests: &mut Vec<(Symbol, LabelRequest)>) -> Group {
         let theme = &self.options.theme;
         let mut group = Group::with_class("guides");
-        let mut described = vec![(
-            "c",
-            String::new(),
-            self.analysis.scene.blocks[self.block.0].centroid,
-        )];
+        let mut described = vec![("c", String::new(), self.analysis.scene.blocks[self.block.0].centroid)];
         for contact in &self.contacts {
             let count = distinct(contact).len();
             for (k, corner) in corners(contact, self.block).iter().enumerate().take(count) {
@@ -97,10 +86,7 @@ impl Sheet<'_> {
         let (left, floor) = (self.picture.at.x, self.floor());
         for (letter, number, point) in described {
             let p = self.camera.place(point);
-            let ends = [
-                (PagePoint::new(left, p.y), "y"),
-                (PagePoint::new(p.x, floor), "x"),
-            ];
+            let ends = [(PagePoint::new(left, p.y), "y"), (PagePoint::new(p.x, floor), "x")];
             for (end, axis) in ends {
                 group = group.with(Path::stroked(Outline::line([end, p]), dash()));
                 ink.line(end, p, 1.2);
@@ -162,9 +148,7 @@ impl Sheet<'_> {
             } else {
                 Path::filled(path, arrow.colour).cased(theme.page, CASING)
             };
-            let drawn = Group::with_class("force")
-                .titled(arrow.title.as_str())
-                .with(path);
+            let drawn = Group::with_class("force").titled(arrow.title.as_str()).with(path);
             group.items.push(drawn.into());
             let Some(symbol) = &arrow.symbol else {
                 continue;
@@ -189,34 +173,16 @@ impl Sheet<'_> {
     /// Draws two arrows below the picture that show the directions of the x and y axes.
     pub(super) fn axes(&self, ink: &mut Ink) -> Group {
         let theme = &self.options.theme;
-        let origin = PagePoint::new(
-            MARGIN + 4.0,
-            self.floor()
-                + if self.guides() {
-                    30.0
-                } else {
-                    SPACE_BELOW - 4.0
-                },
-        );
+        let origin = PagePoint::new(MARGIN + 4.0, self.floor() + if self.guides() { 30.0 } else { SPACE_BELOW - 4.0 });
         let mut group = Group::with_class("axes").titled("Axes: x to the right, y up");
-        let ends = [
-            ((40.0, 0.0), "x", (14.0, 0.0)),
-            ((0.0, -40.0), "y", (0.0, -14.0)),
-        ];
+        let ends = [((40.0, 0.0), "x", (14.0, 0.0)), ((0.0, -40.0), "y", (0.0, -14.0))];
         for (along, name, beyond) in ends {
             ink.arrow(origin, along, 1.4);
             group = group.with(Path::filled(straight(origin, along, 1.4), theme.ink));
             let symbol = Symbol::new(name, Accent::None, "");
             let (wide, high) = symbol.size(NAME_SIZE);
-            let at = origin.moved(
-                along.0 + beyond.0 - wide / 2.0,
-                along.1 + beyond.1 - 0.62 * high,
-            );
-            let rect = PageRect {
-                at,
-                width: wide,
-                height: high,
-            };
+            let at = origin.moved(along.0 + beyond.0 - wide / 2.0, along.1 + beyond.1 - 0.62 * high);
+            let rect = PageRect { at, width: wide, height: high };
             ink.rect(rect);
             group = group.with(symbol.draw(rect, NAME_SIZE, theme.ink));
         }

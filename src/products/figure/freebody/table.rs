@@ -5,9 +5,7 @@
 
 use super::force::Force;
 use crate::drawing::symbol::{Accent, Symbol};
-use crate::drawing::{
-    Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
-};
+use crate::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::geometry::{Point, Vector};
 use crate::scene::Unit;
 use crate::scene::format::UnitsEntry;
@@ -54,11 +52,7 @@ impl Column {
     /// decimal point, if possible. A unit that the scene selects has no prefix.
     fn new(largest: f64, unit: Unit) -> Column {
         let largest = unit.value_from_si(largest);
-        let digits = if largest > 0.0 && largest.is_finite() {
-            libm::floor(libm::log10(largest)) as i32
-        } else {
-            0
-        };
+        let digits = if largest > 0.0 && largest.is_finite() { libm::floor(libm::log10(largest)) as i32 } else { 0 };
         let step = match unit.is_chosen {
             true => 0,
             false => digits.div_euclid(3).clamp(-2, 2),
@@ -89,11 +83,7 @@ impl Table {
         let most = forces.iter().map(|f| f.force.norm()).fold(0.0, f64::max);
         let moment = |f: &Force| {
             let moment = f.moment(centroid);
-            if moment.abs() <= MOMENT_TOL * most * size {
-                0.0
-            } else {
-                moment
-            }
+            if moment.abs() <= MOMENT_TOL * most * size { 0.0 } else { moment }
         };
         let turns = forces.iter().map(|f| moment(f).abs()).fold(0.0, f64::max);
         let force_unit = Column::new(most, units.force());
@@ -113,12 +103,7 @@ impl Table {
         let turning: f64 = forces.iter().map(|f| f.moment(centroid)).sum();
         rows.push(Row {
             symbol: None,
-            numbers: [
-                String::new(),
-                force_unit.write(sum.x),
-                force_unit.write(sum.y),
-                moment_unit.write(turning),
-            ],
+            numbers: [String::new(), force_unit.write(sum.x), force_unit.write(sum.y), moment_unit.write(turning)],
             from: String::new(),
         });
         let head = |letter: &str, below: &str, unit: &Column| {
@@ -143,11 +128,7 @@ impl Table {
             let [amount, x, y, turning] = &row.numbers;
             let parts = format!("({x}; {y}) {force}, moment {turning} {moment}");
             match &row.symbol {
-                Some(symbol) => format!(
-                    "{} = {amount} {force}: {parts}, {}",
-                    symbol.stated(),
-                    row.from
-                ),
+                Some(symbol) => format!("{} = {amount} {force}: {parts}, {}", symbol.stated(), row.from),
                 None => format!("sum: {parts}"),
             }
         };
@@ -157,12 +138,7 @@ impl Table {
     /// Draws the table, at most `room` pixels wide, with the font size `size` in pixels. The middle of its upper edge
     /// is at `top`. Also returns the height of the table in pixels.
     pub(super) fn draw(&self, top: PagePoint, room: f64, size: f64, theme: &Theme) -> (Group, f64) {
-        let writer = TableWriter {
-            table: self,
-            columns: Columns::new(self, top.x, room, size),
-            size,
-            theme,
-        };
+        let writer = TableWriter { table: self, columns: Columns::new(self, top.x, room, size), size, theme };
         let mut group = Group::with_class("list").titled("The forces on the block, and their sum");
         let mut y = top.y + size;
         group.items.extend(writer.head(y));
@@ -224,13 +200,7 @@ impl Columns {
             edge += COLUMN_GAP + width;
             edge
         });
-        Columns {
-            left,
-            numbers: edges.collect(),
-            from: edge + COLUMN_GAP,
-            from_width,
-            total,
-        }
+        Columns { left, numbers: edges.collect(), from: edge + COLUMN_GAP, from_width, total }
     }
 }
 
@@ -278,11 +248,7 @@ impl TableWriter<'_> {
         let lines = in_lines(&row.from, columns.from_width + 0.5, self.size);
         let mut y = y;
         for (number, line) in lines.iter().enumerate() {
-            y += if number > 0 {
-                LINE_PITCH * self.size
-            } else {
-                0.0
-            };
+            y += if number > 0 { LINE_PITCH * self.size } else { 0.0 };
             items.push(self.words(columns.from, y, line, Anchor::Start));
         }
         (items, lines.len().max(1))
@@ -290,9 +256,7 @@ impl TableWriter<'_> {
 
     fn words(&self, x: f64, y: f64, words: &str, anchor: Anchor) -> Item {
         let at = PagePoint::new(x, y);
-        Text::new(at, words, Face::Serif, self.size, self.theme.ink)
-            .anchored(anchor)
-            .into()
+        Text::new(at, words, Face::Serif, self.size, self.theme.ink).anchored(anchor).into()
     }
 
     fn symbol(&self, symbol: &Symbol, x: f64, y: f64) -> Item {

@@ -33,11 +33,7 @@ impl Piece {
         let items = match self {
             Piece::Symbol(symbol) => {
                 let (width, height) = symbol.size(size);
-                let rect = PageRect {
-                    at: at.moved(0.0, -0.98 * size),
-                    width,
-                    height,
-                };
+                let rect = PageRect { at: at.moved(0.0, -0.98 * size), width, height };
                 vec![symbol.draw(rect, size, theme.ink).into()]
             }
             Piece::Words(words) => {
@@ -80,16 +76,9 @@ pub(super) fn rows(values: &[Vec<Piece>], size: f64, room: f64) -> Vec<Vec<Piece
 
 /// Returns the coordinates of the centroid and of the application points, and the components of the unit normals into
 /// the block. Each value is a list of symbols and texts, such as `c = (1; 2) m`.
-pub(super) fn places(
-    analysis: &Analysis,
-    block: BlockId,
-    contacts: &[&Contact],
-) -> Vec<Vec<Piece>> {
+pub(super) fn places(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Vec<Vec<Piece>> {
     let is = |symbol: Symbol, words: String| {
-        vec![
-            Piece::Symbol(symbol),
-            Piece::Words(format!("{NO_BREAK}={NO_BREAK}{words}")),
-        ]
+        vec![Piece::Symbol(symbol), Piece::Words(format!("{NO_BREAK}={NO_BREAK}{words}"))]
     };
     let unit = analysis.scene.units.length();
     let at = |x: f64, y: f64| {

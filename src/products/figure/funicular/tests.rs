@@ -27,10 +27,7 @@ fn in_an_arch_the_line_bends_above_or_below_the_centroid_of_each_voussoir() {
         assert!(a.through && b.through);
         assert_eq!(a.to, b.from);
         let centroid = scene.blocks[a.on.0].centroid;
-        assert!(
-            (a.to.x - centroid.x).abs() < 1e-6,
-            "the line does not bend on the line of action of the weight"
-        );
+        assert!((a.to.x - centroid.x).abs() < 1e-6, "the line does not bend on the line of action of the weight");
         bends += 1;
     }
     assert!(bends >= 9, "{bends}");
@@ -45,11 +42,7 @@ fn a_torque_moves_the_line_of_a_robot_sideways() {
              "steps": [ { "place": ["a"], "hold": { "r": { "block": "a", "at": [3, 1] } } } ] }"#,
     );
     // 8 N at the grip and −8 N·m about it act along the line through the centroid, so the line does not bend.
-    assert!(
-        thrust_segments(&scene)
-            .iter()
-            .all(|s| (s.from.x - 2.0).abs() < 1e-6)
-    );
+    assert!(thrust_segments(&scene).iter().all(|s| (s.from.x - 2.0).abs() < 1e-6));
 }
 
 /// A beam of 30 N on two posts, with loads.
@@ -64,18 +57,13 @@ fn beam(loads: &str) -> Scene {
 
 #[test]
 fn in_a_loaded_beam_the_reactions_and_the_load_meet_in_one_point() {
-    let segments = thrust_segments(&beam(
-        r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#,
-    ));
+    let segments = thrust_segments(&beam(r#"{ "block": "beam", "force": [0, -12], "at": [4, 1] }"#));
     assert_eq!(segments.len(), 3, "{segments:?}");
     let meeting = segments[0].to;
     assert!(segments.iter().all(|s| !s.through && s.to == meeting));
     let load = segments.iter().find(|s| s.origin == ForceOrigin::Load(0));
     let load = load.expect("a segment for the load");
-    assert_eq!(
-        (load.from, load.force),
-        (Point::new(4.0, 1.0), Vector::new(0.0, -12.0))
-    );
+    assert_eq!((load.from, load.force), (Point::new(4.0, 1.0), Vector::new(0.0, -12.0)));
 }
 
 #[test]
@@ -89,20 +77,15 @@ fn the_line_has_no_gap_at_any_joint_in_compression() {
         let analysis = Analysis::new(&scene);
         let frame_analysis = &analysis.frames[0];
         let segments = segments(&scene, &scene.frames[0], frame_analysis);
-        for (contact, bearing) in frame_analysis
-            .contacts
-            .iter()
-            .zip(bearings(&scene, frame_analysis))
-        {
+        for (contact, bearing) in frame_analysis.contacts.iter().zip(bearings(&scene, frame_analysis)) {
             if bearing.is_none() {
                 continue;
             }
             for body in contact.interface.bodies {
                 let BodyId::Block(block) = body else { continue };
                 let at = contact.resultant.at;
-                let meets = |s: &ThrustSegment| {
-                    s.on == block && [s.from, s.to].iter().any(|end| (end - at).norm() < 1e-6)
-                };
+                let meets =
+                    |s: &ThrustSegment| s.on == block && [s.from, s.to].iter().any(|end| (end - at).norm() < 1e-6);
                 assert!(segments.iter().any(meets), "{at} in block {block:?}");
             }
         }
@@ -119,13 +102,8 @@ fn a_load_bends_the_line_of_thrust_on_its_line_of_action() {
     let segments = thrust_segments(&scene);
     // 40 N down through x = 2 and 10 N at height 3 meet at (2, 3). From there the line reaches the ground at (2.75,
     // 0).
-    let [main, load] = &segments[..] else {
-        panic!("{segments:?}")
-    };
-    assert!(
-        (main.from - Point::new(2.75, 0.0)).norm() < 1e-6,
-        "{main:?}"
-    );
+    let [main, load] = &segments[..] else { panic!("{segments:?}") };
+    assert!((main.from - Point::new(2.75, 0.0)).norm() < 1e-6, "{main:?}");
     assert!((main.to - Point::new(2.0, 3.0)).norm() < 1e-6, "{main:?}");
     assert_eq!(load.origin, ForceOrigin::Load(0));
     assert!((load.from - Point::new(0.0, 3.0)).norm() < 1e-9);
@@ -141,11 +119,7 @@ fn a_stack_is_one_straight_line() {
     );
     let segments = thrust_segments(&scene);
     assert!(segments.iter().all(|s| s.through), "{segments:?}");
-    assert!(
-        segments
-            .iter()
-            .all(|s| (s.from.x - 1.0).abs() + (s.to.x - 1.0).abs() < 1e-6)
-    );
+    assert!(segments.iter().all(|s| (s.from.x - 1.0).abs() + (s.to.x - 1.0).abs() < 1e-6));
     let along: f64 = segments.iter().map(|s| (s.to - s.from).norm()).sum();
     // The line runs through the lower block and up to the centroid of the upper block.
     assert!((along - 2.0).abs() < 1e-6, "{segments:?}");

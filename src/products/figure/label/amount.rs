@@ -34,9 +34,7 @@ pub(crate) struct Callout {
 
 /// Returns the font size of labels with magnitudes, in pixels. It is smaller if the unit length is short on the page.
 fn amount_size(pen: &Pen<'_>) -> f64 {
-    (0.2 * pen.unit())
-        .max(MIN_SIZE)
-        .min(pen.context.options.theme.sizes.amount)
+    (0.2 * pen.unit()).max(MIN_SIZE).min(pen.context.options.theme.sizes.amount)
 }
 
 /// Converts a callout to a label. If the picture has no space for the label, the label is left out and counted.
@@ -51,10 +49,7 @@ pub(super) fn called_out(pen: &Pen<'_>, callout: Callout) -> Label {
         max_distance: Some(f64::INFINITY),
     };
     let size = pen.context.options.theme.sizes.amount;
-    Label {
-        colour: Some(callout.colour),
-        ..label(callout.words, Face::SansBold, size, "amount", request)
-    }
+    Label { colour: Some(callout.colour), ..label(callout.words, Face::SansBold, size, "amount", request) }
 }
 
 /// Returns the labels with the magnitudes of the largest contact force, the largest force of a robot, the loads and the
@@ -90,10 +85,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
             ArrowKind::Robot(_) => format!("largest of a robot: {amount}"),
             _ => format!("largest: {amount}"),
         };
-        Label {
-            named: is_first(arrow),
-            ..force_label(pen, arrow, words)
-        }
+        Label { named: is_first(arrow), ..force_label(pen, arrow, words) }
     });
     let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
     let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
@@ -151,18 +143,10 @@ fn force_label(pen: &Pen<'_>, arrow: &ForceArrow, words: String) -> Label {
         max_distance: Some(f64::INFINITY),
     };
     let request = match RowPlaces::new(pen, arrow, extent) {
-        Some(row) => LabelRequest {
-            anchor: row.tail,
-            preferred: vec![row.first],
-            with_leader: row.others,
-            ..request
-        },
+        Some(row) => LabelRequest { anchor: row.tail, preferred: vec![row.first], with_leader: row.others, ..request },
         None => request,
     };
-    Label {
-        colour: Some(arrow.colour),
-        ..label(words, Face::Sans, size, "amount", request)
-    }
+    Label { colour: Some(arrow.colour), ..label(words, Face::Sans, size, "amount", request) }
 }
 
 /// Creates the label with the magnitude of a torque next to its arrow.
@@ -170,13 +154,9 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     let words = quantity(turn.torque.abs(), pen.context.analysis.scene.units.torque());
     let size = amount_size(pen);
     let (wide, high) = (text::width(&words, Face::Sans, size), LINE_HEIGHT * size);
-    let (centre, radius) = (
-        pen.camera.place(turn.at),
-        pen.camera.length(TURN_RADIUS * pen.context.unit),
-    );
+    let (centre, radius) = (pen.camera.place(turn.at), pen.camera.length(TURN_RADIUS * pen.context.unit));
     let middle = pen.turn_middle(turn);
-    let along =
-        |angle: f64, far: f64| centre.moved(far * libm::cos(angle), -far * libm::sin(angle));
+    let along = |angle: f64, far: f64| centre.moved(far * libm::cos(angle), -far * libm::sin(angle));
     // Prefer positions outside the circle of the arrow; the last position is inside it.
     let beside = |(off, side): (f64, f64)| {
         let angle = middle + off;
@@ -195,10 +175,7 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
         padding: 0.0,
         max_distance: Some(f64::INFINITY),
     };
-    Label {
-        colour: Some(turn.colour),
-        ..label(words, Face::Sans, size, "amount", request)
-    }
+    Label { colour: Some(turn.colour), ..label(words, Face::Sans, size, "amount", request) }
 }
 
 /// True if the magnitude of a force is written next to its arrow. Loads and missing forces of at least `least` newtons
@@ -225,11 +202,7 @@ fn principal<'a>(pen: &Pen<'a>) -> Vec<&'a ForceArrow> {
         own.reduce(|most, a| {
             // If several forces are equal except for rounding, take the first of them, so that rounding errors do not
             // move a label.
-            if a.force.norm() > (1.0 + EQUAL_FORCE_TOL) * most.force.norm() {
-                a
-            } else {
-                most
-            }
+            if a.force.norm() > (1.0 + EQUAL_FORCE_TOL) * most.force.norm() { a } else { most }
         })
     };
     let contact = largest(|kind| matches!(kind, ArrowKind::Contact(_)));
@@ -252,12 +225,7 @@ fn least_written(pen: &Pen<'_>, few: bool) -> f64 {
 
 /// Returns the preferred centres of a label on the page: on both sides of the arrow's shaft, and beyond its tip.
 /// `width` is the width of the shaft, and `wide` and `high` are the width and height of the label, all in pixels.
-fn centres_along(
-    from: PagePoint,
-    along: (f64, f64),
-    width: f64,
-    (wide, high): (f64, f64),
-) -> Vec<PagePoint> {
+fn centres_along(from: PagePoint, along: (f64, f64), width: f64, (wide, high): (f64, f64)) -> Vec<PagePoint> {
     let length = libm::hypot(along.0, along.1);
     if length.is_nan() || length <= 0.0 {
         return Vec::new();

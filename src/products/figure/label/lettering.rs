@@ -3,9 +3,7 @@
 
 use super::super::pen::Pen;
 use crate::drawing::placement::{LabelRequest, Placed};
-use crate::drawing::{
-    Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text,
-};
+use crate::drawing::{Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 use crate::scene::BlockId;
 
 /// Least font size, pixels.
@@ -40,28 +38,15 @@ impl Label {
     /// Returns the rectangle of the label if it is drawn at its anchor.
     pub fn rect_at_anchor(&self) -> PageRect {
         let (width, height) = self.request.size;
-        PageRect {
-            at: self.request.anchor.moved(-0.5 * width, -0.5 * height),
-            width,
-            height,
-        }
+        PageRect { at: self.request.anchor.moved(-0.5 * width, -0.5 * height), width, height }
     }
 }
 
 /// Creates a label with one line of text. Sets the size of `request` to the size of this line.
-pub(super) fn label(
-    words: String,
-    face: Face,
-    size: f64,
-    class: &'static str,
-    request: LabelRequest,
-) -> Label {
+pub(super) fn label(words: String, face: Face, size: f64, class: &'static str, request: LabelRequest) -> Label {
     let size_of = (text::width(&words, face, size), LINE_HEIGHT * size);
     Label {
-        request: LabelRequest {
-            size: size_of,
-            ..request
-        },
+        request: LabelRequest { size: size_of, ..request },
         lines: vec![words],
         face,
         size,
@@ -92,19 +77,9 @@ pub(super) fn broken(label: Label, across: f64) -> Label {
         return label;
     }
     let widths = lines.iter().map(|l| text::width(l, label.face, label.size));
-    let size = (
-        widths.fold(0.0, f64::max),
-        label.size * (LINE_HEIGHT + LINE_PITCH * (lines.len() - 1) as f64),
-    );
-    let request = LabelRequest {
-        size,
-        ..label.request
-    };
-    Label {
-        lines,
-        request,
-        ..label
-    }
+    let size = (widths.fold(0.0, f64::max), label.size * (LINE_HEIGHT + LINE_PITCH * (lines.len() - 1) as f64));
+    let request = LabelRequest { size, ..label.request };
+    Label { lines, request, ..label }
 }
 
 /// Draws a label at the position that was found for it, with a leader line if the position has one.
@@ -136,13 +111,7 @@ pub(super) fn drawn_over(pen: &Pen<'_>, label: &Label) -> Group {
 
 /// Adds the text lines of a label to a group, centred at `middle`. If `halo` is a colour, the letters have a border of
 /// this colour.
-fn lettered(
-    mut group: Group,
-    label: &Label,
-    middle: PagePoint,
-    colour: Colour,
-    halo: Option<Colour>,
-) -> Group {
+fn lettered(mut group: Group, label: &Label, middle: PagePoint, colour: Colour, halo: Option<Colour>) -> Group {
     let half = 0.5 * (label.lines.len() as f64 - 1.0);
     for (number, line) in label.lines.iter().enumerate() {
         let down = 0.36 + LINE_PITCH * (number as f64 - half);

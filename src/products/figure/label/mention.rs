@@ -28,8 +28,7 @@ fn is_number(name: &str) -> bool {
 /// True if the text before or after a name continues a number with decimals: the name `5` in `2.5` or `5.2`.
 fn splits_a_number(before: &str, name: &str, rest: &str) -> bool {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let digit_beyond_point =
-        |side: &mut dyn Iterator<Item = char>| side.next() == Some('.') && digit(side.next());
+    let digit_beyond_point = |side: &mut dyn Iterator<Item = char>| side.next() == Some('.') && digit(side.next());
     (digit(name.chars().next_back()) && digit_beyond_point(&mut rest.chars()))
         || (digit(name.chars().next()) && digit_beyond_point(&mut before.chars().rev()))
 }
@@ -48,14 +47,13 @@ fn stands_for_a_name(before: &str, rest: &str) -> bool {
 
 /// The words that may follow the name of a block. After every other word, a unit for example, a number is no name.
 const WORDS_AFTER_NAMES: [&str; 17] = [
-    "and", "are", "at", "fall", "falls", "has", "have", "in", "is", "it", "on", "or", "over",
-    "slides", "stands", "under", "with",
+    "and", "are", "at", "fall", "falls", "has", "have", "in", "is", "it", "on", "or", "over", "slides", "stands",
+    "under", "with",
 ];
 
 /// The words after which a number is a quantity even at the end of a phrase: `friction 2`, `from 0 to 3`.
-const WORDS_BEFORE_QUANTITIES: [&str; 10] = [
-    "factor", "factors", "friction", "from", "least", "most", "step", "than", "times", "to",
-];
+const WORDS_BEFORE_QUANTITIES: [&str; 10] =
+    ["factor", "factors", "friction", "from", "least", "most", "step", "than", "times", "to"];
 
 #[cfg(test)]
 mod tests {
@@ -86,10 +84,7 @@ mod tests {
             assert!(!names(text, name), "{text}");
         }
         assert!(names("block 32 falls", "32"));
-        assert!(names(
-            "joints are at their limit, first between 32 and 33.",
-            "33"
-        ));
+        assert!(names("joints are at their limit, first between 32 and 33.", "33"));
         assert!(names("a torque at v12", "v12"));
     }
 }

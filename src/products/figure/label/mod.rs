@@ -57,12 +57,7 @@ pub(crate) const CLASS: &str = "labels";
 /// Draws the labels of a frame, with additional texts (`callouts`), which are placed before all other labels. `ink`
 /// returns the shapes that the labels must not cover; it is called only if there are labels. `view` is the shown part
 /// of the scene, metres.
-pub(crate) fn labels(
-    pen: &Pen<'_>,
-    view: Bounds,
-    callouts: Vec<Callout>,
-    ink: impl FnOnce() -> Ink,
-) -> Group {
+pub(crate) fn labels(pen: &Pen<'_>, view: Bounds, callouts: Vec<Callout>, ink: impl FnOnce() -> Ink) -> Group {
     let mut group = Group::with_class(CLASS);
     let callouts = callouts.into_iter().filter(|_| pen.context.options.labels);
     let callouts = callouts.map(|callout| called_out(pen, callout));
@@ -102,10 +97,7 @@ pub(crate) fn labels(
             None => missing.push((what, 1)),
         }
     }
-    let missing: Vec<String> = missing
-        .into_iter()
-        .map(|(what, n)| counted(n, what))
-        .collect();
+    let missing: Vec<String> = missing.into_iter().map(|(what, n)| counted(n, what)).collect();
     if !missing.is_empty() {
         group.description = format!("no room for {}", listed(&missing));
     }
@@ -148,10 +140,7 @@ fn leaves_row(label: &Label, rect: PageRect) -> bool {
 fn with_needed_leader(pen: &Pen<'_>, label: &Label, placed: Placed) -> Placed {
     let anchor = label.request.anchor;
     match placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
-        true => Placed {
-            leader: Some([nearest(placed.rect, anchor), anchor]),
-            ..placed
-        },
+        true => Placed { leader: Some([nearest(placed.rect, anchor), anchor]), ..placed },
         false => placed,
     }
 }
@@ -203,11 +192,7 @@ pub(crate) fn left_out(context: &FigureContext<'_>) -> Option<String> {
         (false, false) => return None,
     };
     let named = (0..frames.len()).any(|frame| !mentioned(context, frame).is_empty());
-    let but = if named {
-        " except those in the text"
-    } else {
-        ""
-    };
+    let but = if named { " except those in the text" } else { "" };
     (most > MAX_LABELLED_BLOCKS).then(|| format!("{most} blocks: {what} left out{but}"))
 }
 
@@ -230,10 +215,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         false => Vec::new(),
     };
     let names = first.iter().filter_map(|id| name(pen, *id, view));
-    labels.extend(names.map(|label| Label {
-        named: true,
-        ..label
-    }));
+    labels.extend(names.map(|label| Label { named: true, ..label }));
     if options.labels {
         labels.extend(robots(pen, view));
     }
@@ -264,7 +246,5 @@ fn mentioned(context: &FigureContext<'_>, frame: usize) -> Vec<BlockId> {
     let scene = &context.analysis.scene;
     let stated = &context.statements[frame];
     let placed = scene.frames[frame].placed.iter().copied();
-    placed
-        .filter(|id| names(stated, &scene.blocks[id.0].id))
-        .collect()
+    placed.filter(|id| names(stated, &scene.blocks[id.0].id)).collect()
 }

@@ -24,9 +24,7 @@ const MIN_LARGE_BLOCK_EDGE: f64 = 3.0;
 /// Returns the font size of a block's name, in pixels. `edge` is a typical edge length of the block, or the unit
 /// length, in pixels.
 fn name_size(pen: &Pen<'_>, edge: f64) -> f64 {
-    (0.25 * edge)
-        .max(MIN_SIZE)
-        .min(pen.context.options.theme.sizes.name)
+    (0.25 * edge).max(MIN_SIZE).min(pen.context.options.theme.sizes.name)
 }
 
 /// Returns the label with the name of a block; `None` if the bounding box of the block is outside `view`, the shown
@@ -38,14 +36,8 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
         return None;
     }
     // The name of a block that is much larger than the unit length has a larger font size.
-    let own = pen
-        .camera
-        .length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
-    let size = if own > MIN_LARGE_BLOCK_EDGE * pen.unit() {
-        name_size(pen, own)
-    } else {
-        name_size(pen, pen.unit())
-    };
+    let own = pen.camera.length(EDGE_SHARE * libm::sqrt(block.body.polygon.area()));
+    let size = if own > MIN_LARGE_BLOCK_EDGE * pen.unit() { name_size(pen, own) } else { name_size(pen, pen.unit()) };
     // The search for a position of the name begins closer to the centroid if the block is small.
     let extent = block.body.polygon.bounds().diagonal();
     let request = LabelRequest {
@@ -62,10 +54,7 @@ pub(super) fn name(pen: &Pen<'_>, id: BlockId, view: Bounds) -> Option<Label> {
     };
     let label = label(block.id.clone(), Face::SansBold, size, "name", request);
     let across = pen.camera.length(block.body.polygon.bounds().width()) - 2.0 * INSET;
-    Some(Label {
-        of: Some(id),
-        ..broken(label, across)
-    })
+    Some(Label { of: Some(id), ..broken(label, across) })
 }
 
 /// Returns the labels with the names of the robots that hold a block. A zoomed picture names only the robots whose
@@ -90,10 +79,7 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
         let block = scene.blocks[hold.block.0].body.polygon.bounds();
         let across = pen.camera.length(block.width()) - 2.0 * INSET;
         let label = label(id, Face::Sans, size, "robot-name", request);
-        Label {
-            of: Some(hold.block),
-            ..broken(label, across)
-        }
+        Label { of: Some(hold.block), ..broken(label, across) }
     };
     let zoomed = pen.context.options.zoom.is_some();
     let holds = scene.frames[pen.number].holds.iter();
@@ -105,9 +91,7 @@ pub(super) fn robots(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
 /// `view`, the points are inside the part of the polygon that it shows.
 fn centres_inside(polygon: &Polygon, middle: Point, view: Option<Bounds>) -> Vec<Point> {
     let whole = polygon.bounds();
-    let bounds = view
-        .and_then(|v| view::intersection(v, whole))
-        .unwrap_or(whole);
+    let bounds = view.and_then(|v| view::intersection(v, whole)).unwrap_or(whole);
     let share = |i: usize| (i as f64 + 0.5) / POSITIONS_PER_AXIS as f64;
     let points: Vec<Point> = (0..POSITIONS_PER_AXIS * POSITIONS_PER_AXIS)
         .map(|i| {

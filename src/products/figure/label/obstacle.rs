@@ -14,9 +14,8 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     let frame = &scene.frames[pen.number];
     let planned = frame.plans.iter().map(|p| p.block);
     let blocks = frame.placed.iter().copied().chain(planned);
-    let polygons = blocks
-        .map(|id| &scene.blocks[id.0].body.polygon)
-        .chain(scene.ground.iter().map(|g| &g.body.polygon));
+    let polygons =
+        blocks.map(|id| &scene.blocks[id.0].body.polygon).chain(scene.ground.iter().map(|g| &g.body.polygon));
     for edge in polygons.flat_map(Polygon::edges) {
         let (from, to) = (pen.camera.place(edge.from), pen.camera.place(edge.to));
         ink.line(from, to, pen.line);

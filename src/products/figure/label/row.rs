@@ -50,24 +50,14 @@ impl RowPlaces {
             let far = TAIL_GAP + 0.5 * along + f64::from(number) * (along + TAIL_GAP);
             tail.moved(-ux * far, -uy * far)
         };
-        Some(RowPlaces {
-            tail,
-            first: line(0),
-            others: (1..=MORE_LINES).map(line).collect(),
-        })
+        Some(RowPlaces { tail, first: line(0), others: (1..=MORE_LINES).map(line).collect() })
     }
 }
 
 /// Returns the distances, across the arrow, from `tail` to the tails of the other loads in the row of `arrow`, pixels.
 /// The arrows of these loads have nearly the direction (`ux`, `uy`). Along the arrow, their tails differ from `tail` by
 /// at most `along` pixels.
-fn row(
-    pen: &Pen<'_>,
-    arrow: &ForceArrow,
-    tail: PagePoint,
-    (ux, uy): (f64, f64),
-    along: f64,
-) -> Vec<f64> {
+fn row(pen: &Pen<'_>, arrow: &ForceArrow, tail: PagePoint, (ux, uy): (f64, f64), along: f64) -> Vec<f64> {
     let arrows = pen.context.marks[pen.number].arrows.iter();
     let others = arrows.filter(|a| a.kind == ArrowKind::Load && !core::ptr::eq(*a, arrow));
     let offset = |other: &ForceArrow| {

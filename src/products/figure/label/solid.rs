@@ -24,14 +24,8 @@ impl DrawnBoxes {
         };
         let ground = scene.ground.iter().enumerate();
         DrawnBoxes {
-            blocks: scene.frames[pen.number]
-                .placed
-                .iter()
-                .filter_map(drawn)
-                .collect(),
-            ground: ground
-                .map(|(i, g)| (i, pen.camera.rect(g.body.polygon.bounds())))
-                .collect(),
+            blocks: scene.frames[pen.number].placed.iter().filter_map(drawn).collect(),
+            ground: ground.map(|(i, g)| (i, pen.camera.rect(g.body.polygon.bounds()))).collect(),
         }
     }
 

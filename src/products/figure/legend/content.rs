@@ -39,10 +39,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(block_colours(context, &drawn));
     // The arrow of a weight has a small circle at its tail. Small figures omit this circle, so their legend does not
     // explain it.
-    if !options.printed()
-        && unit >= MIN_READABLE_UNIT_LENGTH
-        && drawn.any(|kind| kind == ArrowKind::Weight)
-    {
+    if !options.printed() && unit >= MIN_READABLE_UNIT_LENGTH && drawn.any(|kind| kind == ArrowKind::Weight) {
         let words = match options.is_column() {
             true => "weight",
             false => "weight, from the centroid",
@@ -88,11 +85,7 @@ struct DrawnArrows<'a> {
 impl<'a> DrawnArrows<'a> {
     fn new(context: &'a FigureContext<'a>, unit: f64) -> DrawnArrows<'a> {
         let scale = unit / context.unit;
-        DrawnArrows {
-            context,
-            scale,
-            too_small: context.arrows_too_small(scale),
-        }
+        DrawnArrows { context, scale, too_small: context.arrows_too_small(scale) }
     }
 
     fn arrows(&self) -> impl Iterator<Item = &'a ForceArrow> {
@@ -111,8 +104,7 @@ impl<'a> DrawnArrows<'a> {
 
     /// True if the figure draws a dot instead of a small arrow for which `kind` is true.
     fn any_dot(&self, kind: fn(ArrowKind) -> bool) -> bool {
-        self.arrows()
-            .any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
+        self.arrows().any(|a| kind(a.kind) && description::dotted(a, self.is_seen(a)))
     }
 }
 
@@ -153,23 +145,13 @@ fn missing(context: &FigureContext<'_>, drawn: &DrawnArrows<'_>) -> Option<Entry
 
 /// Returns the legend entry for the scale of arrows: a sample arrow for a round force. The arrow of `newtons` N is one
 /// unit length (`unit` pixels) long, and `largest` is the largest force in N. Returns `None` if there are no forces.
-pub(crate) fn scale(
-    newtons: f64,
-    largest: f64,
-    unit: f64,
-    options: &Options,
-    units: UnitsEntry,
-) -> Option<Entry> {
+pub(crate) fn scale(newtons: f64, largest: f64, unit: f64, options: &Options, units: UnitsEntry) -> Option<Entry> {
     let largest = if options.printed() { newtons } else { largest };
     let amount = round_below_in(largest, units.force());
     let width = options.theme.widths.force * unit;
     // In printed figures, the length of the shaft shows the force. The head of the sample arrow is added to this
     // length.
-    let beyond = if options.printed() {
-        HEAD_LENGTH * width
-    } else {
-        0.0
-    };
+    let beyond = if options.printed() { HEAD_LENGTH * width } else { 0.0 };
     (amount > 0.0).then(|| {
         let length = amount / newtons * unit + beyond;
         Entry::Scale(length, width, quantity(amount, units.force()))
@@ -231,18 +213,12 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let amounts: Vec<f64> = loads.map(|l| l.force.norm()).filter(|a| *a > 0.0).collect();
     // In a comparison, the list of loads contains the loads of two scenes. Therefore count the loads of each frame.
     let in_frame = |frame: &Frame| {
-        let loads = scene
-            .loads
-            .iter()
-            .filter(|l| frame.placed.contains(&l.block));
+        let loads = scene.loads.iter().filter(|l| frame.placed.contains(&l.block));
         loads.filter(|l| l.force.norm() > 0.0).count()
     };
     let counts: Vec<usize> = scene.frames.iter().map(in_frame).collect();
     let most_in_frame = counts.iter().copied().max().unwrap_or(0);
-    let number = match counts
-        .iter()
-        .all(|count| *count == most_in_frame || *count == 0)
-    {
+    let number = match counts.iter().all(|count| *count == most_in_frame || *count == 0) {
         true => format!("{most_in_frame} "),
         false => String::new(),
     };
@@ -267,11 +243,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         true => format!("{words}, amounts at the largest {MAX_AMOUNTS}"),
         false => words,
     };
-    let words = if turns {
-        format!("{words}; {TURN_SCALE_TEXT}")
-    } else {
-        words
-    };
+    let words = if turns { format!("{words}; {TURN_SCALE_TEXT}") } else { words };
     Some(Entry::Symbol(load_symbol, SAMPLE_LENGTH, words))
 }
 
@@ -281,10 +253,7 @@ fn has_too_many_loads(context: &FigureContext<'_>) -> bool {
         let arrows = marks.arrows.iter();
         arrows.filter(|arrow| arrow.kind == ArrowKind::Load).count()
     };
-    context
-        .marks
-        .iter()
-        .any(|marks| loads(marks) > CROWDED_AMOUNTS)
+    context.marks.iter().any(|marks| loads(marks) > CROWDED_AMOUNTS)
 }
 
 /// True if, in at least one frame, an arrow of a load is drawn at a larger scale than the arrows of other forces. False
@@ -304,18 +273,8 @@ fn own_scale(context: &FigureContext<'_>) -> bool {
 pub(crate) fn robots(context: &FigureContext<'_>) -> Vec<Entry> {
     let (scene, theme) = (&context.analysis.scene, &context.options.theme);
     let mut entries = Vec::new();
-    let holds = |number: usize| {
-        scene
-            .frames
-            .iter()
-            .any(|f| f.holds.iter().any(|h| h.robot.0 == number))
-    };
-    let plans = |number: usize| {
-        scene
-            .frames
-            .iter()
-            .any(|f| f.plans.iter().any(|p| p.robot.0 == number))
-    };
+    let holds = |number: usize| scene.frames.iter().any(|f| f.holds.iter().any(|h| h.robot.0 == number));
+    let plans = |number: usize| scene.frames.iter().any(|f| f.plans.iter().any(|p| p.robot.0 == number));
     let busy = |number: &usize| holds(*number) || plans(*number);
     let busy: Vec<usize> = (0..scene.robots.len()).filter(busy).collect();
     for number in busy.iter().take(MAX_LISTED_ROBOTS) {

@@ -89,18 +89,12 @@ impl Entry {
             | (Entry::Planned(_), Entry::Planned(_))
             | (Entry::Missing(_), Entry::Missing(_)) => true,
             (Entry::Robot(a, name), Entry::Robot(b, other)) => (a, name) == (b, other),
-            (Entry::Amplitudes(a, what, ..), Entry::Amplitudes(b, other, ..)) => {
-                (a, what) == (b, other)
-            }
+            (Entry::Amplitudes(a, what, ..), Entry::Amplitudes(b, other, ..)) => (a, what) == (b, other),
             (Entry::Line(_, a, what), Entry::Line(_, b, other)) => (a, what) == (b, other),
             (Entry::Scale(a, _, what), Entry::Scale(b, _, other)) => (a, what) == (b, other),
             (Entry::Metres(a, what), Entry::Metres(b, other)) => (a, what) == (b, other),
-            (Entry::Numbered(a, _, what, _), Entry::Numbered(b, _, other, _)) => {
-                (a, what) == (b, other)
-            }
-            (Entry::Note(a), Entry::Note(b)) | (Entry::Symbol(_, _, a), Entry::Symbol(_, _, b)) => {
-                a == b
-            }
+            (Entry::Numbered(a, _, what, _), Entry::Numbered(b, _, other, _)) => (a, what) == (b, other),
+            (Entry::Note(a), Entry::Note(b)) | (Entry::Symbol(_, _, a), Entry::Symbol(_, _, b)) => a == b,
             _ => false,
         }
     }
@@ -109,16 +103,13 @@ impl Entry {
     pub(super) fn symbol_width(&self, theme: &Theme) -> f64 {
         let wide = |words: &str| text::width(words, Face::Sans, theme.sizes.key);
         match self {
-            Entry::Blocks(blocks) => blocks
-                .iter()
-                .map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1))
-                .fold(wide(ON_BLOCK), |sum, block| sum + block),
+            Entry::Blocks(blocks) => {
+                blocks.iter().map(|b| 8.0 + 22.0 + 5.0 + wide(&b.1)).fold(wide(ON_BLOCK), |sum, block| sum + block)
+            }
             Entry::Colours(colours, short) => symbol::colour_pitch(*short) * colours.len() as f64,
             Entry::Robot(..) | Entry::Planned(_) => 2.0 * SYMBOL_GAP + 7.0,
             Entry::Missing(_) => 34.0 + 7.0,
-            Entry::Amplitudes([low, high], _, _, bar) => {
-                wide(low) + 7.0 + bar + 7.0 + wide(high) + 8.0
-            }
+            Entry::Amplitudes([low, high], _, _, bar) => wide(low) + 7.0 + bar + 7.0 + wide(high) + 8.0,
             Entry::Scale(length, ..) | Entry::Metres(length, _) => length + 7.0,
             Entry::Line(..) => LINE_LENGTH + 7.0,
             Entry::Note(_) => 0.0,
@@ -145,9 +136,7 @@ impl Entry {
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
             Entry::Missing(MissingWords::Usual) => MISSING_TEXT.to_owned(),
             Entry::Missing(MissingWords::Short) => SHORT_MISSING_TEXT.to_owned(),
-            Entry::Missing(MissingWords::Included(larger)) => {
-                INCLUDED_MISSING_TEXT[usize::from(*larger)].to_owned()
-            }
+            Entry::Missing(MissingWords::Included(larger)) => INCLUDED_MISSING_TEXT[usize::from(*larger)].to_owned(),
             Entry::Amplitudes(_, words, ..)
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)
@@ -169,11 +158,7 @@ impl Entry {
         let mut items = self.symbol(at, theme);
         let words = self.words();
         if !words.is_empty() {
-            items.push(written(
-                &words,
-                at.moved(self.symbol_width(theme), 0.0),
-                theme,
-            ));
+            items.push(written(&words, at.moved(self.symbol_width(theme), 0.0), theme));
         }
         items
     }
@@ -186,9 +171,7 @@ impl Entry {
             Entry::Robot(colour, _) => vec![symbol::robot(*colour, at, theme)],
             Entry::Planned(colour) => vec![symbol::planned(*colour, at)],
             Entry::Missing(_) => vec![symbol::arrow(at, (34.0, 4.0), theme.failure)],
-            Entry::Amplitudes(ends, _, ramp, bar) => {
-                symbol::amplitudes(ends, (*ramp, *bar), at, theme)
-            }
+            Entry::Amplitudes(ends, _, ramp, bar) => symbol::amplitudes(ends, (*ramp, *bar), at, theme),
             Entry::Line(colour, width, _) => vec![symbol::line(*colour, *width, at)],
             Entry::Metres(length, _) => vec![symbol::metres(*length, at, theme)],
             Entry::Note(_) => Vec::new(),
@@ -207,10 +190,7 @@ impl Entry {
 /// Returns the text for a robot in the legend: `robot` followed by its name, or only its name if this begins with
 /// `robot`.
 fn robot(id: &str) -> String {
-    match id
-        .get(..5)
-        .is_some_and(|start| start.eq_ignore_ascii_case("robot"))
-    {
+    match id.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("robot")) {
         true => id.to_owned(),
         false => format!("robot {id}"),
     }

@@ -26,11 +26,7 @@ impl<'e> WrappedEntry<'e> {
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
         let column = entry.column().unwrap_or(0.0).min(room);
         let width = (symbol + widths.fold(0.0, f64::max)).max(column);
-        WrappedEntry {
-            entry,
-            lines,
-            width,
-        }
+        WrappedEntry { entry, lines, width }
     }
 
     /// Returns the additional height of the entry, pixels, compared with an entry of one text line.
@@ -41,10 +37,7 @@ impl<'e> WrappedEntry<'e> {
     /// Draws the entry with all its text lines. `at` is the middle of its left edge on the page.
     fn draw(&self, at: PagePoint, theme: &Theme) -> Vec<Item> {
         let mut items = self.entry.symbol(at, theme);
-        let first = at.moved(
-            self.entry.symbol_width(theme),
-            -0.5 * self.extra_height(theme),
-        );
+        let first = at.moved(self.entry.symbol_width(theme), -0.5 * self.extra_height(theme));
         for (number, line) in self.lines.iter().enumerate() {
             let down = number as f64 * WRAPPED_LINE_HEIGHT * theme.sizes.key;
             items.push(written(line, first.moved(0.0, down), theme));
@@ -76,18 +69,13 @@ fn lines<'e>(entries: &'e [Entry], room: f64, gap: f64, theme: &Theme) -> Vec<Ke
     for entry in entries {
         let laid = WrappedEntry::new(entry, room, theme);
         let is_listed = entry.column().is_some();
-        let fits = |line: &&mut KeyLine<'e>| {
-            line.is_list() == is_listed && line.width + gap + laid.width <= room
-        };
+        let fits = |line: &&mut KeyLine<'e>| line.is_list() == is_listed && line.width + gap + laid.width <= room;
         match lines.iter_mut().find(fits) {
             Some(line) => {
                 line.width += gap + laid.width;
                 line.entries.push(laid);
             }
-            None => lines.push(KeyLine {
-                width: laid.width,
-                entries: vec![laid],
-            }),
+            None => lines.push(KeyLine { width: laid.width, entries: vec![laid] }),
         }
     }
     lines
@@ -112,11 +100,7 @@ pub(crate) fn draw(
         let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
         let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
         // All lines of a numbered list begin at the same x coordinate, so that its columns are aligned.
-        let width = if key_line.is_list() {
-            list
-        } else {
-            key_line.width
-        };
+        let width = if key_line.is_list() { list } else { key_line.width };
         let mut at = PagePoint::new(middle - width / 2.0, top + height + high / 2.0);
         for entry in &key_line.entries {
             group.items.extend(entry.draw(at, theme));

@@ -1,9 +1,7 @@
 //! Draws the symbols of the legend. In each function, `at` is the middle of the left edge of the symbol on the page.
 
 use crate::drawing::arrow::straight;
-use crate::drawing::{
-    Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
-};
+use crate::drawing::{Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
@@ -71,16 +69,8 @@ pub(super) fn robot(colour: Colour, at: PagePoint, theme: &Theme) -> Item {
 
 /// Draws the symbol of a planned block: the outline of a hexagon.
 pub(super) fn planned(colour: Colour, at: PagePoint) -> Item {
-    let hexagon = [
-        (-1.0, 0.0),
-        (-0.5, -0.87),
-        (0.5, -0.87),
-        (1.0, 0.0),
-        (0.5, 0.87),
-        (-0.5, 0.87),
-    ];
-    let corner =
-        |(x, y): (f64, f64)| at.moved(SYMBOL_GAP + 0.85 * SYMBOL_GAP * x, 0.85 * SYMBOL_GAP * y);
+    let hexagon = [(-1.0, 0.0), (-0.5, -0.87), (0.5, -0.87), (1.0, 0.0), (0.5, 0.87), (-0.5, 0.87)];
+    let corner = |(x, y): (f64, f64)| at.moved(SYMBOL_GAP + 0.85 * SYMBOL_GAP * x, 0.85 * SYMBOL_GAP * y);
     let outline = Outline::ring(hexagon.map(corner));
     Path::stroked(outline, Stroke::new(colour, 1.8)).into()
 }
@@ -100,11 +90,7 @@ pub(super) fn amplitudes(
         // Each part extends to the right end of the bar, and the next part covers most of it. So there are no gaps
         // between the parts.
         let x = bar * f64::from(part) / f64::from(parts);
-        let rect = PageRect {
-            at: at.moved(start + x, -5.0),
-            width: bar - x,
-            height: 10.0,
-        };
+        let rect = PageRect { at: at.moved(start + x, -5.0), width: bar - x, height: 10.0 };
         let fill = ramp(theme, (f64::from(part) + 0.5) / f64::from(parts));
         items.push(Path::filled(Outline::rounded(rect, 0.0), fill).into());
     }
@@ -143,26 +129,17 @@ pub(super) fn weight_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let ring = Outline::circle(from, CENTROID_RADIUS * 2.6);
     vec![
         Path::filled(arrow, colour).into(),
-        Path::filled(ring, theme.page)
-            .with_stroke(Stroke::new(colour, 1.2))
-            .into(),
+        Path::filled(ring, theme.page).with_stroke(Stroke::new(colour, 1.2)).into(),
     ]
 }
 
 pub(super) fn load_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let arrow = straight(at, (SAMPLE_LENGTH, 0.0), 3.4);
-    vec![
-        Path::filled(arrow, theme.page)
-            .with_stroke(Stroke::new(theme.load, 1.2))
-            .into(),
-    ]
+    vec![Path::filled(arrow, theme.page).with_stroke(Stroke::new(theme.load, 1.2)).into()]
 }
 
 pub(super) fn load_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let dot = Path::filled(
-        Outline::circle(at.moved(DOT_RADIUS, 0.0), DOT_RADIUS),
-        theme.page,
-    );
+    let dot = Path::filled(Outline::circle(at.moved(DOT_RADIUS, 0.0), DOT_RADIUS), theme.page);
     vec![dot.with_stroke(Stroke::new(theme.load, 1.2)).into()]
 }
 

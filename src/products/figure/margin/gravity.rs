@@ -36,9 +36,7 @@ impl Gravity {
     pub fn new(analysis: &Analysis, frame: usize, edge: f64, toward: Toward) -> Option<Gravity> {
         let scene = &analysis.scene;
         let blocks = scene.frames[frame].placed.iter();
-        let structure = blocks
-            .map(|id| scene.blocks[id.0].body.polygon.bounds())
-            .reduce(Bounds::union)?;
+        let structure = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)?;
         let diagonal = structure.diagonal();
         let down = scene.down() * (GRAVITY_LENGTH * diagonal);
         let arrow = |edge: f64| match toward {
@@ -59,11 +57,7 @@ impl Gravity {
         let beyond = down.x.max(beyond).max(0.0);
         let left = structure.min.x
             - GRAVITY_DISTANCE * diagonal
-            - if beyond > 0.5 * GRAVITY_LENGTH * diagonal {
-                beyond
-            } else {
-                0.0
-            };
+            - if beyond > 0.5 * GRAVITY_LENGTH * diagonal { beyond } else { 0.0 };
         let from = Point::new(left, structure.max.y);
         Some(Gravity {
             toward,
@@ -93,9 +87,7 @@ impl Gravity {
         ink.line(from, now, 1.2);
         let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
         let present = Path::stroked(Outline::line([from, now]), dashed);
-        let mut group = Group::with_class("gravity")
-            .titled(self.title())
-            .with(present);
+        let mut group = Group::with_class("gravity").titled(self.title()).with(present);
         if let Some(other) = other {
             group = group.with(other);
         }
@@ -105,19 +97,16 @@ impl Gravity {
     /// Returns the tooltip of the arrows.
     fn title(&self) -> String {
         match self.toward {
-            Toward::HorizontalLoad => format!(
-                "In addition to gravity, a horizontal load of {} of each weight",
-                percent_of(self.edge)
-            ),
+            Toward::HorizontalLoad => {
+                format!("In addition to gravity, a horizontal load of {} of each weight", percent_of(self.edge))
+            }
             _ => format!("Gravity turned by {}", degrees(self.edge.abs())),
         }
     }
 
     /// Returns the common tail and the tips of the arrows, in metres.
     pub fn points(&self) -> impl Iterator<Item = Point> {
-        [self.from, self.now, self.there]
-            .into_iter()
-            .chain(self.other)
+        [self.from, self.now, self.there].into_iter().chain(self.other)
     }
 }
 
@@ -150,8 +139,5 @@ pub(super) fn push_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 fn symbol(from: PagePoint, vector: (f64, f64), theme: &Theme) -> Vec<Item> {
     let now = Outline::line([from, from.moved(0.0, 14.0)]);
     let dashed = Stroke::new(theme.faint, 1.2).dashed([4.0, 3.0]);
-    vec![
-        Path::stroked(now, dashed).into(),
-        Path::filled(straight(from, vector, 1.6), theme.ink).into(),
-    ]
+    vec![Path::stroked(now, dashed).into(), Path::filled(straight(from, vector, 1.6), theme.ink).into()]
 }

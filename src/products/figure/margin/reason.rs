@@ -80,10 +80,7 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
         return match toward {
             Toward::Tilt => {
                 let turn = |edge: f64| degrees(edge.abs());
-                format!(
-                    "falls once gravity is turned by {}",
-                    both_ends(edge, interval, turn)
-                )
+                format!("falls once gravity is turned by {}", both_ends(edge, interval, turn))
             }
             Toward::HorizontalLoad => {
                 let push = |edge: f64| format!("{} of each weight", percent_of(edge));
@@ -91,13 +88,8 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
             }
             Toward::LoadFactor => {
                 let below = least_factor(interval);
-                let below = below.map_or_else(String::new, |low| {
-                    format!(", or less than {} times", digits(low))
-                });
-                format!(
-                    "falls once its loads are {} times as large{below}",
-                    digits(edge)
-                )
+                let below = below.map_or_else(String::new, |low| format!(", or less than {} times", digits(low)));
+                format!("falls once its loads are {} times as large{below}", digits(edge))
             }
         };
     }
@@ -106,15 +98,12 @@ fn standing(analysis: &Analysis, frame: usize, toward: Toward, interval: &Interv
             "its margin was not confirmed by the verdicts on both sides of it".to_owned()
         }
         (Interval::Between { .. }, Toward::Tilt) => "no tilt of gravity makes it fall".to_owned(),
-        (Interval::Between { .. }, Toward::HorizontalLoad) => {
-            "no horizontal load makes it fall".to_owned()
-        }
+        (Interval::Between { .. }, Toward::HorizontalLoad) => "no horizontal load makes it fall".to_owned(),
         (Interval::Between { .. }, Toward::LoadFactor) => match least_factor(interval) {
             None => "its loads may grow without limit".to_owned(),
-            Some(low) => format!(
-                "its loads may grow without limit; falls once they are {} times as large",
-                digits(low)
-            ),
+            Some(low) => {
+                format!("its loads may grow without limit; falls once they are {} times as large", digits(low))
+            }
         },
         _ => "its margin was not found".to_owned(),
     }
@@ -127,12 +116,8 @@ fn only_at_zero(toward: Toward, interval: &Interval) -> Option<&'static str> {
     let is_zero = |end: &Option<f64>| end.is_some_and(|v| v.abs() < SAME_AS_ZERO);
     match toward {
         _ if !ends.iter().all(is_zero) => None,
-        Toward::Tilt => {
-            Some("stands only without a tilt; falls once gravity is turned to either side")
-        }
-        Toward::HorizontalLoad => {
-            Some("stands only without a horizontal load; falls once pushed to either side")
-        }
+        Toward::Tilt => Some("stands only without a tilt; falls once gravity is turned to either side"),
+        Toward::HorizontalLoad => Some("stands only without a horizontal load; falls once pushed to either side"),
         Toward::LoadFactor => None,
     }
 }
@@ -171,9 +156,5 @@ fn least_factor(interval: &Interval) -> Option<f64> {
 
 /// Formats the magnitude of a fraction of gravity in percent. The result may exceed 100 %.
 pub(super) fn percent_of(share: f64) -> String {
-    if share.abs() < 1.0 {
-        percent(share.abs())
-    } else {
-        format!("{:.0}\u{a0}%", 100.0 * share.abs())
-    }
+    if share.abs() < 1.0 { percent(share.abs()) } else { format!("{:.0}\u{a0}%", 100.0 * share.abs()) }
 }

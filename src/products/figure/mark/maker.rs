@@ -62,11 +62,7 @@ impl ArrowMaker<'_> {
     /// Returns the position of the heads of arrows: beyond the end of the vector in printed figures, otherwise within
     /// the vector.
     pub(super) fn head(&self) -> Head {
-        if self.options.printed() {
-            Head::Beyond
-        } else {
-            Head::Within
-        }
+        if self.options.printed() { Head::Beyond } else { Head::Within }
     }
 
     /// Returns the width of an arrow's shaft in metres. `full` is the width of a long arrow, in unit lengths. With
@@ -106,26 +102,11 @@ impl ArrowMaker<'_> {
         if let (true, Some(kind)) = (source, half) {
             for side in [1.0, -1.0] {
                 let force = Vector::new(0.0, side * torque / self.edge);
-                self.straight(
-                    marks,
-                    kind,
-                    on,
-                    at + Vector::new(side * self.edge / 2.0, 0.0),
-                    force,
-                    look,
-                );
+                self.straight(marks, kind, on, at + Vector::new(side * self.edge / 2.0, 0.0), force, look);
             }
         } else {
             let arc = torque / self.edge * self.metres_per_newton;
-            marks.turns.push(TurnArrow {
-                on,
-                at,
-                torque,
-                arc,
-                colour: look.0,
-                width: look.1 * self.edge,
-                kind,
-            });
+            marks.turns.push(TurnArrow { on, at, torque, arc, colour: look.0, width: look.1 * self.edge, kind });
         }
     }
 
@@ -148,11 +129,7 @@ impl ArrowMaker<'_> {
             }
             for contact in &touching[id.0] {
                 let [first, second] = contact.interface.bodies;
-                let (from, sign) = if first == on {
-                    (second, 1.0)
-                } else {
-                    (first, -1.0)
-                };
+                let (from, sign) = if first == on { (second, 1.0) } else { (first, -1.0) };
                 for part in parts(contact, self.options.style) {
                     let force = part.force * sign;
                     self.straight(marks, (part.kind)(from), on, part.at, force, look);
@@ -180,22 +157,8 @@ impl ArrowMaker<'_> {
         for robot in &frame_analysis.robots {
             let on = BodyId::Block(robot.block);
             let look = (theme.robot(robot.robot.0), theme.widths.robot);
-            self.straight(
-                marks,
-                ArrowKind::Robot(robot.robot),
-                on,
-                robot.at,
-                robot.force,
-                look,
-            );
-            self.torque(
-                marks,
-                TurnKind::Robot(robot.robot),
-                on,
-                robot.at,
-                robot.torque,
-                look,
-            );
+            self.straight(marks, ArrowKind::Robot(robot.robot), on, robot.at, robot.force, look);
+            self.torque(marks, TurnKind::Robot(robot.robot), on, robot.at, robot.torque, look);
         }
     }
 }

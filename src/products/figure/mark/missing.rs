@@ -33,13 +33,7 @@ impl ArrowMaker<'_> {
         let scale = self.missing_scale(frame_analysis);
         for failure in &frame_analysis.failures {
             let at = failure.at();
-            if let Failure::RobotTorque {
-                robot,
-                block,
-                torque,
-                ..
-            } = *failure
-            {
+            if let Failure::RobotTorque { robot, block, torque, .. } = *failure {
                 let on = BodyId::Block(block);
                 self.torque(marks, TurnKind::Missing(robot), on, at, torque, look);
                 continue;
@@ -56,16 +50,7 @@ impl ArrowMaker<'_> {
                     true => at,
                     false => self.start_on_block(kind, block, at, vector, width),
                 };
-                marks.arrows.push(ForceArrow {
-                    on,
-                    at,
-                    vector,
-                    force,
-                    colour: look.0,
-                    width,
-                    head: self.head(),
-                    kind,
-                });
+                marks.arrows.push(ForceArrow { on, at, vector, force, colour: look.0, width, head: self.head(), kind });
             }
         }
     }
@@ -74,23 +59,14 @@ impl ArrowMaker<'_> {
     /// Other figures use the colour of their theme, so that red and green differ in a grey print.
     fn failure_colour(&self) -> Colour {
         let theme = &self.options.theme;
-        if self.options.printed() && *theme == Theme::thesis() {
-            Colour::hex(0xff0000)
-        } else {
-            theme.failure
-        }
+        if self.options.printed() && *theme == Theme::thesis() { Colour::hex(0xff0000) } else { theme.failure }
     }
 
     fn missing_scale(&self, frame_analysis: &FrameAnalysis) -> MissingScale {
         match self.options.normalisation {
-            Normalisation::Source => {
-                MissingScale::OfBlocks(largest_forces_on_blocks(self.scene, frame_analysis))
-            }
+            Normalisation::Source => MissingScale::OfBlocks(largest_forces_on_blocks(self.scene, frame_analysis)),
             Normalisation::Drawn => {
-                let amounts = frame_analysis
-                    .failures
-                    .iter()
-                    .map(|failure| failure.force().norm());
+                let amounts = frame_analysis.failures.iter().map(|failure| failure.force().norm());
                 MissingScale::Largest(amounts.fold(0.0, f64::max))
             }
         }
@@ -120,14 +96,7 @@ impl ArrowMaker<'_> {
     /// A missing pull is moved along its line of action until its head is at the joint. If it began at the joint, it
     /// would lie on the other block and look like a push. Missing friction is moved perpendicular to its direction into
     /// the block, by half the distance between parallel arrows. Other arrows are not moved.
-    fn start_on_block(
-        &self,
-        kind: ArrowKind,
-        block: BlockId,
-        at: Point,
-        vector: Vector,
-        width: f64,
-    ) -> Point {
+    fn start_on_block(&self, kind: ArrowKind, block: BlockId, at: Point, vector: Vector, width: f64) -> Point {
         match kind {
             ArrowKind::MissingPull(_) => {
                 // The arrow ends a little before the joint, so that its head does not touch the opposite arrow.
@@ -152,32 +121,15 @@ impl ArrowMaker<'_> {
 /// the force in N. The list is empty for a missing torque.
 fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
     match *failure {
-        Failure::Tension {
-            bodies: [a, b],
-            force,
-            ..
-        } => vec![
-            (ArrowKind::MissingPull(b), a, force),
-            (ArrowKind::MissingPull(a), b, -force),
-        ],
-        Failure::Friction {
-            bodies: [a, b],
-            force,
-            ..
-        } => vec![
-            (ArrowKind::MissingFriction(b), a, force),
-            (ArrowKind::MissingFriction(a), b, -force),
-        ],
-        Failure::RobotForce {
-            robot,
-            block,
-            force,
-            ..
-        } => vec![(
-            ArrowKind::MissingRobotForce(robot),
-            BodyId::Block(block),
-            force,
-        )],
+        Failure::Tension { bodies: [a, b], force, .. } => {
+            vec![(ArrowKind::MissingPull(b), a, force), (ArrowKind::MissingPull(a), b, -force)]
+        }
+        Failure::Friction { bodies: [a, b], force, .. } => {
+            vec![(ArrowKind::MissingFriction(b), a, force), (ArrowKind::MissingFriction(a), b, -force)]
+        }
+        Failure::RobotForce { robot, block, force, .. } => {
+            vec![(ArrowKind::MissingRobotForce(robot), BodyId::Block(block), force)]
+        }
         Failure::RobotTorque { .. } => Vec::new(),
     }
 }

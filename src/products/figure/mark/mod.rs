@@ -46,31 +46,15 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     let mut most = weights.fold(0.0, f64::max);
     match options.normalisation {
         Normalisation::Source => {
-            for contact in frame_analysis
-                .contacts
-                .iter()
-                .filter(|c| shown(c.resultant.at))
-            {
-                most = contact
-                    .normal_forces
-                    .iter()
-                    .copied()
-                    .fold(most, f64::max)
-                    .max(contact.friction_force.abs());
+            for contact in frame_analysis.contacts.iter().filter(|c| shown(c.resultant.at)) {
+                most = contact.normal_forces.iter().copied().fold(most, f64::max).max(contact.friction_force.abs());
             }
             for robot in frame_analysis.robots.iter().filter(|r| shown(r.at)) {
-                most = most
-                    .max(robot.force.x.abs())
-                    .max(robot.force.y.abs())
-                    .max(robot.torque.abs() / edge);
+                most = most.max(robot.force.x.abs()).max(robot.force.y.abs()).max(robot.torque.abs() / edge);
             }
         }
         Normalisation::Drawn => {
-            for contact in frame_analysis
-                .contacts
-                .iter()
-                .filter(|c| shown(c.resultant.at))
-            {
+            for contact in frame_analysis.contacts.iter().filter(|c| shown(c.resultant.at)) {
                 for part in parts(contact, options.style) {
                     most = most.max(part.force.norm());
                 }
@@ -79,9 +63,7 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
                 most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
             }
             for failure in frame_analysis.failures.iter().filter(|f| shown(f.at())) {
-                most = most
-                    .max(failure.force().norm())
-                    .max(failure.torque().abs() / edge);
+                most = most.max(failure.force().norm()).max(failure.torque().abs() / edge);
             }
         }
     }
@@ -98,13 +80,8 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
 /// The unit length is the side of a lattice cell, or a typical size of a block. There are no arrows if the frame does
 /// not exist or `newtons_per_unit` is not above 0.
 pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
-    let mut marks = Marks {
-        newtons_per_unit,
-        ..Marks::default()
-    };
-    let (Some(placed), Some(frame_analysis)) =
-        (analysis.scene.frames.get(frame), analysis.frames.get(frame))
-    else {
+    let mut marks = Marks { newtons_per_unit, ..Marks::default() };
+    let (Some(placed), Some(frame_analysis)) = (analysis.scene.frames.get(frame), analysis.frames.get(frame)) else {
         return marks;
     };
     if newtons_per_unit.is_nan() || newtons_per_unit <= 0.0 {
@@ -112,12 +89,7 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
     }
     let scene = &analysis.scene;
     let edge = unit(scene, options.zoom);
-    let maker = ArrowMaker {
-        scene,
-        options,
-        edge,
-        metres_per_newton: edge / newtons_per_unit,
-    };
+    let maker = ArrowMaker { scene, options, edge, metres_per_newton: edge / newtons_per_unit };
     maker.blocks(placed, frame_analysis, &mut marks);
     maker.robots(frame_analysis, &mut marks);
     maker.failures(frame_analysis, &mut marks);

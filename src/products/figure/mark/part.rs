@@ -26,20 +26,14 @@ pub(super) fn parts(contact: &Contact, style: ForceStyle) -> Vec<InterfaceForce>
         ForceStyle::Resultant => {
             let on_first = contact.resultant.on == contact.interface.bodies[0];
             let force = contact.resultant.force;
-            vec![part(
-                ArrowKind::Contact,
-                if on_first { force } else { -force },
-            )]
+            vec![part(ArrowKind::Contact, if on_first { force } else { -force })]
         }
         ForceStyle::Components => {
             let normal = contact.interface.normal;
             let pressed: f64 = contact.normal_forces.iter().sum();
             vec![
                 part(ArrowKind::Normal, normal * pressed),
-                part(
-                    ArrowKind::Friction,
-                    quarter_turn(normal) * contact.friction_force,
-                ),
+                part(ArrowKind::Friction, quarter_turn(normal) * contact.friction_force),
             ]
         }
     }

@@ -78,19 +78,13 @@ fn joined(marks: Group) -> Group {
             }
         }
     }
-    Group {
-        items: paths.into_iter().map(Item::from).collect(),
-        ..Group::with_class(&marks.class)
-    }
+    Group { items: paths.into_iter().map(Item::from).collect(), ..Group::with_class(&marks.class) }
 }
 
 /// Returns the position at which a point of an interface is drawn after the displacement, metres: halfway between its
 /// displaced positions on the two bodies.
 fn between(pen: &Pen<'_>, contact: &Contact, at: Point) -> Point {
-    let [a, b] = contact
-        .interface
-        .bodies
-        .map(|body| displaced_point(pen, body, at));
+    let [a, b] = contact.interface.bodies.map(|body| displaced_point(pen, body, at));
     a + (b - a) * 0.5
 }
 
@@ -109,16 +103,10 @@ fn ring_radius(pen: &Pen<'_>) -> f64 {
 /// Draws a ring at a hinge. `at` is the end of the interface that stays in contact.
 fn hinge(pen: &Pen<'_>, contact: &Contact, at: Point, ink: &mut Ink) -> Item {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
-    let (centre, radius) = (
-        pen.camera.place(between(pen, contact, at)),
-        ring_radius(pen),
-    );
+    let (centre, radius) = (pen.camera.place(between(pen, contact, at)), ring_radius(pen));
     ink.disc(centre, radius + 1.0);
     let pair = description::pair(scene, contact.interface.bodies);
-    Group::with_class("hinge")
-        .titled(format!("Hinge between {pair}"))
-        .with(ring(centre, radius, theme))
-        .into()
+    Group::with_class("hinge").titled(format!("Hinge between {pair}")).with(ring(centre, radius, theme)).into()
 }
 
 fn ring(centre: PagePoint, radius: f64, theme: &Theme) -> Path {
@@ -151,36 +139,21 @@ fn slip(pen: &Pen<'_>, contact: &Contact, joint: &Joint, ink: &mut Ink) -> Item 
         let along = turned(interface.tangent()) * (side * joint.slip.signum() * length);
         let aside = turned(interface.normal) * (side * SLIP_ARROW.1 * unit);
         let from = middle + aside - along * 0.5;
-        let (from, along, aside) = (
-            pen.camera.place(from),
-            pen.camera.turn(along),
-            pen.camera.turn(aside),
-        );
+        let (from, along, aside) = (pen.camera.place(from), pen.camera.turn(along), pen.camera.turn(aside));
         ink.line(from, from.moved(along.0, along.1), 4.0);
         let width = (0.035 * pen.unit()).clamp(0.8, 1.8);
-        group
-            .items
-            .extend(half_arrow(from, along, aside, width, theme));
+        group.items.extend(half_arrow(from, along, aside, width, theme));
     }
     group.into()
 }
 
 /// Returns a half-arrow with its barb on the side to which `aside` points, and its border in the colour of the page.
 /// All lengths are in pixels.
-fn half_arrow(
-    from: PagePoint,
-    along: (f64, f64),
-    aside: (f64, f64),
-    width: f64,
-    theme: &Theme,
-) -> [Item; 2] {
+fn half_arrow(from: PagePoint, along: (f64, f64), aside: (f64, f64), width: f64, theme: &Theme) -> [Item; 2] {
     let tip = from.moved(along.0, along.1);
-    let reach =
-        libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
-    let barb = tip.moved(
-        BARB_LENGTH * (0.55 * reach * aside.0 - along.0),
-        BARB_LENGTH * (0.55 * reach * aside.1 - along.1),
-    );
+    let reach = libm::hypot(along.0, along.1) / libm::hypot(aside.0, aside.1).max(f64::MIN_POSITIVE);
+    let barb =
+        tip.moved(BARB_LENGTH * (0.55 * reach * aside.0 - along.0), BARB_LENGTH * (0.55 * reach * aside.1 - along.1));
     let line = Outline::line([from, tip, barb]);
     let seam = Stroke::new(theme.page, width + 2.0);
     [
@@ -195,19 +168,7 @@ fn ring_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 
 fn slip_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let mut items = Vec::new();
-    items.extend(half_arrow(
-        at.moved(2.0, -2.8),
-        (22.0, 0.0),
-        (0.0, -3.5),
-        1.4,
-        theme,
-    ));
-    items.extend(half_arrow(
-        at.moved(24.0, 2.8),
-        (-22.0, 0.0),
-        (0.0, 3.5),
-        1.4,
-        theme,
-    ));
+    items.extend(half_arrow(at.moved(2.0, -2.8), (22.0, 0.0), (0.0, -3.5), 1.4, theme));
+    items.extend(half_arrow(at.moved(24.0, 2.8), (-22.0, 0.0), (0.0, 3.5), 1.4, theme));
     items
 }

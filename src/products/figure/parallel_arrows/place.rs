@@ -116,10 +116,7 @@ mod tests {
             assert_eq!(places.meeting(None).len(), count);
             places.put(*query);
         }
-        let point = Bounds {
-            min: Point::origin(),
-            max: Point::origin(),
-        };
+        let point = Bounds { min: Point::origin(), max: Point::origin() };
         let mut one = BoxGrid::sized_for([point].into_iter());
         one.put(point);
         assert_eq!(one.meeting(Some(point)), [0]);

@@ -31,9 +31,8 @@ impl Pen<'_> {
                 at + edge.normalize() * long
             });
             let tip = at + normal * long;
-            let head = [1.0, -1.0].map(|side| {
-                tip - (normal + interface.tangent() * (0.5 * side)) * (HEAD_SHARE * long)
-            });
+            let head =
+                [1.0, -1.0].map(|side| tip - (normal + interface.tangent() * (0.5 * side)) * (HEAD_SHARE * long));
             let mut arrow = line(&[at, tip]);
             arrow.extend(line(&[head[0], tip, head[1]]));
             let title = format!(
@@ -47,10 +46,7 @@ impl Pen<'_> {
                 .titled(title)
                 .with(Path::stroked(line(&[left, at, right]), cone))
                 .with(Path::stroked(arrow, Stroke::new(theme.ink, self.line)))
-                .with(Path::filled(
-                    Outline::circle(self.camera.place(at), DOT_RADIUS),
-                    theme.ink,
-                ));
+                .with(Path::filled(Outline::circle(self.camera.place(at), DOT_RADIUS), theme.ink));
             group.items.push(drawn.into());
         }
         group
@@ -60,14 +56,8 @@ impl Pen<'_> {
     pub(super) fn centre(&self, at: Point) -> Path {
         let (theme, at) = (&self.context.options.theme, self.camera.place(at));
         let mut mark = Outline::circle(at, 2.0 * DOT_RADIUS);
-        mark.extend(Outline::line([
-            at.moved(-2.0 * DOT_RADIUS, 0.0),
-            at.moved(2.0 * DOT_RADIUS, 0.0),
-        ]));
-        mark.extend(Outline::line([
-            at.moved(0.0, -2.0 * DOT_RADIUS),
-            at.moved(0.0, 2.0 * DOT_RADIUS),
-        ]));
+        mark.extend(Outline::line([at.moved(-2.0 * DOT_RADIUS, 0.0), at.moved(2.0 * DOT_RADIUS, 0.0)]));
+        mark.extend(Outline::line([at.moved(0.0, -2.0 * DOT_RADIUS), at.moved(0.0, 2.0 * DOT_RADIUS)]));
         Path::stroked(mark, Stroke::new(theme.ink, 0.8 * self.line))
     }
 }

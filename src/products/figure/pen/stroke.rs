@@ -5,9 +5,7 @@ use core::f64::consts::FRAC_PI_2;
 use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
 use crate::drawing::arrow::{HEAD_WIDTH, head, straight, turning};
 use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
-use crate::figure::arrow::{
-    ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
-};
+use crate::figure::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow};
 use crate::figure::by_colour::ByColour;
 use crate::figure::description;
 use crate::geometry::{Point, Vector};
@@ -33,18 +31,11 @@ impl Pen<'_> {
     /// the point where it acts; two opposite forces have only one dot.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
         let marks = &self.context.marks[self.number];
-        marks
-            .arrows
-            .iter()
-            .filter(|a| description::dotted(a, self.seen(a)))
+        marks.arrows.iter().filter(|a| description::dotted(a, self.seen(a)))
     }
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
-        let radius = if arrow.kind == ArrowKind::Load {
-            DOT_RADIUS
-        } else {
-            MISSING_RADIUS
-        };
+        let radius = if arrow.kind == ArrowKind::Load { DOT_RADIUS } else { MISSING_RADIUS };
         let outline = Outline::circle(self.camera.place(arrow.at), radius);
         let theme = &self.context.options.theme;
         let dot = if arrow.kind == ArrowKind::Load {
@@ -52,22 +43,15 @@ impl Pen<'_> {
         } else {
             Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
         };
-        Group::with_class("small")
-            .titled(description::arrow(self.context, arrow))
-            .with(dot)
+        Group::with_class("small").titled(description::arrow(self.context, arrow)).with(dot)
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
-        let outline = straight(
-            self.camera.place(arrow.at),
-            self.camera.turn(arrow.reach()),
-            self.width(arrow),
-        );
+        let outline = straight(self.camera.place(arrow.at), self.camera.turn(arrow.reach()), self.width(arrow));
         if arrow.kind == ArrowKind::Load {
             // Arrows of loads are hollow, so that they differ from other arrows even in a grey print.
             let edge = Stroke::new(arrow.colour, (0.3 * self.width(arrow)).clamp(0.7, 2.0));
-            return Path::filled(outline, self.context.options.theme.page)
-                .with_stroke(edge.mitred());
+            return Path::filled(outline, self.context.options.theme.page).with_stroke(edge.mitred());
         }
         Path::filled(outline, arrow.colour).cased(self.seam_around(arrow), self.casing)
     }
@@ -101,22 +85,14 @@ impl Pen<'_> {
     /// the head of another arrow on the same line. On top of them, draws whole arrows of loads again, because the
     /// circle of a weight must not hide a load at the same point. Missing forces are not drawn again.
     pub(crate) fn heads(&self) -> Group {
-        let mut group = Group {
-            echo: true,
-            ..Group::with_class("heads")
-        };
+        let mut group = Group { echo: true, ..Group::with_class("heads") };
         let marks = &self.context.marks[self.number];
-        let there = marks
-            .arrows
-            .iter()
-            .filter(|a| !a.kind.is_failure() && a.kind != ArrowKind::Load);
+        let there = marks.arrows.iter().filter(|a| !a.kind.is_failure() && a.kind != ArrowKind::Load);
         for arrow in there.filter(|a| self.seen(a)) {
             let width = self.width(arrow);
             let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.reach()));
             let head = Path::filled(head(from, along, width), arrow.colour);
-            group
-                .items
-                .push(head.cased(self.seam_around(arrow), self.casing).into());
+            group.items.push(head.cased(self.seam_around(arrow), self.casing).into());
             group.items.extend(self.centroid(arrow).map(Item::from));
         }
         let loads = marks.arrows.iter().filter(|a| a.kind == ArrowKind::Load);
@@ -201,32 +177,19 @@ impl Pen<'_> {
     pub(crate) fn arrows(&self, missing: bool) -> Group {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
-        for arrow in marks
-            .arrows
-            .iter()
-            .filter(|a| a.kind.is_failure() == missing && self.seen(a))
-        {
+        for arrow in marks.arrows.iter().filter(|a| a.kind.is_failure() == missing && self.seen(a)) {
             let title = description::arrow(self.context, arrow);
-            let mut force = Group::with_class("force")
-                .titled(title)
-                .with(self.arrow(arrow));
+            let mut force = Group::with_class("force").titled(title).with(self.arrow(arrow));
             force.items.extend(self.centroid(arrow).map(Item::from));
             group.items.push(force.into());
         }
         let small = self.dots().filter(|a| a.kind.is_failure() == missing);
         group.items.extend(small.map(|a| self.dot(a).into()));
-        for turn in marks
-            .turns
-            .iter()
-            .filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
+        for turn in
+            marks.turns.iter().filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
         {
             let title = description::turn(self.context, turn);
-            group.items.push(
-                Group::with_class("torque")
-                    .titled(title)
-                    .with(self.turn(turn))
-                    .into(),
-            );
+            group.items.push(Group::with_class("torque").titled(title).with(self.turn(turn)).into());
         }
         group
     }
@@ -250,11 +213,7 @@ impl Pen<'_> {
     pub(crate) fn arrows_by_colour(&self) -> Group {
         let mut group = Group::with_class("forces");
         let mut colours = ByColour::default();
-        for arrow in self.context.marks[self.number]
-            .arrows
-            .iter()
-            .filter(|a| !a.kind.is_failure() && self.seen(a))
-        {
+        for arrow in self.context.marks[self.number].arrows.iter().filter(|a| !a.kind.is_failure() && self.seen(a)) {
             colours.add(arrow.colour, self.arrow(arrow).outline);
         }
         group.items.extend(colours.paths(None));

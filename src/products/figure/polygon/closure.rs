@@ -10,11 +10,7 @@ use crate::scene::{BodyId, Scene};
 /// Returns two texts: why the polygon is closed, and the missing forces. If the polygon only closes with missing forces
 /// from the ground or from robots, the second text names only these forces. Missing forces between two blocks act in
 /// opposite pairs, so they do not change the polygon.
-pub(super) fn reason(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    marks: &Marks,
-) -> (String, String) {
+pub(super) fn reason(scene: &Scene, frame_analysis: &FrameAnalysis, marks: &Marks) -> (String, String) {
     let missing = || outer(marks).filter(|arrow| arrow.kind.is_failure());
     let is_robot = |kind| {
         let torque = matches!(kind, ArrowKind::MissingTorque(_));

@@ -6,8 +6,7 @@ use crate::geometry::{Bounds, Point, Vector};
 use crate::scene::Scene;
 use crate::wording::failure::pair;
 use crate::wording::sensitivity::{
-    self as words, EffectiveChange, FRICTION_STEP, Target, corner_moves, length, step_length,
-    visible,
+    self as words, EffectiveChange, FRICTION_STEP, Target, corner_moves, length, step_length, visible,
 };
 
 /// The length of the longest arrow is the larger of two lengths: this fraction of the structure's size, and this
@@ -80,7 +79,8 @@ impl Plan {
         let step = step_length(scene, frame_analysis);
         let outward = if is_high { 1.0 } else { -1.0 };
         let number_of = |corner: usize| {
-            let is_this = |change: &EffectiveChange| matches!(change.target, Target::Corner(number, _) if number == corner);
+            let is_this =
+                |change: &EffectiveChange| matches!(change.target, Target::Corner(number, _) if number == corner);
             changes.iter().position(is_this).map(|place| place + 1)
         };
         let (mut arrows, mut kinks) = (Vec::new(), 0);
@@ -91,30 +91,13 @@ impl Plan {
             } else if let Some((direction, rate)) = best
                 && rate * step > NO_EFFECT * end.value.abs()
             {
-                arrows.push(CornerArrow {
-                    at: corner.at,
-                    effect: direction * rate,
-                    number: number_of(number),
-                });
+                arrows.push(CornerArrow { at: corner.at, effect: direction * rate, number: number_of(number) });
             }
         }
-        let sketch = Sketch {
-            scene,
-            frame_analysis,
-            end,
-            kind,
-        };
+        let sketch = Sketch { scene, frame_analysis, end, kind };
         let changes = changes.iter().enumerate();
         let changes = changes.map(|(place, change)| sketch.numbered(place + 1, change));
-        Some(Plan {
-            kind,
-            is_high,
-            value: end.value,
-            changes: changes.collect(),
-            arrows,
-            kinks,
-            step,
-        })
+        Some(Plan { kind, is_high, value: end.value, changes: changes.collect(), arrows, kinks, step })
     }
 
     /// Returns the largest growth of the margin, per metre of displacement, that an arrow shows; 0 if there are no
@@ -138,9 +121,7 @@ impl Plan {
 
     /// True if a numbered change has no arrow, so that its number is drawn in a disc.
     pub fn has_marks(&self) -> bool {
-        self.changes
-            .iter()
-            .any(|change| self.mark(change).is_some())
+        self.changes.iter().any(|change| self.mark(change).is_some())
     }
 
     /// Returns the position of the number of a change in the scene. Returns `None` if an arrow has the number, or if
@@ -162,9 +143,7 @@ pub(super) fn scale(analysis: &Analysis, unit: f64, options: &Options) -> f64 {
     let plans = frames.filter_map(|frame| Plan::new(analysis, frame, options));
     let strongest = plans.map(|plan| plan.strongest()).fold(0.0, f64::max);
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
-    let structure = placed
-        .map(|id| scene.blocks[id.0].body.polygon.bounds())
-        .reduce(Bounds::union);
+    let structure = placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
     let size = structure.map_or(0.0, |b| b.width().max(b.height()));
     match strongest > 0.0 {
         true => (MAX_ARROW_SHARES.0 * size).max(MAX_ARROW_SHARES.1 * unit) / strongest,
@@ -209,11 +188,7 @@ impl Sketch<'_> {
                 (Some(scene.loads[load].at), done)
             }
             Target::Weight(block) => {
-                let sign = if change.words.ends_with("heavier") {
-                    '+'
-                } else {
-                    '−'
-                };
+                let sign = if change.words.ends_with("heavier") { '+' } else { '−' };
                 let block = &scene.blocks[block.0];
                 let done = format!("weight of {} {sign}10 %", block.id);
                 (Some(block.centroid), done)
@@ -225,10 +200,7 @@ impl Sketch<'_> {
                 let at = contact.map(|c| c.interface.middle());
                 (at, format!("{done} {}", friction_change_text(change)))
             }
-            Target::AllFriction => (
-                None,
-                format!("friction of all joints {}", friction_change_text(change)),
-            ),
+            Target::AllFriction => (None, format!("friction of all joints {}", friction_change_text(change))),
         };
         let after = words::value(self.kind, change.after);
         Numbered {
@@ -243,10 +215,6 @@ impl Sketch<'_> {
 
 /// Returns the change of a friction coefficient with its sign.
 fn friction_change_text(change: &EffectiveChange) -> String {
-    let sign = if change.words.starts_with("raising") {
-        '+'
-    } else {
-        '−'
-    };
+    let sign = if change.words.starts_with("raising") { '+' } else { '−' };
     format!("{sign}{FRICTION_STEP}")
 }

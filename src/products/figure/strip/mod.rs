@@ -30,11 +30,7 @@ const MIN_PICTURE_SHARE: f64 = 0.55;
 
 /// Draws a figure with one panel for each frame of the analysis. `content` draws the pictures of the panels. In a
 /// column of print, texts are smaller if the pictures would fill less than [`MIN_PICTURE_SHARE`] of the height.
-pub(crate) fn strip(
-    analysis: &Analysis,
-    content: &'static dyn PanelContent,
-    options: &Options,
-) -> Drawing {
+pub(crate) fn strip(analysis: &Analysis, content: &'static dyn PanelContent, options: &Options) -> Drawing {
     let (drawing, pictures) = with_room_for_labels(analysis, content, options);
     if !options.is_column() || pictures >= MIN_PICTURE_SHARE * drawing.height {
         return drawing;
@@ -46,23 +42,13 @@ pub(crate) fn strip(
 
 /// Draws the figure of [`strip`] with the font sizes of the options. Adds space around the structure if labels need it.
 /// Also returns the height of all rows of pictures, pixels.
-fn with_room_for_labels(
-    analysis: &Analysis,
-    content: &'static dyn PanelContent,
-    options: &Options,
-) -> (Drawing, f64) {
+fn with_room_for_labels(analysis: &Analysis, content: &'static dyn PanelContent, options: &Options) -> (Drawing, f64) {
     let context = FigureContext::new(analysis, options, content);
     let flat = context.view.height() <= FLAT * context.view.width();
     let count = analysis.frames.len();
     let drawn = |context: &FigureContext<'_>| {
         let layout = Layout::new(context, count);
-        let strip = Strip {
-            content,
-            context,
-            layout,
-            captions: None,
-            alike: false,
-        };
+        let strip = Strip { content, context, layout, captions: None, alike: false };
         let (_, pictures) = layout.least(context);
         let figure = (strip.drawing(), pictures);
         (figure, context.cramped.get(), layout.scale)
@@ -117,13 +103,7 @@ pub(crate) fn steps_of(
     let mut pages: Vec<Drawing> = Vec::new();
     for (frame, path_share) in steps {
         context.move_blocks(path_share);
-        let strip = Strip {
-            content,
-            context: &context,
-            layout: Layout::new(&context, 1),
-            captions: None,
-            alike: true,
-        };
+        let strip = Strip { content, context: &context, layout: Layout::new(&context, 1), captions: None, alike: true };
         pages.push(page(&[&strip], &[(0, frame)], &analysis.scene.title));
     }
     let highest = pages.iter().map(|p| p.height).fold(0.0, f64::max);
@@ -144,13 +124,7 @@ pub(crate) fn split(
     let context = FigureContext::new(analysis, options, content);
     let count = analysis.frames.len();
     let layout = Layout::roomy(&context, count);
-    let strip = Strip {
-        content,
-        context: &context,
-        layout,
-        captions: None,
-        alike: false,
-    };
+    let strip = Strip { content, context: &context, layout, captions: None, alike: false };
     let order: Vec<(usize, usize)> = (0..count).map(|frame| (0, frame)).collect();
     let drawn = |order: &[(usize, usize)]| page(&[&strip], order, &analysis.scene.title);
     let mut pages = Vec::new();

@@ -69,15 +69,8 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
     let column = options.is_column();
     let fitted = |entry: Entry| entry.fitted(inner, column, theme);
     let entries: Vec<Entry> = entries.into_iter().map(fitted).collect();
-    let mut page = PageWriter {
-        strips,
-        options,
-        layout,
-        gaps: Gaps::new(options),
-        inner,
-        y: layout.margin,
-        items: Vec::new(),
-    };
+    let mut page =
+        PageWriter { strips, options, layout, gaps: Gaps::new(options), inner, y: layout.margin, items: Vec::new() };
     if options.titles && !heading.is_empty() {
         page.heading(heading);
     }
@@ -91,9 +84,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
         page.legend(&entries);
     }
     let described = order.iter().take(MAX_DESCRIBED_FRAMES);
-    let described: Vec<String> = described
-        .map(|(strip, frame)| strips[*strip].described(*frame))
-        .collect();
+    let described: Vec<String> = described.map(|(strip, frame)| strips[*strip].described(*frame)).collect();
     Drawing {
         width: page.width().ceil(),
         height: (page.y + layout.margin).ceil(),
@@ -109,10 +100,7 @@ pub(crate) fn page(strips: &[&Strip<'_>], order: &[(usize, usize)], heading: &st
 fn inner_width(options: &Options, layout: &Layout, entries: &[Entry]) -> f64 {
     match options.width {
         Some(width) => (width - 2.0 * layout.margin).max(1.0),
-        None => layout
-            .content
-            .max(legend::widest(entries, &options.theme).min(MAX_LEGEND_WIDTH))
-            .max(MIN_INNER_WIDTH),
+        None => layout.content.max(legend::widest(entries, &options.theme).min(MAX_LEGEND_WIDTH)).max(MIN_INNER_WIDTH),
     }
 }
 
@@ -169,16 +157,9 @@ impl PageWriter<'_> {
         let left = self.middle() - self.layout.content / 2.0;
         let mut bottom = self.y;
         for (column, ((strip, frame), view)) in row.iter().zip(views).enumerate() {
-            let view = Bounds {
-                min: Point::new(view.min.x, low),
-                max: Point::new(view.max.x, high),
-            };
+            let view = Bounds { min: Point::new(view.min.x, low), max: Point::new(view.max.x, high) };
             let x = left + column as f64 * (self.layout.panel + self.layout.gap);
-            let place = PanelPosition {
-                at: PagePoint::new(x, self.y),
-                view,
-                captions,
-            };
+            let place = PanelPosition { at: PagePoint::new(x, self.y), view, captions };
             let (mut panel, end) = self.strips[*strip].panel(*frame, place);
             if self.strips.len() > 1 {
                 let id = panel.id.take();
@@ -195,12 +176,8 @@ impl PageWriter<'_> {
         let theme = &self.options.theme;
         self.y += self.gaps.above_rule;
         let (middle, half) = (self.middle(), self.inner / 2.0);
-        let rule = Outline::line([
-            PagePoint::new(middle - half, self.y),
-            PagePoint::new(middle + half, self.y),
-        ]);
-        self.items
-            .push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
+        let rule = Outline::line([PagePoint::new(middle - half, self.y), PagePoint::new(middle + half, self.y)]);
+        self.items.push(Path::stroked(rule, Stroke::new(theme.rule, 1.0)).into());
         self.y += self.gaps.below_rule;
         let top = (middle, self.y);
         let gaps = (self.gaps.key_line, self.gaps.key_entries);

@@ -41,20 +41,12 @@ impl Strip<'_> {
         let frame_analysis = &context.analysis.frames[frame];
         let aside = (layout.panel - view.width() * layout.scale) / 2.0;
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
-        let mut group = Group {
-            id: Some(format!("frame-{}", frame + 1)),
-            ..Group::with_class("frame")
-        };
+        let mut group = Group { id: Some(format!("frame-{}", frame + 1)), ..Group::with_class("frame") };
         group.title = self.labelled(frame, ": ", verdict::word(frame_analysis.verdict));
-        let picture = self
-            .content
-            .picture(&Pen::new(context, frame, &camera), view);
+        let picture = self.content.picture(&Pen::new(context, frame, &camera), view);
         let cramped = without_room(&picture);
         group = group.with(picture);
-        let mut below = PagePoint::new(
-            at.x + layout.panel / 2.0,
-            at.y + view.height() * layout.scale,
-        );
+        let mut below = PagePoint::new(at.x + layout.panel / 2.0, at.y + view.height() * layout.scale);
         if context.options.dimensions {
             group = group.with(dimension::lines(context, frame, view, &camera));
             below.y += dimension::SPACE_BELOW;
@@ -88,10 +80,7 @@ impl Strip<'_> {
             let words = Text::new(at, line, Face::Serif, size, theme.ink);
             items.push(words.anchored(Anchor::Middle).into());
         }
-        (
-            items,
-            PagePoint::new(top.x, y + captions as f64 * line_height),
-        )
+        (items, PagePoint::new(top.x, y + captions as f64 * line_height))
     }
 
     /// Draws the symbol and the text of a verdict, followed by the scale of arrows, in one line centred at `centre`. If
@@ -108,16 +97,10 @@ impl Strip<'_> {
             false => 0.0,
         };
         let scale = self.scale_of_panel(frame);
-        let scale_width = scale.as_ref().map_or(0.0, |scale| {
-            legend::widest(std::slice::from_ref(scale), theme)
-        });
+        let scale_width = scale.as_ref().map_or(0.0, |scale| legend::widest(std::slice::from_ref(scale), theme));
         let alone = (lead - SCALE_GAP).max(0.0);
         let stacked = scale.is_some() && alone > 0.0 && lead + scale_width > self.layout.panel;
-        let total = if scale.is_none() || stacked {
-            alone
-        } else {
-            lead + scale_width
-        };
+        let total = if scale.is_none() || stacked { alone } else { lead + scale_width };
         let start = centre.moved(-total / 2.0, 0.0);
         let mut items: Vec<Item> = Vec::new();
         if options.verdicts {
@@ -125,11 +108,7 @@ impl Strip<'_> {
         }
         let below = if stacked { 1.7 * size } else { 0.0 };
         if let Some(scale) = scale {
-            let at = if stacked {
-                centre.moved(-scale_width / 2.0, below)
-            } else {
-                start.moved(lead, 0.0)
-            };
+            let at = if stacked { centre.moved(-scale_width / 2.0, below) } else { start.moved(lead, 0.0) };
             items.extend(legend::single(&scale, at, theme));
         }
         (items, below)
@@ -146,13 +125,7 @@ impl Strip<'_> {
         let marks = &context.marks[frame];
         let unit = self.layout.scale * context.unit;
         let units = self.context.analysis.scene.units;
-        legend::scale(
-            marks.newtons_per_unit,
-            marks.largest(),
-            unit,
-            options,
-            units,
-        )
+        legend::scale(marks.newtons_per_unit, marks.largest(), unit, options, units)
     }
 
     /// Draws the symbol of a verdict and the text `words` to its right. `start` is the middle of the left edge of the
@@ -173,29 +146,19 @@ impl Strip<'_> {
 
     /// Writes the reason for a verdict below the point `top`. Notes follow it: on arrows that are too small to be
     /// visible, and on labels without space (`cramped`). Also returns the point below the text.
-    fn reason(
-        &self,
-        frame: usize,
-        top: PagePoint,
-        cramped: Option<String>,
-    ) -> (Vec<Item>, PagePoint) {
+    fn reason(&self, frame: usize, top: PagePoint, cramped: Option<String>) -> (Vec<Item>, PagePoint) {
         let (context, layout) = (self.context, self.layout);
         let theme = &context.options.theme;
         let reason = if context.options.verdicts {
-            let said = [
-                self.headline(frame).1,
-                Some(context.statements[frame].clone()),
-            ];
+            let said = [self.headline(frame).1, Some(context.statements[frame].clone())];
             let said = said.into_iter().flatten().filter(|words| !words.is_empty());
             said.collect::<Vec<String>>().join("; ")
         } else {
             String::new()
         };
         let size = theme.sizes.reason;
-        let broken =
-            |words: &str, most| text::sentence_lines(words, Face::Sans, size, layout.panel, most);
-        let unseen =
-            context.marks[frame].unseen(context.unit, layout.scale, context.analysis.scene.units);
+        let broken = |words: &str, most| text::sentence_lines(words, Face::Sans, size, layout.panel, most);
+        let unseen = context.marks[frame].unseen(context.unit, layout.scale, context.analysis.scene.units);
         let unseen = unseen.filter(|_| !context.arrows_too_small(layout.scale));
         let notes: Vec<String> = unseen.into_iter().chain(cramped).collect();
         let joined = notes.join("; ");
@@ -210,11 +173,7 @@ impl Strip<'_> {
         lines.extend(notes);
         if context.options.is_column() && !reason.is_empty() && !joined.is_empty() {
             let together = broken(&format!("{reason}; {joined}"), MAX_REASON_LINES);
-            lines = if together.len() < lines.len() {
-                together
-            } else {
-                lines
-            };
+            lines = if together.len() < lines.len() { together } else { lines };
         }
         let mut items = Vec::new();
         let mut y = top.y;

@@ -32,11 +32,7 @@ impl Strip<'_> {
             entries.push(legend::Entry::Note(left_out));
         }
         if options.scale_bar {
-            entries.extend(legend::metres(
-                self.layout.scale,
-                self.layout.content,
-                self.context.analysis.scene.units,
-            ));
+            entries.extend(legend::metres(self.layout.scale, self.layout.content, self.context.analysis.scene.units));
         }
         entries
     }
@@ -44,22 +40,14 @@ impl Strip<'_> {
     /// Returns the part of the scene that the panel of a frame shows, metres. The panels of all frames show the same
     /// width, so that structures are aligned in columns.
     pub(super) fn shows(&self, frame: usize) -> Bounds {
-        if self.alike {
-            self.context.view
-        } else {
-            self.context.row(&[frame])
-        }
+        if self.alike { self.context.view } else { self.context.row(&[frame]) }
     }
 
     /// Returns `what` with the caption of the frame before it, such as `(a) First step: falls`. `between` separates the
     /// parts of the caption.
     pub(super) fn labelled(&self, frame: usize, between: &str, what: &str) -> String {
         let caption = self.caption(frame, between);
-        if caption.is_empty() {
-            what.to_owned()
-        } else {
-            format!("{caption}: {what}")
-        }
+        if caption.is_empty() { what.to_owned() } else { format!("{caption}: {what}") }
     }
 
     /// Returns the lines of the caption of a frame; empty if the options exclude captions.
@@ -122,23 +110,13 @@ impl Strip<'_> {
     /// Returns a sentence for screen readers about a frame: its caption, the number and the weight of its blocks, its
     /// verdict with the reason, and its notices.
     pub(super) fn described(&self, frame: usize) -> String {
-        let (scene, frame_analysis) = (
-            &self.context.analysis.scene,
-            &self.context.analysis.frames[frame],
-        );
+        let (scene, frame_analysis) = (&self.context.analysis.scene, &self.context.analysis.frames[frame]);
         let blocks = counted(scene.frames[frame].placed.len(), "block");
         let weight = quantity(frame_analysis.weight, scene.units.force());
-        let what = format!(
-            "{blocks}, {weight} in all, {}",
-            verdict::word(frame_analysis.verdict)
-        );
+        let what = format!("{blocks}, {weight} in all, {}", verdict::word(frame_analysis.verdict));
         let mut sentence = self.labelled(frame, " ", &what);
         let more = [self.context.statements[frame].clone()];
-        for more in more
-            .iter()
-            .chain(&frame_analysis.notices)
-            .filter(|m| !m.is_empty())
-        {
+        for more in more.iter().chain(&frame_analysis.notices).filter(|m| !m.is_empty()) {
             sentence.push_str("; ");
             sentence.push_str(&more.replace(text::NO_BREAK, " "));
         }

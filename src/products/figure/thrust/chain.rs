@@ -77,19 +77,11 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
 
 /// Follows a chain of blocks from the joint `first` of the block `start` to the other end of the chain. Returns `None`
 /// if the blocks form a closed ring.
-fn follow_chain(
-    start: BlockId,
-    first: usize,
-    joints: &[Vec<usize>],
-    frame_analysis: &FrameAnalysis,
-) -> Option<Chain> {
+fn follow_chain(start: BlockId, first: usize, joints: &[Vec<usize>], frame_analysis: &FrameAnalysis) -> Option<Chain> {
     let mut chain = Chain {
         blocks: Vec::new(),
         joints: vec![first],
-        forces: vec![force_on(
-            &frame_analysis.contacts[first],
-            BodyId::Block(start),
-        )],
+        forces: vec![force_on(&frame_analysis.contacts[first], BodyId::Block(start))],
     };
     let (mut block, mut joint) = (start, first);
     loop {
@@ -97,9 +89,7 @@ fn follow_chain(
         joint = *joints[block.0].iter().find(|j| **j != joint)?;
         let next = other(&frame_analysis.contacts[joint], BodyId::Block(block));
         chain.joints.push(joint);
-        chain
-            .forces
-            .push(force_on(&frame_analysis.contacts[joint], next));
+        chain.forces.push(force_on(&frame_analysis.contacts[joint], next));
         match next {
             BodyId::Block(next) if joints[next.0].len() == 2 => block = next,
             _ => return Some(chain),
@@ -119,9 +109,5 @@ fn other(contact: &Contact, body: BodyId) -> BodyId {
 /// Returns the resultant force of a contact on `body`, which is one of its two bodies, N.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
     let force = contact.resultant.force;
-    if contact.resultant.on == body {
-        force
-    } else {
-        -force
-    }
+    if contact.resultant.on == body { force } else { -force }
 }

@@ -5,9 +5,7 @@
 use super::chain::{Chain, chains};
 use crate::analysis::FrameAnalysis;
 use crate::drawing::placement::Ink;
-use crate::drawing::{
-    Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
-};
+use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
 use crate::scene::{AppliedForce, ForceCause, Frame, Scene};
 
@@ -61,16 +59,9 @@ pub(crate) struct Fans {
 impl Fans {
     /// Computes the force polygons of a frame, one fan of rays for each chain of blocks, to the right of the structure.
     /// Returns `None` if no chain of blocks has a thrust. `unit` is the unit length in metres.
-    pub fn new(
-        scene: &Scene,
-        frame: &Frame,
-        frame_analysis: &FrameAnalysis,
-        unit: f64,
-    ) -> Option<Fans> {
+    pub fn new(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, unit: f64) -> Option<Fans> {
         let blocks = frame.placed.iter();
-        let structure = blocks
-            .map(|id| scene.blocks[id.0].body.polygon.bounds())
-            .reduce(Bounds::union)?;
+        let structure = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)?;
         let chains = chains(scene, frame, frame_analysis);
         let boxes: Vec<Bounds> = chains
             .iter()
@@ -87,10 +78,9 @@ impl Fans {
         let side = MIN_SIDE_SHARE * structure.width().max(structure.height());
         let (width, height) = (structure.width().max(side), structure.height().max(side));
         let gaps = HEIGHT_AND_GAP_SHARES.1 * height * (boxes.len() - 1) as f64;
-        let metres = (FAN_WIDTH_SHARE * width / widest)
-            .min((HEIGHT_AND_GAP_SHARES.0 * height - gaps).max(0.2 * height) / high);
-        let right = view::ground_shown(scene, unit)
-            .map_or(structure.max.x, |ground| structure.max.x.max(ground.max.x));
+        let metres =
+            (FAN_WIDTH_SHARE * width / widest).min((HEIGHT_AND_GAP_SHARES.0 * height - gaps).max(0.2 * height) / high);
+        let right = view::ground_shown(scene, unit).map_or(structure.max.x, |ground| structure.max.x.max(ground.max.x));
         let larger = structure.width().max(structure.height());
         let left = right + SIDE_SPACE_SHARES.0 * larger;
         let mut top = structure.max.y;
@@ -99,26 +89,16 @@ impl Fans {
             let pole = Point::new(left - metres * own.min.x, top - metres * own.max.y);
             let vertices = chain.forces.iter().map(|f| pole + *f * metres).collect();
             top -= metres * own.height() + HEIGHT_AND_GAP_SHARES.1 * height;
-            fans.push(Fan {
-                chain,
-                pole,
-                vertices,
-                metres,
-            });
+            fans.push(Fan { chain, pole, vertices, metres });
         }
         let bounds = Bounds {
             min: Point::new(right, top.min(structure.min.y)),
             max: Point::new(
-                (left + metres * widest + SIDE_SPACE_SHARES.1 * larger)
-                    .max(right + MIN_WIDTH_SHARE * larger),
+                (left + metres * widest + SIDE_SPACE_SHARES.1 * larger).max(right + MIN_WIDTH_SHARE * larger),
                 structure.max.y,
             ),
         };
-        Some(Fans {
-            fans,
-            newtons_per_metre: 1.0 / metres,
-            bounds,
-        })
+        Some(Fans { fans, newtons_per_metre: 1.0 / metres, bounds })
     }
 
     /// Draws the force polygons, and the numbers of the joints on the structure. Adds both to `ink`, so that labels do
@@ -138,14 +118,7 @@ impl Fans {
         ink.rect(page);
         for fan in &self.fans {
             fan.draw(scene, number, (camera, page), theme, &mut group);
-            fan.number_joints(
-                frame_analysis,
-                number,
-                middle,
-                (camera, theme),
-                ink,
-                &mut group,
-            );
+            fan.number_joints(frame_analysis, number, middle, (camera, theme), ink, &mut group);
             number += fan.vertices.len();
         }
         self.draw_scale(camera, theme, page, scene.units.force(), &mut group);
@@ -153,14 +126,7 @@ impl Fans {
     }
 
     /// Draws a scale bar for a round force below the force polygons. A bar that is wider than the page is left out.
-    fn draw_scale(
-        &self,
-        camera: &Camera,
-        theme: &Theme,
-        page: PageRect,
-        unit: Unit,
-        group: &mut Group,
-    ) {
+    fn draw_scale(&self, camera: &Camera, theme: &Theme, page: PageRect, unit: Unit, group: &mut Group) {
         let points = self.fans.iter().flat_map(|f| &f.vertices);
         let all = points.chain(self.fans.iter().map(|fan| &fan.pole)).copied();
         let Some(all) = Bounds::from_points(all) else {
@@ -179,9 +145,7 @@ impl Fans {
         for x in [0.0, length] {
             bar.extend(Outline::line([at.moved(x, -3.0), at.moved(x, 3.0)]));
         }
-        group
-            .items
-            .push(Path::stroked(bar, Stroke::new(theme.faint, 1.2)).into());
+        group.items.push(Path::stroked(bar, Stroke::new(theme.faint, 1.2)).into());
         let words = at.moved(length + 5.0, 0.36 * AMOUNT_SIZE);
         let words = Text::new(words, amount, Face::Sans, AMOUNT_SIZE, theme.faint);
         group.items.push(words.into());
@@ -212,12 +176,7 @@ impl Fan {
         let words = |at: PagePoint, words: String, size: f64, anchor: Anchor| {
             Text::new(at, words, Face::Sans, size, theme.ink).anchored(anchor)
         };
-        let o = words(
-            pole.moved(-4.0, 0.36 * NUMBER_SIZE),
-            "O".into(),
-            NUMBER_SIZE,
-            Anchor::End,
-        );
+        let o = words(pole.moved(-4.0, 0.36 * NUMBER_SIZE), "O".into(), NUMBER_SIZE, Anchor::End);
         group.items.push(o.into());
         let mut below = f64::NEG_INFINITY;
         for (k, vertex) in self.vertices.iter().enumerate() {
@@ -226,9 +185,7 @@ impl Fan {
             let reserved = camera.place(self.vertices[last]).y + 0.36 * NUMBER_SIZE - at.y;
             if free && (k == last || reserved >= MIN_NUMBER_GAP) {
                 let number = (before + k + 1).to_string();
-                group
-                    .items
-                    .push(words(at, number, NUMBER_SIZE, Anchor::Start).into());
+                group.items.push(words(at, number, NUMBER_SIZE, Anchor::Start).into());
                 below = at.y;
             }
         }
@@ -270,11 +227,7 @@ impl Fan {
             for (amount, colour, what) in pieces {
                 let end = at + amount * self.metres;
                 let line = Outline::line([at, end].map(|p| camera.place(p)));
-                let title = format!(
-                    "{what} on block {}: {}",
-                    block.id,
-                    force(amount, scene.units)
-                );
+                let title = format!("{what} on block {}: {}", block.id, force(amount, scene.units));
                 let path = Path::stroked(line, Stroke::new(colour, LOAD_LINE_WIDTH));
                 let drawn = Group::with_class("load").titled(title).with(path);
                 group.items.push(drawn.into());
@@ -304,11 +257,7 @@ impl Fan {
         for (k, joint) in self.chain.joints.iter().enumerate() {
             let ends = frame_analysis.contacts[*joint].interface.ends;
             let outward = |p: &Point| p.y + 0.5 * (p.x - own).abs();
-            let [inner, outer] = if outward(&ends[0]) < outward(&ends[1]) {
-                ends
-            } else {
-                [ends[1], ends[0]]
-            };
+            let [inner, outer] = if outward(&ends[0]) < outward(&ends[1]) { ends } else { [ends[1], ends[0]] };
             let number = (before + k + 1).to_string();
             let wide = text::width(&number, Face::Sans, NUMBER_SIZE);
             let along: Vector = outer - inner;
@@ -316,11 +265,7 @@ impl Fan {
             let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
             let (x, y) = (x / length, y / length);
             let centre = camera.place(outer).moved((4.0 + 0.6 * wide) * x, 8.5 * y);
-            ink.rect(PageRect {
-                at: centre.moved(-0.5 * wide, -0.5 * NUMBER_SIZE),
-                width: wide,
-                height: NUMBER_SIZE,
-            });
+            ink.rect(PageRect { at: centre.moved(-0.5 * wide, -0.5 * NUMBER_SIZE), width: wide, height: NUMBER_SIZE });
             let at = centre.moved(0.0, 0.36 * NUMBER_SIZE);
             let label = Text::new(at, number, Face::Sans, NUMBER_SIZE, theme.motion);
             let label = label.anchored(Anchor::Middle).with_halo(theme.page, 1.6);

@@ -53,9 +53,7 @@ pub(super) fn seams(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
     let theme = &pen.context.options.theme;
     let mut outline = Outline::default();
     for contact in &frame_analysis.contacts {
-        outline.extend(Outline::line(
-            contact.interface.ends.map(|p| pen.camera.place(p)),
-        ));
+        outline.extend(Outline::line(contact.interface.ends.map(|p| pen.camera.place(p))));
     }
     let stroke = Stroke::new(theme.outline.mixed(theme.ink, 0.4), 1.3 * pen.line);
     let seams = Group::with_class("interfaces").titled("Interfaces");
@@ -66,12 +64,7 @@ pub(super) fn seams(pen: &Pen<'_>, frame_analysis: &FrameAnalysis) -> Group {
 }
 
 /// Draws the line of thrust: first its schematic parts, then the true lines of action on top of them.
-pub(super) fn lines(
-    pen: &Pen<'_>,
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    segments: &[ThrustSegment],
-) -> Group {
+pub(super) fn lines(pen: &Pen<'_>, scene: &Scene, frame_analysis: &FrameAnalysis, segments: &[ThrustSegment]) -> Group {
     let mut group = Group::with_class("thrust");
     for through in [false, true] {
         let mut alike = segments.iter().filter(|s| s.through == through).peekable();
@@ -79,23 +72,19 @@ pub(super) fn lines(
             continue;
         }
         if pen.many() {
-            group
-                .items
-                .extend(joined_lines(pen, frame_analysis, alike, through));
+            group.items.extend(joined_lines(pen, frame_analysis, alike, through));
             continue;
         }
         for segment in alike {
             let class = if through { "force" } else { "schematic" };
             let line = Outline::line([segment.from, segment.to].map(|p| pen.camera.place(p)));
-            let drawn = Group::with_class(class)
-                .titled(title(scene, frame_analysis, segment))
-                .with(stroked(
-                    pen,
-                    frame_analysis,
-                    line,
-                    width(pen, segment),
-                    through,
-                ));
+            let drawn = Group::with_class(class).titled(title(scene, frame_analysis, segment)).with(stroked(
+                pen,
+                frame_analysis,
+                line,
+                width(pen, segment),
+                through,
+            ));
             group.items.push(drawn.into());
         }
     }
@@ -104,13 +93,7 @@ pub(super) fn lines(
 
 /// Returns the path of an outline in the colour of the line of thrust, `width` pixels wide. In a frame that does not
 /// stand, the colour is grey. In a frame that stands, a schematic line (`through` is false) is pale.
-fn stroked(
-    pen: &Pen<'_>,
-    frame_analysis: &FrameAnalysis,
-    outline: Outline,
-    width: f64,
-    through: bool,
-) -> Path {
+fn stroked(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, outline: Outline, width: f64, through: bool) -> Path {
     let theme = &pen.context.options.theme;
     let colour = match frame_analysis.verdict {
         Verdict::Stable if through => colour(theme),
@@ -168,20 +151,12 @@ fn title(scene: &Scene, frame_analysis: &FrameAnalysis, segment: &ThrustSegment)
 
 /// Draws a dot at the point where the resultant of each interface acts. Calls `ink` with the position of each dot and
 /// its radius in pixels.
-pub(super) fn dots(
-    pen: &Pen<'_>,
-    frame_analysis: &FrameAnalysis,
-    ink: &mut dyn FnMut(PagePoint, f64),
-) -> Group {
+pub(super) fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn FnMut(PagePoint, f64)) -> Group {
     let (scene, theme) = (&pen.context.analysis.scene, &pen.context.options.theme);
     let radius = (0.06 * pen.unit()).clamp(1.1, 3.6);
     let mut group = Group::with_class("resultants");
     let mut joined = ByColour::default();
-    for (contact, bearing) in frame_analysis
-        .contacts
-        .iter()
-        .zip(bearings(scene, frame_analysis))
-    {
+    for (contact, bearing) in frame_analysis.contacts.iter().zip(bearings(scene, frame_analysis)) {
         if bearing.is_none() {
             continue;
         }

@@ -21,19 +21,14 @@ const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 /// several frames, because their thrusts differ.
 fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
     if context.analysis.frames.len() == 1 {
-        format!(
-            ", horizontal thrust {}",
-            quantity(thrust, context.analysis.scene.units.force())
-        )
+        format!(", horizontal thrust {}", quantity(thrust, context.analysis.scene.units.force()))
     } else {
         String::new()
     }
 }
 
 /// Returns the thrust states (least, greatest and most central) of each frame.
-fn thrust_states_of_frames<'c>(
-    context: &'c FigureContext<'_>,
-) -> impl Iterator<Item = &'c ThrustStates> {
+fn thrust_states_of_frames<'c>(context: &'c FigureContext<'_>) -> impl Iterator<Item = &'c ThrustStates> {
     (0..context.analysis.frames.len()).map(|frame| context.thrust_states(frame))
 }
 
@@ -53,13 +48,10 @@ pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
         let words = words.replace(", horizontal thrust", "");
         Some(Entry::Symbol(symbol, 26.0, format!("{name}{words}")))
     };
-    [
-        entry(least, least_symbol, "least thrust"),
-        entry(greatest, greatest_symbol, "greatest thrust"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    [entry(least, least_symbol, "least thrust"), entry(greatest, greatest_symbol, "greatest thrust")]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Returns a note for the reader that other figures show a different equilibrium of the frame. Returns `None` if this
@@ -68,9 +60,7 @@ pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> O
     let family = context.thrust_states(frame);
     family.central.as_ref()?;
     let present = quantity(family.present, context.analysis.scene.units.force());
-    Some(format!(
-        "other figures show the forces of least sum, with a horizontal thrust of {present}"
-    ))
+    Some(format!("other figures show the forces of least sum, with a horizontal thrust of {present}"))
 }
 
 /// Returns a note for the reader about a frame whose line of thrust is one of many possible lines. The caller uses it
@@ -106,12 +96,7 @@ pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Gr
     let scene = &pen.context.analysis.scene;
     let states = [
         (&family.least, "thrust-least", "Least thrust", LEAST_DASHES),
-        (
-            &family.greatest,
-            "thrust-greatest",
-            "Greatest thrust",
-            GREATEST_DASHES,
-        ),
+        (&family.greatest, "thrust-greatest", "Greatest thrust", GREATEST_DASHES),
     ];
     states.map(|(state, class, name, dashes)| {
         let Some(state) = state else {

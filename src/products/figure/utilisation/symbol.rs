@@ -21,10 +21,7 @@ pub(super) fn full_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
 /// Draws the legend symbol of an interface at which no friction is available.
 pub(super) fn smooth_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let line = Outline::line([at, at.moved(SYMBOL_WIDTH, 0.0)]);
-    vec![
-        rimmed(line.clone(), 4.5, 0.7, theme).into(),
-        Path::stroked(line, Stroke::new(theme.page, 4.5)).into(),
-    ]
+    vec![rimmed(line.clone(), 4.5, 0.7, theme).into(), Path::stroked(line, Stroke::new(theme.page, 4.5)).into()]
 }
 
 /// Draws the legend symbol of an interface without force.

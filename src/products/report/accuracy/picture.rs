@@ -2,9 +2,7 @@
 //! numbers of wrong and undecided verdicts at every tolerance.
 
 use crate::analysis::Accuracy;
-use crate::drawing::{
-    Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
-};
+use crate::drawing::{Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
 use crate::output::svg::{self, OutlineError, Words};
 use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
 use crate::wording::number::counted;
@@ -32,10 +30,7 @@ const MIN_DRAWN_ERROR: f64 = 1e-16;
 /// # Errors
 /// [`OutlineError`] if the text cannot be laid out.
 pub fn picture(lines: &[Summary], frames: usize) -> Result<String, OutlineError> {
-    let options = svg::Options {
-        words: Words::Outlines,
-        ..svg::Options::default()
-    };
+    let options = svg::Options { words: Words::Outlines, ..svg::Options::default() };
     svg::write_with(&drawing(lines, frames), &options)
 }
 
@@ -44,10 +39,8 @@ fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     let mut tolerances: Vec<f64> = lines.iter().map(|l| l.tolerance).collect();
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();
-    let methods: Vec<Method> = Method::ALL
-        .into_iter()
-        .filter(|method| lines.iter().any(|l| l.method == *method))
-        .collect();
+    let methods: Vec<Method> =
+        Method::ALL.into_iter().filter(|method| lines.iter().any(|l| l.method == *method)).collect();
     let times = lines.iter().map(|l| l.time).filter(|t| *t > 0.0);
     let (fastest, slowest) = times.fold((1.0_f64, 1.0_f64), |(a, b), t| (a.min(t), b.max(t)));
     let page = Page {
@@ -117,42 +110,19 @@ impl Page<'_> {
     fn head(&self, frames: usize) -> Vec<Item> {
         let theme = self.theme;
         let title = "What accuracy costs";
-        let title = Text::new(
-            PagePoint::new(24.0, 36.0),
-            title,
-            Face::SerifBold,
-            22.0,
-            theme.ink,
-        );
+        let title = Text::new(PagePoint::new(24.0, 36.0), title, Face::SerifBold, 22.0, theme.ink);
         let frames = counted(frames, "frame");
         let under = format!("{frames}, drystone {}", env!("CARGO_PKG_VERSION"));
-        let mut items: Vec<Item> = vec![
-            title.into(),
-            self.words(PagePoint::new(24.0, 58.0), &under, Face::Sans),
-        ];
+        let mut items: Vec<Item> = vec![title.into(), self.words(PagePoint::new(24.0, 58.0), &under, Face::Sans)];
         let heads = [
             (TIME_AXIS.0, ["time, relative", "to standard"]),
             (ERROR_AXIS.0, ["worst error of", "the total force"]),
-            (
-                WRONG_COLUMNS.0 - 10.0,
-                ["wrong verdicts,", "tolerance 10ⁿ, n ="],
-            ),
-            (
-                UNDECIDED_COLUMNS.0 - 10.0,
-                ["undecided,", "tolerance 10ⁿ, n ="],
-            ),
+            (WRONG_COLUMNS.0 - 10.0, ["wrong verdicts,", "tolerance 10ⁿ, n ="]),
+            (UNDECIDED_COLUMNS.0 - 10.0, ["undecided,", "tolerance 10ⁿ, n ="]),
         ];
         for (x, [upper, lower]) in heads {
-            items.push(self.words(
-                PagePoint::new(x, FIRST_ROW_TOP - 50.0),
-                upper,
-                Face::SansBold,
-            ));
-            items.push(self.words(
-                PagePoint::new(x, FIRST_ROW_TOP - 34.0),
-                lower,
-                Face::SansBold,
-            ));
+            items.push(self.words(PagePoint::new(x, FIRST_ROW_TOP - 50.0), upper, Face::SansBold));
+            items.push(self.words(PagePoint::new(x, FIRST_ROW_TOP - 34.0), lower, Face::SansBold));
         }
         items.extend(self.ticks());
         items
@@ -164,14 +134,10 @@ impl Page<'_> {
         let mut items: Vec<Item> = Vec::new();
         let mut tick = |x: f64, words: String, line: bool| {
             let at = PagePoint::new(x, FIRST_ROW_TOP - 10.0);
-            let text = Text::new(at, words, Face::Sans, FONT_SIZES.1, theme.faint)
-                .anchored(Anchor::Middle);
+            let text = Text::new(at, words, Face::Sans, FONT_SIZES.1, theme.faint).anchored(Anchor::Middle);
             items.push(text.into());
             if line {
-                let line = Outline::line([
-                    PagePoint::new(x, FIRST_ROW_TOP - 4.0),
-                    PagePoint::new(x, self.bottom),
-                ]);
+                let line = Outline::line([PagePoint::new(x, FIRST_ROW_TOP - 4.0), PagePoint::new(x, self.bottom)]);
                 items.push(Path::stroked(line, Stroke::new(theme.rule, 1.0)).into());
             }
         };
@@ -181,11 +147,7 @@ impl Page<'_> {
             }
         }
         for power in [-16, -8, 0] {
-            tick(
-                self.error(libm::pow(10.0, f64::from(power))),
-                power_of_ten(power),
-                true,
-            );
+            tick(self.error(libm::pow(10.0, f64::from(power))), power_of_ten(power), true);
         }
         for (column, tolerance) in self.tolerances.iter().enumerate() {
             let power = libm::round(libm::log10(*tolerance)) as i32;
@@ -201,11 +163,7 @@ impl Page<'_> {
     }
 
     fn error(&self, error: f64) -> f64 {
-        place(
-            error.clamp(MIN_DRAWN_ERROR, 1.0),
-            (MIN_DRAWN_ERROR, 1.0),
-            ERROR_AXIS,
-        )
+        place(error.clamp(MIN_DRAWN_ERROR, 1.0), (MIN_DRAWN_ERROR, 1.0), ERROR_AXIS)
     }
 
     /// Returns the x coordinate, in pixels, of the column for one tolerance. `column` is the index of the tolerance,
@@ -228,30 +186,17 @@ impl Page<'_> {
         let mut items: Vec<Item> = Vec::new();
         let chosen = method == Method::Level(Accuracy::Standard);
         if row.is_multiple_of(2) {
-            let band = PageRect {
-                at: PagePoint::new(16.0, y - ROW_HEIGHT / 2.0),
-                width: WIDTH - 32.0,
-                height: ROW_HEIGHT,
-            };
+            let band =
+                PageRect { at: PagePoint::new(16.0, y - ROW_HEIGHT / 2.0), width: WIDTH - 32.0, height: ROW_HEIGHT };
             let band = Path::filled(Outline::rounded(band, 3.0), theme.block);
             items.push(band.with_opacity(0.55).into());
         }
         let face = if chosen { Face::SansBold } else { Face::Sans };
-        let name = Text::new(
-            PagePoint::new(24.0, y + 4.5),
-            method.name(),
-            face,
-            FONT_SIZES.0,
-            theme.ink,
-        );
+        let name = Text::new(PagePoint::new(24.0, y + 4.5), method.name(), face, FONT_SIZES.0, theme.ink);
         items.push(name.into());
         let mut dots: Vec<(f64, &Summary)> = Vec::new();
         dots.extend(lines.iter().map(|l| (self.time(l.time), *l)));
-        dots.extend(
-            lines
-                .iter()
-                .filter_map(|l| Some((self.error(l.total_error?), *l))),
-        );
+        dots.extend(lines.iter().filter_map(|l| Some((self.error(l.total_error?), *l))));
         for (x, line) in dots {
             let at = PagePoint::new(x, y);
             let ring = chosen && is_default(line.tolerance);
@@ -259,10 +204,7 @@ impl Page<'_> {
                 let circle = Outline::circle(at, 8.5);
                 items.push(Path::stroked(circle, Stroke::new(theme.ink, 1.6)).into());
             }
-            let dot = Path::filled(
-                Outline::circle(at, 4.6),
-                self.shade(self.place(line), line.wrong > 0),
-            );
+            let dot = Path::filled(Outline::circle(at, 4.6), self.shade(self.place(line), line.wrong > 0));
             items.push(dot.cased(theme.page, 0.8).into());
         }
         for line in lines {
@@ -279,10 +221,8 @@ impl Page<'_> {
     /// Draws the numbers of wrong and of undecided verdicts of a summary line. `y` is the middle of its row, in
     /// pixels.
     fn counts(&self, line: &Summary, y: f64) -> [Item; 2] {
-        let counts = [
-            (line.wrong, WRONG_COLUMNS, self.theme.falls),
-            (line.undecided, UNDECIDED_COLUMNS, self.theme.ink),
-        ];
+        let counts =
+            [(line.wrong, WRONG_COLUMNS, self.theme.falls), (line.undecided, UNDECIDED_COLUMNS, self.theme.ink)];
         counts.map(|(count, block, full)| {
             let at = PagePoint::new(self.column(self.place(line), block), y + 5.0);
             let (face, colour) = match count {
@@ -298,11 +238,7 @@ impl Page<'_> {
     /// is the index of the tolerance, from 0 for the loosest.
     fn shade(&self, place: usize, wrong: bool) -> Colour {
         let last = self.tolerances.len().saturating_sub(1).max(1) as f64;
-        let full = if wrong {
-            self.theme.falls
-        } else {
-            self.theme.motion
-        };
+        let full = if wrong { self.theme.falls } else { self.theme.motion };
         self.theme.page.mixed(full, 0.3 + 0.7 * place as f64 / last)
     }
 }
@@ -321,15 +257,9 @@ fn power_of_ten(power: i32) -> String {
     }
     let raised = |c: char| match c {
         '-' => '⁻',
-        digit => "⁰¹²³⁴⁵⁶⁷⁸⁹"
-            .chars()
-            .nth(digit.to_digit(10).unwrap_or(0) as usize)
-            .unwrap_or(digit),
+        digit => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit.to_digit(10).unwrap_or(0) as usize).unwrap_or(digit),
     };
-    format!(
-        "10{}",
-        power.to_string().chars().map(raised).collect::<String>()
-    )
+    format!("10{}", power.to_string().chars().map(raised).collect::<String>())
 }
 
 #[cfg(test)]

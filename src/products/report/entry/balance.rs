@@ -35,13 +35,7 @@ struct Force {
 
 impl Force {
     fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64, about: Point) -> Force {
-        Force {
-            what: what.into(),
-            at: Some(at),
-            force,
-            torque,
-            moment: cross(at - about, force) + torque,
-        }
+        Force { what: what.into(), at: Some(at), force, torque, moment: cross(at - about, force) + torque }
     }
 
     /// Returns one row for several forces, with the sum of the forces and the sum of their moments.
@@ -90,9 +84,8 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
     let own = &scene.blocks[block.0];
     let about = own.centroid;
     let all = scene.applied_forces();
-    let loads: Vec<&AppliedForce> = (all[block.0].iter())
-        .filter(|applied| applied.cause != ForceCause::Weight)
-        .collect();
+    let loads: Vec<&AppliedForce> =
+        (all[block.0].iter()).filter(|applied| applied.cause != ForceCause::Weight).collect();
     let weight = scene.down() * own.weight;
     let mut forces = vec![Force::new("weight", about, weight, 0.0, about)];
     forces.extend(listed_loads(scene, &loads, about));
@@ -105,20 +98,11 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
             _ => continue,
         };
         let from = format!("from {}", line(&named(scene, other)));
-        forces.push(Force::new(
-            from,
-            contact.resultant.at,
-            force_on(contact, body),
-            0.0,
-            about,
-        ));
+        forces.push(Force::new(from, contact.resultant.at, force_on(contact, body), 0.0, about));
     }
     forces.extend(robots(scene, frame_analysis, Some(block), about));
     forces.extend(missing(scene, frame_analysis, &[block], about));
-    let caption = format!(
-        "Block {} cut free; moments about its centroid",
-        line(&own.id)
-    );
+    let caption = format!("Block {} cut free; moments about its centroid", line(&own.id));
     table(&caption, &forces, Units::new(scene, frame_analysis))
 }
 
@@ -138,25 +122,21 @@ fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {
         let (ground, block) = match contact.interface.bodies {
-            [BodyId::Ground(ground), BodyId::Block(block)]
-            | [BodyId::Block(block), BodyId::Ground(ground)] => (ground, block),
+            [BodyId::Ground(ground), BodyId::Block(block)] | [BodyId::Block(block), BodyId::Ground(ground)] => {
+                (ground, block)
+            }
             _ => continue,
         };
         let what = format!("ground under {}", line(&scene.blocks[block.0].id));
         let force = force_on(contact, BodyId::Block(block));
-        joints.push((
-            ground,
-            Force::new(what, contact.resultant.at, force, 0.0, about),
-        ));
+        joints.push((ground, Force::new(what, contact.resultant.at, force, 0.0, about)));
     }
     if joints.len() <= MAX_REACTIONS {
         return joints.into_iter().map(|joint| joint.1).collect();
     }
     let parts = 0..scene.ground.len();
     let summed = parts.filter_map(|part| {
-        let (own, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut joints)
-            .into_iter()
-            .partition(|j| j.0 == part);
+        let (own, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut joints).into_iter().partition(|j| j.0 == part);
         joints = rest;
         let own: Vec<Force> = own.into_iter().map(|joint| joint.1).collect();
         let what = format!("ground, part {}, {} joints", part + 1, own.len());
@@ -166,16 +146,8 @@ fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec
 }
 
 /// Returns the forces that robots exert on all blocks, or only on `block` if it is given.
-fn robots(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    block: Option<BlockId>,
-    about: Point,
-) -> Vec<Force> {
-    let holding = frame_analysis
-        .robots
-        .iter()
-        .filter(|r| block.is_none_or(|b| b == r.block));
+fn robots(scene: &Scene, frame_analysis: &FrameAnalysis, block: Option<BlockId>, about: Point) -> Vec<Force> {
+    let holding = frame_analysis.robots.iter().filter(|r| block.is_none_or(|b| b == r.block));
     let force = |r: &crate::analysis::RobotForce| {
         let what = format!("robot {}", line(&scene.robots[r.robot.0].id));
         Force::new(what, r.at, r.force, r.torque, about)
@@ -185,17 +157,10 @@ fn robots(
 
 /// Returns the missing forces on `blocks`. Missing forces between two of these blocks cancel and are left out. If
 /// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
-fn missing(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    blocks: &[BlockId],
-    about: Point,
-) -> Vec<Force> {
+fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &frame_analysis.failures {
-        let on = blocks
-            .iter()
-            .filter_map(|block| failure.on(BodyId::Block(*block)));
+        let on = blocks.iter().filter_map(|block| failure.on(BodyId::Block(*block)));
         let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), (g, u)| (f + g, t + u));
         if force.norm() > 0.0 || torque != 0.0 {
             let what = match failure.robot() {
@@ -218,10 +183,7 @@ fn missing(
 fn total_weight(weights: &[&AppliedForce], about: Point) -> Option<Force> {
     let force: Vector = weights.iter().map(|w| w.force).sum();
     let total = force.norm();
-    let middle: Vector = weights
-        .iter()
-        .map(|w| w.at.coords * (w.force.norm() / total))
-        .sum();
+    let middle: Vector = weights.iter().map(|w| w.at.coords * (w.force.norm() / total)).sum();
     let what = match weights.len() {
         0 => return None,
         1 => "weight of the block".to_owned(),
@@ -278,11 +240,7 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
         grid.add("", cells);
     }
     let sum = Force::sum("sum", forces);
-    let words = [
-        newtons.write(sum.force.x),
-        newtons.write(sum.force.y),
-        moments.write(sum.moment),
-    ];
+    let words = [newtons.write(sum.force.x), newtons.write(sum.force.y), moments.write(sum.moment)];
     let words = ["sum", "", ""].map(str::to_owned).into_iter().chain(words);
     grid.add("", words.map(|w| TableCell::strong_if(true, w)));
     grid.has_sum = true;
@@ -293,12 +251,8 @@ fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
 pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
     let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
     let words = match frame_analysis.verdict {
-        Verdict::Stable => {
-            "The sums are zero in the printed digits: weights, loads and reactions balance."
-        }
-        Verdict::Unstable
-            if !frame_analysis.unsupported.is_empty() && frame_analysis.failures.is_empty() =>
-        {
+        Verdict::Stable => "The sums are zero in the printed digits: weights, loads and reactions balance.",
+        Verdict::Unstable if !frame_analysis.unsupported.is_empty() && frame_analysis.failures.is_empty() => {
             "The table of the whole structure leaves out the blocks that nothing carries. The other blocks are in equilibrium."
         }
         Verdict::Unstable if frame_analysis.failures.is_empty() => {
@@ -307,9 +261,7 @@ pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
         Verdict::Unstable => {
             "The sums are zero only with the missing forces, which neither contacts nor robots can give."
         }
-        Verdict::Undecided => {
-            "No balance is proved: the sums are the remaining imbalance of the best forces found."
-        }
+        Verdict::Undecided => "No balance is proved: the sums are the remaining imbalance of the best forces found.",
     };
     format!("{words} {formula}")
 }

@@ -44,10 +44,7 @@ pub struct MarginBar {
 
 /// Returns the computed margins of a frame as bars, the headline margin first.
 pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginBar> {
-    stated(scene, frame_analysis)
-        .iter()
-        .map(MarginBar::new)
-        .collect()
+    stated(scene, frame_analysis).iter().map(MarginBar::new).collect()
 }
 
 /// A legend for readers: the meaning of the ends of a bar and of the mark at the current value.
@@ -61,9 +58,7 @@ const SCALE_END_RATIO: f64 = 1.25;
 
 impl MarginBar {
     fn new(margin: &StatedMargin<'_>) -> MarginBar {
-        let present = margin
-            .present
-            .filter(|(low, high)| low.is_finite() && high.is_finite());
+        let present = margin.present.filter(|(low, high)| low.is_finite() && high.is_finite());
         let scale = scale(margin, present);
         let (safe, ends) = match margin.interval {
             Interval::Between { low, high } => {
@@ -96,16 +91,8 @@ impl MarginBar {
     /// end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         let (low, high) = self.scale;
-        let share = if high > low {
-            (value - low) / (high - low)
-        } else {
-            0.0
-        };
-        if share.is_finite() {
-            share.clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        let share = if high > low { (value - low) / (high - low) } else { 0.0 };
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
     }
 
     /// True if the current value is inside the interval of values at which the structure stands.
@@ -130,24 +117,14 @@ fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let ends = [margin.interval.low(), margin.interval.high()];
     let values = ends.into_iter().flatten().filter_map(confirmed);
     let values = values.chain(present.map(|(_, high)| high));
-    let farthest = values
-        .map(f64::abs)
-        .filter(|v| v.is_finite())
-        .fold(0.0, f64::max);
+    let farthest = values.map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
     let top = match margin.parameter {
         Parameter::Kernel => 1.0,
         Parameter::Tilt if farthest == 0.0 => 90.0,
         _ if farthest == 0.0 => 1.0,
         _ => SCALE_END_RATIO * farthest,
     };
-    (
-        if margin.parameter.is_signed() {
-            -top
-        } else {
-            0.0
-        },
-        top,
-    )
+    (if margin.parameter.is_signed() { -top } else { 0.0 }, top)
 }
 
 fn bar_end(margin: &StatedMargin<'_>, end: &End) -> BarEnd {

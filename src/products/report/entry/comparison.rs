@@ -51,11 +51,7 @@ pub fn compared(sides: [Side<'_>; 2], report_options: &ReportOptions) -> Entry {
         "" => file_name(side.file.name),
         title => line(title),
     });
-    row.title = if titles[0] == titles[1] {
-        titles[1].clone()
-    } else {
-        format!("{} → {}", titles[0], titles[1])
-    };
+    row.title = if titles[0] == titles[1] { titles[1].clone() } else { format!("{} → {}", titles[0], titles[1]) };
     row.name = format!("{} → {}", names[0], names[1]);
     row.fails = stated.first().cloned().unwrap_or_default();
     let commands = sides.map(|side| super::commands(side.file.name, side.analysis, report_options));
@@ -64,16 +60,10 @@ pub fn compared(sides: [Side<'_>; 2], report_options: &ReportOptions) -> Entry {
         row,
         details: Vec::new(),
         sections,
-        origin: format!(
-            "drystone {}, scenes {}",
-            env!("CARGO_PKG_VERSION"),
-            origins.join(" and ")
-        ),
+        origin: format!("drystone {}, scenes {}", env!("CARGO_PKG_VERSION"), origins.join(" and ")),
         commands: commands.concat(),
         source: String::new(),
-        results: sides
-            .map(|side| super::result(side.file.name, side.analysis, report_options.timing))
-            .to_vec(),
+        results: sides.map(|side| super::result(side.file.name, side.analysis, report_options.timing)).to_vec(),
         changes: stated,
     }
 }
@@ -91,8 +81,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
     let mut sections = Vec::new();
     if counts[0] != counts[1] {
         let [a, b] = counts.map(|n| counted(n, "step"));
-        let words =
-            format!("The first has {a}, the second {b}; steps are compared in their order.");
+        let words = format!("The first has {a}, the second {b}; steps are compared in their order.");
         sections.push(note(is, words));
     }
     if common_units(sides).is_none() {
@@ -113,11 +102,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         };
         // Set the letter here: `sheet::empty` considers only one scene, but letters are needed if either scene has
         // several steps.
-        section.letter = if several {
-            letter(number)
-        } else {
-            String::new()
-        };
+        section.letter = if several { letter(number) } else { String::new() };
         stated.push(sentence);
         sections.push(section);
     }
@@ -153,21 +138,12 @@ fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Fi
 }
 
 fn only_in(counts: [usize; 2], number: usize) -> &'static str {
-    if number < counts[0] {
-        "Only the first scene has this step."
-    } else {
-        "Only the second scene has this step."
-    }
+    if number < counts[0] { "Only the first scene has this step." } else { "Only the second scene has this step." }
 }
 
 /// Makes the sentence and the report section for a step that only one scene has. `why` is the sentence, which states
 /// which scene has the step.
-fn unpaired_step(
-    side: Side<'_>,
-    number: usize,
-    drawing: Option<Drawing>,
-    why: &str,
-) -> (String, Section) {
+fn unpaired_step(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
     let (scene, frame_analysis) = (&side.analysis.scene, &side.analysis.frames[number]);
     let mut section = sheet::empty(scene, number, frame_analysis.verdict);
     section.parts.push(SheetPart::Text(why.to_owned()));
@@ -193,14 +169,9 @@ fn both(
     let sentence = format!("{}.", capital(&line(&sentence)));
     let mut section = sheet::empty(&is.analysis.scene, number, now.verdict);
     section.parts.push(SheetPart::Text(sentence.clone()));
-    for (side, frame_analysis, scene) in [
-        ("First", then, &was.analysis.scene),
-        ("Second", now, &is.analysis.scene),
-    ] {
+    for (side, frame_analysis, scene) in [("First", then, &was.analysis.scene), ("Second", now, &is.analysis.scene)] {
         let described = line(&verdict::sentence(scene, frame_analysis));
-        section
-            .parts
-            .push(SheetPart::Note(format!("{side}: {described}")));
+        section.parts.push(SheetPart::Note(format!("{side}: {described}")));
     }
     let grids = [
         totals(then, now, units),
@@ -211,15 +182,10 @@ fn both(
     ];
     let colour = report_options.theme.motion;
     let [loaded, now_loaded] = settings.blocks;
-    let outlines = [
-        [shape.gone_or_changed, loaded].concat(),
-        [shape.new_or_changed, now_loaded].concat(),
-    ];
+    let outlines = [[shape.gone_or_changed, loaded].concat(), [shape.new_or_changed, now_loaded].concat()];
     let rings = [0, 1].map(|side: usize| {
         let changed = forces.changed();
-        changed
-            .map(|f| f.contacts[side].resultant.at)
-            .collect::<Vec<Point>>()
+        changed.map(|f| f.contacts[side].resultant.at).collect::<Vec<Point>>()
     });
     let mut plates = Vec::new();
     for (side, (frame_analysis, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {

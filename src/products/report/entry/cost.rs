@@ -19,10 +19,7 @@ pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
             "What was simulated, what was left out, and what it cost",
             &["effect or stage", "simulated", "why", "#unknowns", "#time"],
         ),
-        false => (
-            "What was simulated, and what was left out",
-            &["effect", "simulated", "why", "#unknowns"],
-        ),
+        false => ("What was simulated, and what was left out", &["effect", "simulated", "why", "#unknowns"]),
     };
     let mut grid = Grid::new(caption, heads);
     let mut add = |(cells, time): ([String; 4], String)| {
@@ -32,9 +29,7 @@ pub(super) fn cost(frame_analysis: &FrameAnalysis, timing: Timing) -> Grid {
         add(effect(described, &frame_analysis.solve.stages));
     }
     if timed {
-        stages(&frame_analysis.solve.stages)
-            .into_iter()
-            .for_each(&mut add);
+        stages(&frame_analysis.solve.stages).into_iter().for_each(&mut add);
     }
     add(sum(frame_analysis));
     grid

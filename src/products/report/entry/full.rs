@@ -17,11 +17,7 @@ const MIN_CHART_JOINTS: usize = 8;
 
 /// Makes the appendix of a frame: all joints that carry force, all failures, effects with their cost, the proof in
 /// numbers, and charts. `number` is the index of the frame.
-pub(super) fn appendix(
-    analysis: &Analysis,
-    number: usize,
-    report_options: &ReportOptions,
-) -> Section {
+pub(super) fn appendix(analysis: &Analysis, number: usize, report_options: &ReportOptions) -> Section {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let mut section = empty(scene, number, frame_analysis.verdict);
     section.title = format!("Appendix {}", section.title).trim_end().to_owned();
@@ -33,9 +29,7 @@ pub(super) fn appendix(
     ];
     section.begins_page = true;
     section.parts.extend(grids.map(SheetPart::Table));
-    section
-        .parts
-        .push(SheetPart::Charts(charts(frame_analysis)));
+    section.parts.push(SheetPart::Charts(charts(frame_analysis)));
     section
 }
 
@@ -46,10 +40,7 @@ fn failures(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     }
     let units = Units::new(scene, frame_analysis);
     for (number, failed) in frame_analysis.failures.iter().enumerate() {
-        let cells = [
-            line(&missing(scene, failed, units)),
-            place(failed.at(), scene.units),
-        ];
+        let cells = [line(&missing(scene, failed, units)), place(failed.at(), scene.units)];
         grid.add(format!("f{number}"), cells);
     }
     grid
@@ -67,25 +58,13 @@ fn charts(frame_analysis: &FrameAnalysis) -> Vec<Chart> {
     if frame_analysis.contacts.len() < MIN_CHART_JOINTS {
         return Vec::new();
     }
-    let sizes = || {
-        frame_analysis
-            .contacts
-            .iter()
-            .map(|c| c.resultant.force.norm())
-    };
+    let sizes = || frame_analysis.contacts.iter().map(|c| c.resultant.force.norm());
     let (unit, factor) = prefixed(sizes().fold(0.0, f64::max), "N");
     let forces: Vec<f64> = sizes().map(|size| size * factor).collect();
-    let loaded = frame_analysis
-        .contacts
-        .iter()
-        .filter(|c| c.resultant.force.norm() > 0.0);
+    let loaded = frame_analysis.contacts.iter().filter(|c| c.resultant.force.norm() > 0.0);
     let used: Vec<f64> = loaded.map(|c| 100.0 * c.friction_used).collect();
     let kinds = [
-        (
-            "Number of joints by force",
-            format!("force at a joint, {unit}"),
-            Bars::counted(&forces, None),
-        ),
+        ("Number of joints by force", format!("force at a joint, {unit}"), Bars::counted(&forces, None)),
         (
             "Number of loaded joints by share of friction used",
             "friction used, %".to_owned(),
@@ -93,19 +72,10 @@ fn charts(frame_analysis: &FrameAnalysis) -> Vec<Chart> {
         ),
     ];
     let drawn = kinds.into_iter().filter_map(|(caption, x, bars)| {
-        let chart = Bars {
-            title: caption.to_owned(),
-            x,
-            y: "joints".to_owned(),
-            ..bars
-        };
+        let chart = Bars { title: caption.to_owned(), x, y: "joints".to_owned(), ..bars };
         // `chart::bars` returns an error if there are no values. The chart is then left out.
         let svg = chart::bars(&chart).ok()?;
-        Some(Chart {
-            caption: caption.to_owned(),
-            svg,
-            wide: false,
-        })
+        Some(Chart { caption: caption.to_owned(), svg, wide: false })
     });
     drawn.collect()
 }

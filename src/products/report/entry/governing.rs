@@ -19,34 +19,21 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
         };
         // If several steps have the same reserve, the last of them governs, because it usually has the most blocks.
         let steps = (0..analysis.frames.len()).rev();
-        steps
-            .min_by(|a, b| reserve(a).total_cmp(&reserve(b)))
-            .unwrap_or(0)
+        steps.min_by(|a, b| reserve(a).total_cmp(&reserve(b))).unwrap_or(0)
     })
 }
 
 /// Returns the most important margin of a frame as a sentence without a full stop; empty if no margin was computed.
-pub(super) fn headline_words(
-    scene: &Scene,
-    number: usize,
-    frame_analysis: &FrameAnalysis,
-) -> String {
+pub(super) fn headline_words(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> String {
     let placed = &scene.frames[number].placed;
-    let loads = scene
-        .loads
-        .iter()
-        .filter(|l| placed.contains(&l.block))
-        .count();
+    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block)).count();
     let margins = stated(scene, frame_analysis);
     let first = margins.first();
     let Some(first) = first else {
         return String::new();
     };
     let mut words = headline(first, frame_analysis.verdict, loads);
-    let load = margins
-        .iter()
-        .skip(1)
-        .find(|m| m.parameter == Parameter::LoadFactor);
+    let load = margins.iter().skip(1).find(|m| m.parameter == Parameter::LoadFactor);
     if load.is_some_and(StatedMargin::has_no_limit) {
         let load = if loads == 1 { "load" } else { "loads" };
         words.push_str(&format!(" and carries any multiple of its {load}"));

@@ -42,37 +42,24 @@ pub struct TableCell {
 
 impl<S: Into<String>> From<S> for TableCell {
     fn from(words: S) -> TableCell {
-        TableCell {
-            words: words.into(),
-            ..TableCell::default()
-        }
+        TableCell { words: words.into(), ..TableCell::default() }
     }
 }
 
 impl TableCell {
     /// Makes a cell with a small picture and without text.
     pub fn picture(picture: Thumbnail) -> TableCell {
-        TableCell {
-            picture: Some(picture),
-            ..TableCell::default()
-        }
+        TableCell { picture: Some(picture), ..TableCell::default() }
     }
 
     /// Makes a cell with a bar that shows a margin.
     pub fn bar(bar: MarginBar) -> TableCell {
-        TableCell {
-            words: bar.words.clone(),
-            bar: Some(bar),
-            ..TableCell::default()
-        }
+        TableCell { words: bar.words.clone(), bar: Some(bar), ..TableCell::default() }
     }
 
     /// Makes a cell with this text, which is emphasised if `strong` is true.
     pub fn strong_if(strong: bool, words: impl Into<String>) -> TableCell {
-        TableCell {
-            strong,
-            ..words.into().into()
-        }
+        TableCell { strong, ..words.into().into() }
     }
 }
 
@@ -83,23 +70,11 @@ impl Grid {
             Some(rest) => (rest.to_owned(), true),
             None => (head.as_ref().to_owned(), false),
         };
-        Grid {
-            caption: caption.into(),
-            heads: heads.iter().map(head).collect(),
-            lines: Vec::new(),
-            has_sum: false,
-        }
+        Grid { caption: caption.into(), heads: heads.iter().map(head).collect(), lines: Vec::new(), has_sum: false }
     }
 
     /// Adds a row. `mark` is the id of a mark in the figure, or empty for a row without a mark.
-    pub fn add<C: Into<TableCell>>(
-        &mut self,
-        mark: impl Into<String>,
-        cells: impl IntoIterator<Item = C>,
-    ) {
-        self.lines.push(Line {
-            mark: mark.into(),
-            cells: cells.into_iter().map(Into::into).collect(),
-        });
+    pub fn add<C: Into<TableCell>>(&mut self, mark: impl Into<String>, cells: impl IntoIterator<Item = C>) {
+        self.lines.push(Line { mark: mark.into(), cells: cells.into_iter().map(Into::into).collect() });
     }
 }

@@ -22,11 +22,7 @@ pub struct HoverTarget {
 
 /// Makes a hover target for a point. Its coordinates are in metres.
 pub(super) fn target(mark: String, words: &str, at: Point) -> HoverTarget {
-    HoverTarget {
-        mark,
-        words: line(words),
-        ends: [at, at],
-    }
+    HoverTarget { mark, words: line(words), ends: [at, at] }
 }
 
 /// Returns a copy of the drawing with an invisible hover target for each of `touches`, on top of the scene. If the
@@ -35,10 +31,7 @@ pub fn touched(drawing: &Drawing, touches: &[HoverTarget]) -> Drawing {
     let mut drawing = drawing.clone();
     onto_scene(&mut drawing, &|camera| {
         let marks = touches.iter().map(|touch| mark(touch, camera));
-        Group {
-            items: marks.map(Item::from).collect(),
-            ..Group::with_class("touches")
-        }
+        Group { items: marks.map(Item::from).collect(), ..Group::with_class("touches") }
     });
     drawing
 }
@@ -74,14 +67,8 @@ fn mark(touch: &HoverTarget, camera: &Camera) -> Group {
     let path = if a == b {
         Path::filled(Outline::circle(a, POINT_TARGET_RADIUS), colour)
     } else {
-        Path::stroked(
-            Outline::line([a, b]),
-            Stroke::new(colour, INTERFACE_TARGET_WIDTH),
-        )
+        Path::stroked(Outline::line([a, b]), Stroke::new(colour, INTERFACE_TARGET_WIDTH))
     };
-    Group {
-        id: Some(touch.mark.clone()),
-        ..Group::with_class("touch").titled(touch.words.clone())
-    }
-    .with(path.with_opacity(0.0))
+    Group { id: Some(touch.mark.clone()), ..Group::with_class("touch").titled(touch.words.clone()) }
+        .with(path.with_opacity(0.0))
 }

@@ -85,31 +85,20 @@ fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let volume = own.body.polygon.area() * scene.thickness;
     let density = own.weight / (scene.gravity.norm() * volume);
     // Rounding to seven digits removes the rounding error of this division, so that equal densities compare as equal.
-    density
-        .is_finite()
-        .then(|| format!("{density:.6e}").parse().unwrap_or(density))
+    density.is_finite().then(|| format!("{density:.6e}").parse().unwrap_or(density))
 }
 
 /// Makes a table with a row for each load of a frame. Loads after the first [`MAX_ROWS`] share one row with their
 /// sum.
 pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
     let placed = &scene.frames[number].placed;
-    let loads: Vec<_> = scene
-        .loads
-        .iter()
-        .filter(|l| placed.contains(&l.block))
-        .collect();
+    let loads: Vec<_> = scene.loads.iter().filter(|l| placed.contains(&l.block)).collect();
     let newtons = units.newtons(loads.iter().map(|l| l.force.norm()));
     let torques = units.torques(loads.iter().map(|l| l.torque));
     let metres = units.lengths(loads.iter().flat_map(|l| [l.at.x, l.at.y]));
     let turns = loads.iter().any(|l| l.torque != 0.0);
-    let mut heads = vec![
-        "load on".to_owned(),
-        metres.head("x"),
-        metres.head("y"),
-        newtons.head("force"),
-        "direction".to_owned(),
-    ];
+    let mut heads =
+        vec!["load on".to_owned(), metres.head("x"), metres.head("y"), newtons.head("force"), "direction".to_owned()];
     heads.extend(turns.then(|| torques.head("torque")));
     let mut grid = Grid::new("", &heads);
     for load in loads.iter().take(MAX_ROWS) {
@@ -127,13 +116,7 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
         let rest = &loads[MAX_ROWS..];
         let sum: Vector = rest.iter().map(|l| l.force).sum();
         let what = format!("{} more, together", rest.len());
-        let mut cells = vec![
-            what,
-            "–".into(),
-            "–".into(),
-            newtons.write(sum.norm()),
-            direction(sum),
-        ];
+        let mut cells = vec![what, "–".into(), "–".into(), newtons.write(sum.norm()), direction(sum)];
         cells.extend(turns.then(|| torques.write(rest.iter().map(|l| l.torque).sum())));
         grid.add("", cells);
     }
@@ -169,15 +152,7 @@ fn direction(force: Vector) -> String {
 /// the first [`MAX_ROWS`] are only counted.
 pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
     let holds = &scene.frames[number].holds;
-    let mut grid = Grid::new(
-        "",
-        &[
-            "robot",
-            "holds",
-            "at",
-            "limits: horizontal, vertical, torque",
-        ],
-    );
+    let mut grid = Grid::new("", &["robot", "holds", "at", "limits: horizontal, vertical, torque"]);
     for hold in holds.iter().take(MAX_ROWS) {
         let robot = &scene.robots[hold.robot.0];
         let cells = [
@@ -223,10 +198,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         add("loads", "none but the weights".to_owned());
     }
     add("thickness", amount(scene.thickness, scene.units.length()));
-    add(
-        "joints",
-        "dry: no tension, no cohesion; rigid blocks".to_owned(),
-    );
+    add("joints", "dry: no tension, no cohesion; rigid blocks".to_owned());
     let frictions = scene.ground.iter().map(|g| g.body.friction);
     let friction = ValueRange::words(frictions.fold(None, ValueRange::add));
     let ground = match scene.ground.len() {
@@ -240,11 +212,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
     }
     let kernel = match scene.kernel {
         0.0 => "0: forces may act up to the ends of joints".to_owned(),
-        kernel => format!(
-            "{}: forces stay in the middle {} of each joint",
-            digits(kernel),
-            tenths(1.0 - kernel)
-        ),
+        kernel => format!("{}: forces stay in the middle {} of each joint", digits(kernel), tenths(1.0 - kernel)),
     };
     add("safety kernel", kernel);
     if scene.corner_contacts {

@@ -48,30 +48,17 @@ impl<'a> Ranking<'a> {
                 continue;
             }
             let off_middle = off_middle(contact, scene.kernel);
-            let share = off_middle
-                .map_or(0.0, |off| off.1)
-                .max(contact.friction_used);
-            used.push(UsedJoint {
-                contact: number,
-                off_middle,
-                share,
-            });
+            let share = off_middle.map_or(0.0, |off| off.1).max(contact.friction_used);
+            used.push(UsedJoint { contact: number, off_middle, share });
         }
         // Sort by utilisation, rounded to thousandths to remove rounding errors of the solver. If utilisations are
         // equal, the joint with the larger force comes first.
         let key = |u: &UsedJoint| (1e3 * u.share).round();
         used.sort_by(|a, b| {
             let force = |u: &UsedJoint| size(&frame_analysis.contacts[u.contact]);
-            key(b)
-                .total_cmp(&key(a))
-                .then(force(b).total_cmp(&force(a)))
+            key(b).total_cmp(&key(a)).then(force(b).total_cmp(&force(a)))
         });
-        Ranking {
-            scene,
-            frame_analysis,
-            used,
-            units: Units::new(scene, frame_analysis),
-        }
+        Ranking { scene, frame_analysis, used, units: Units::new(scene, frame_analysis) }
     }
 
     /// Returns the governing block, for which the report lists all forces. It is a block at the largest failure or, if
@@ -83,11 +70,7 @@ impl<'a> Ranking<'a> {
             Some(Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. }) => {
                 return Some(*block);
             }
-            None => {
-                self.frame_analysis.contacts[self.used.first()?.contact]
-                    .interface
-                    .bodies
-            }
+            None => self.frame_analysis.contacts[self.used.first()?.contact].interface.bodies,
         };
         let blocks = bodies.iter().filter_map(|body| match body {
             BodyId::Block(block) => Some(*block),
@@ -120,28 +103,14 @@ impl<'a> Ranking<'a> {
             true => &self.used,
             false => &self.used[..self.used.len().min(MAX_JOINTS)],
         };
-        let contacts = || {
-            shown
-                .iter()
-                .map(|u| &self.frame_analysis.contacts[u.contact])
-        };
-        let newtons = self
-            .units
-            .newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
-        let positions = self
-            .units
-            .lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
+        let contacts = || shown.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
+        let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
+        let positions = self.units.lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
         // offsets.
-        let offs = self
-            .units
-            .lengths(contacts().map(|c| 0.5 * c.interface.length()));
+        let offs = self.units.lengths(contacts().map(|c| 0.5 * c.interface.length()));
         let mut grid = Grid::new(
-            if all {
-                "All joints that carry force"
-            } else {
-                ""
-            },
+            if all { "All joints that carry force" } else { "" },
             &[
                 "joint".to_owned(),
                 positions.head("x"),
@@ -160,8 +129,7 @@ impl<'a> Ranking<'a> {
                 Some((off, share)) => (offs.write(off), share),
                 None => ("corner".to_owned(), 0.0),
             };
-            let share =
-                |share: f64| TableCell::strong_if(share >= HIGH_UTILISATION, percent(share));
+            let share = |share: f64| TableCell::strong_if(share >= HIGH_UTILISATION, percent(share));
             let cells = [
                 name(self.scene, contact).into(),
                 positions.write(at.x).into(),
@@ -188,9 +156,7 @@ impl<'a> Ranking<'a> {
         let added = match self.frame_analysis.verdict {
             Verdict::Stable => "",
             Verdict::Unstable if self.frame_analysis.failures.is_empty() => "",
-            Verdict::Unstable => {
-                " These forces are in equilibrium only together with the missing forces."
-            }
+            Verdict::Unstable => " These forces are in equilibrium only together with the missing forces.",
             Verdict::Undecided => " These forces are not proved.",
         };
         format!(
@@ -206,9 +172,7 @@ impl<'a> Ranking<'a> {
         if self.frame_analysis.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
         }
-        let newtons = self
-            .units
-            .newtons(self.frame_analysis.contacts.iter().map(normal));
+        let newtons = self.units.newtons(self.frame_analysis.contacts.iter().map(normal));
         let joints = self.used.iter().map(|used| {
             let contact = &self.frame_analysis.contacts[used.contact];
             let mut words = format!(
@@ -221,30 +185,16 @@ impl<'a> Ranking<'a> {
             if let Some((_, share)) = used.off_middle {
                 words.push_str(&format!(", opening {}", percent(share)));
             }
-            HoverTarget {
-                mark: format!("i{}", used.contact),
-                words,
-                ends: contact.interface.ends,
-            }
+            HoverTarget { mark: format!("i{}", used.contact), words, ends: contact.interface.ends }
         });
-        let robots = self
-            .frame_analysis
-            .robots
-            .iter()
-            .enumerate()
-            .map(|(number, robot)| {
-                let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
-                hover::target(format!("r{number}"), &words, robot.at)
-            });
-        let failures = self
-            .frame_analysis
-            .failures
-            .iter()
-            .enumerate()
-            .map(|(number, failed)| {
-                let words = format!("Failure: {}", missing(self.scene, failed, self.units));
-                hover::target(format!("f{number}"), &words, failed.at())
-            });
+        let robots = self.frame_analysis.robots.iter().enumerate().map(|(number, robot)| {
+            let words = format!("robot {}", self.scene.robots[robot.robot.0].id);
+            hover::target(format!("r{number}"), &words, robot.at)
+        });
+        let failures = self.frame_analysis.failures.iter().enumerate().map(|(number, failed)| {
+            let words = format!("Failure: {}", missing(self.scene, failed, self.units));
+            hover::target(format!("f{number}"), &words, failed.at())
+        });
         joints.chain(robots).chain(failures).collect()
     }
 }
@@ -280,25 +230,16 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     if interface.kind == ContactKind::Corner || interface.length() <= 0.0 {
         return None;
     }
-    let off = (contact.resultant.at - interface.middle())
-        .dot(&interface.tangent())
-        .abs();
+    let off = (contact.resultant.at - interface.middle()).dot(&interface.tangent()).abs();
     // With a kernel of 1, the allowed distance is 0, and the joint counts as fully used.
-    let share = if half > 0.0 {
-        (off / half).min(1.0)
-    } else {
-        1.0
-    };
+    let share = if half > 0.0 { (off / half).min(1.0) } else { 1.0 };
     Some((off, share))
 }
 
 /// Makes a table of the robots of a frame, with their forces and the largest fraction of a limit that each robot
 /// uses.
 pub(super) fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
-    let forces = frame_analysis
-        .robots
-        .iter()
-        .flat_map(|r| [r.force.x, r.force.y]);
+    let forces = frame_analysis.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
     let units = Units::new(scene, frame_analysis);
     let newtons = units.newtons(forces);
     let torques = units.torques(frame_analysis.robots.iter().map(|r| r.torque));

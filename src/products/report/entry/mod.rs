@@ -55,13 +55,7 @@ pub struct ReportOptions {
 
 impl Default for ReportOptions {
     fn default() -> ReportOptions {
-        ReportOptions {
-            theme: Theme::default(),
-            dark: None,
-            theme_name: None,
-            timing: Timing::LeftOut,
-            full: false,
-        }
+        ReportOptions { theme: Theme::default(), dark: None, theme_name: None, timing: Timing::LeftOut, full: false }
     }
 }
 
@@ -101,25 +95,13 @@ impl Entry {
     /// Makes the content of a report from an analysis. `file` is the scene file of the analysis.
     pub fn new(file: File<'_>, analysis: &Analysis, options: &ReportOptions) -> Entry {
         let scene = &analysis.scene;
-        let named = [
-            ("Project", &scene.project),
-            ("Author", &scene.author),
-            ("Date", &scene.date),
-        ];
-        let details = named
-            .into_iter()
-            .filter(|(_, words)| !words.trim().is_empty());
+        let named = [("Project", &scene.project), ("Author", &scene.author), ("Date", &scene.date)];
+        let details = named.into_iter().filter(|(_, words)| !words.trim().is_empty());
         Entry {
             row: Row::new(file.name, analysis),
-            details: details
-                .map(|(what, words)| text::line(&format!("{what}: {words}")))
-                .collect(),
+            details: details.map(|(what, words)| text::line(&format!("{what}: {words}"))).collect(),
             sections: steps::sections(analysis, options),
-            origin: format!(
-                "drystone {}, scene {}",
-                env!("CARGO_PKG_VERSION"),
-                hash(file.text)
-            ),
+            origin: format!("drystone {}, scene {}", env!("CARGO_PKG_VERSION"), hash(file.text)),
             commands: commands(file.name, analysis, options),
             source: text::json(file.text),
             results: vec![result(file.name, analysis, options.timing)],
@@ -132,11 +114,7 @@ impl Entry {
     pub(crate) fn take_figures(&mut self, other: Entry) {
         let others = other.sections.into_iter().flat_map(|section| section.parts);
         let mut others = others.filter(|part| matches!(part, SheetPart::Figures(_)));
-        for part in self
-            .sections
-            .iter_mut()
-            .flat_map(|section| &mut section.parts)
-        {
+        for part in self.sections.iter_mut().flat_map(|section| &mut section.parts) {
             if matches!(part, SheetPart::Figures(_))
                 && let Some(drawn) = others.next()
             {
@@ -187,17 +165,11 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
 /// Returns the commands that make the figures, the full report and the numbers of a scene again. Each pair has the
 /// purpose of a command and the command.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
-    let theme = options
-        .theme_name
-        .as_ref()
-        .map_or(String::new(), |theme| format!(" --theme {theme}"));
+    let theme = options.theme_name.as_ref().map_or(String::new(), |theme| format!(" --theme {theme}"));
     let file = text::shell(name);
     let command = |kind: &str| format!("drystone render {file} -o figure.svg{kind}{theme}");
     let mut commands = vec![("the figure of forces".to_owned(), command(""))];
-    let falls = analysis
-        .frames
-        .iter()
-        .any(|f| f.verdict == Verdict::Unstable && !f.mechanism.is_empty());
+    let falls = analysis.frames.iter().any(|f| f.verdict == Verdict::Unstable && !f.mechanism.is_empty());
     if falls {
         commands.push(("how it falls".to_owned(), command(" --kind mechanism")));
     }
@@ -205,29 +177,19 @@ fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(St
         "all joints, effects and solver details".to_owned(),
         format!("drystone report --full {file} -o report.pdf"),
     ));
-    commands.push((
-        "the numbers".to_owned(),
-        format!("drystone check --json {file}"),
-    ));
+    commands.push(("the numbers".to_owned(), format!("drystone check --json {file}")));
     commands
 }
 
 /// Makes the table of all scenes, with links to the scenes. `compares` is true if each row compares two scenes. `pages`
 /// has the page numbers of the scenes, in the order of their numbers; `None` for a report without numbered pages.
 pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -> Grid {
-    let fails = if compares {
-        "what changed"
-    } else {
-        "what fails"
-    };
+    let fails = if compares { "what changed" } else { "what fails" };
     let mut heads = vec!["picture", "name", "verdict", "headline margin", fails];
     heads.extend(pages.map(|_| "#page"));
     let mut grid = Grid::new("", &heads);
     for row in rows {
-        let name = TableCell {
-            scene: Some(row.number),
-            ..row.title.clone().into()
-        };
+        let name = TableCell { scene: Some(row.number), ..row.title.clone().into() };
         let mut cells = vec![
             TableCell::picture(row.thumbnail.clone()),
             name,
@@ -235,11 +197,7 @@ pub(crate) fn overview(rows: &[&Row], compares: bool, pages: Option<&[usize]>) -
             row.margin_words().into(),
             row.fails.clone().into(),
         ];
-        cells.extend(
-            pages
-                .and_then(|p| p.get(row.number - 1))
-                .map(|page| TableCell::from(page.to_string())),
-        );
+        cells.extend(pages.and_then(|p| p.get(row.number - 1)).map(|page| TableCell::from(page.to_string())));
         grid.add("", cells);
     }
     grid

@@ -73,11 +73,7 @@ impl Row {
         let bars = bullet::margin_bars(scene, &frames[number]);
         let bar = bars.first();
         let standing = || frames.iter().filter(|f| f.verdict == Verdict::Stable);
-        let mut placed: Vec<usize> = scene
-            .frames
-            .iter()
-            .flat_map(|f| f.placed.iter().map(|id| id.0))
-            .collect();
+        let mut placed: Vec<usize> = scene.frames.iter().flat_map(|f| f.placed.iter().map(|id| id.0)).collect();
         placed.sort_unstable();
         placed.dedup();
         let fails = frames.iter().find(|f| f.verdict != Verdict::Stable);
@@ -85,9 +81,7 @@ impl Row {
             let unsupported = failure::unsupported_phrase(scene, frame_analysis);
             let largest = failure::by_amount(frame_analysis).into_iter().next();
             let largest = largest.map(|f| failure::missing_phrase(scene, f));
-            unsupported
-                .or(largest)
-                .unwrap_or_else(|| frame_analysis.doubt())
+            unsupported.or(largest).unwrap_or_else(|| frame_analysis.doubt())
         });
         let title = match scene.title.trim() {
             "" => file_name(name),
@@ -119,10 +113,7 @@ impl Row {
                 })
                 .reduce(f64::max),
             fails: text::line(&fails),
-            thumbnail: thumbnail(
-                scene,
-                &placed.iter().map(|id| BlockId(*id)).collect::<Vec<_>>(),
-            ),
+            thumbnail: thumbnail(scene, &placed.iter().map(|id| BlockId(*id)).collect::<Vec<_>>()),
         }
     }
 }
@@ -172,18 +163,12 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
         return Thumbnail::default();
     };
     let (width, height) = THUMBNAIL_SIZE;
-    let size = f64::max(
-        bounds.width() / (width - 6.0),
-        bounds.height() / (height - 8.0),
-    );
+    let size = f64::max(bounds.width() / (width - 6.0), bounds.height() / (height - 8.0));
     if !(size > 0.0 && size.is_finite()) {
         return Thumbnail::default();
     }
     let scale = 1.0 / size;
-    let at = PagePoint::new(
-        (width - scale * bounds.width()) / 2.0,
-        height - 5.0 - scale * bounds.height(),
-    );
+    let at = PagePoint::new((width - scale * bounds.width()) / 2.0, height - 5.0 - scale * bounds.height());
     let camera = Camera::new(bounds, at, scale);
     let every = placed.len().div_ceil(MAX_THUMBNAIL_BLOCKS).max(1);
     let mut blocks = String::new();
@@ -205,13 +190,7 @@ fn path_data(outline: &Outline) -> String {
         let tenths = (x * 10.0).round() / 10.0 + 0.0;
         format!("{tenths}")
     };
-    let point = |p: &PagePoint| {
-        format!(
-            "{} {}",
-            number(p.x.clamp(0.0, width)),
-            number(p.y.clamp(0.0, height))
-        )
-    };
+    let point = |p: &PagePoint| format!("{} {}", number(p.x.clamp(0.0, width)), number(p.y.clamp(0.0, height)));
     let step = |segment: &Segment| match segment {
         Segment::Move(p) => format!("M{}", point(p)),
         Segment::Line(p) => format!("L{}", point(p)),

@@ -4,10 +4,7 @@
 use super::governing::headline_words;
 use super::joints::{Ranking, robots};
 use super::unit::Units;
-use super::{
-    Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs,
-    verdict_text,
-};
+use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs, verdict_text};
 use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
 use crate::drawing::Drawing;
 use crate::figure::{self, Kind, Options};
@@ -43,11 +40,7 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let several = scene.frames.len() > 1;
     let title = line(&scene.frames[number].title);
     Section {
-        letter: if several {
-            letter(number)
-        } else {
-            String::new()
-        },
+        letter: if several { letter(number) } else { String::new() },
         title: match title.is_empty() && several {
             true => format!("Step {}", number + 1),
             false => title,
@@ -70,17 +63,8 @@ pub(super) fn sheet(
     let ranking = Ranking::new(scene, frame_analysis);
     let mut section = empty(scene, number, frame_analysis.verdict);
     let parts = &mut section.parts;
-    parts.push(SheetPart::Badge(Box::new(badge(
-        scene,
-        number,
-        frame_analysis,
-    ))));
-    parts.push(SheetPart::Figures(figures(
-        analysis,
-        number,
-        report_options,
-        &ranking,
-    )));
+    parts.push(SheetPart::Badge(Box::new(badge(scene, number, frame_analysis))));
+    parts.push(SheetPart::Figures(figures(analysis, number, report_options, &ranking)));
     parts.extend(failure_description(analysis, number));
     parts.push(given(scene, number, Units::new(scene, frame_analysis)));
     if let Some(steps) = steps {
@@ -108,39 +92,22 @@ pub(super) fn sheet(
 
 /// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
 /// figure and the reason for its verdict.
-pub(super) fn others(
-    analysis: &Analysis,
-    numbers: &[usize],
-    report_options: &ReportOptions,
-) -> Vec<SheetPart> {
+pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &ReportOptions) -> Vec<SheetPart> {
     let scene = &analysis.scene;
     let column = |number: &usize| {
         let frame_analysis = &analysis.frames[*number];
         let own = empty(scene, *number, frame_analysis.verdict);
-        let mut figures = figures(
-            analysis,
-            *number,
-            report_options,
-            &Ranking::new(scene, frame_analysis),
-        );
+        let mut figures = figures(analysis, *number, report_options, &Ranking::new(scene, frame_analysis));
         figures.truncate(1);
         figures.iter_mut().for_each(|figure| figure.touches.clear());
         vec![
-            SheetPart::Heading(format!(
-                "({}) {}: {}",
-                own.letter,
-                own.title,
-                plain(own.verdict)
-            )),
+            SheetPart::Heading(format!("({}) {}: {}", own.letter, own.title, plain(own.verdict))),
             SheetPart::Figures(figures),
             SheetPart::Note(sentence(scene, frame_analysis)),
         ]
     };
     let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
-    columns
-        .chunks(2)
-        .map(|pair| SheetPart::Columns(pair.to_vec()))
-        .collect()
+    columns.chunks(2).map(|pair| SheetPart::Columns(pair.to_vec())).collect()
 }
 
 /// Returns a sentence with the verdict and its reasons. Forces and torques have the unit and
@@ -155,9 +122,7 @@ fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge 
     Badge {
         verdict: frame_analysis.verdict,
         headline: headline_words(scene, number, frame_analysis),
-        bar: bullet::margin_bars(scene, frame_analysis)
-            .into_iter()
-            .next(),
+        bar: bullet::margin_bars(scene, frame_analysis).into_iter().next(),
         sentence: sentence(scene, frame_analysis),
     }
 }
@@ -165,18 +130,10 @@ fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge 
 /// Draws the figures of a frame. For a falling frame, they show the collapse and the forces. For a standing frame, they
 /// show the force flow, and how the frame would fall beyond its margin. For an undecided frame, they show the forces.
 /// A collapse or fall that is not known has no figure. Without interfaces, forces replace the force flow.
-fn figures(
-    analysis: &Analysis,
-    number: usize,
-    report_options: &ReportOptions,
-    ranking: &Ranking<'_>,
-) -> Vec<Figure> {
+fn figures(analysis: &Analysis, number: usize, report_options: &ReportOptions, ranking: &Ranking<'_>) -> Vec<Figure> {
     let frame_analysis = &analysis.frames[number];
     let options = options(report_options);
-    let dark = report_options.dark.as_ref().map(|theme| Options {
-        theme: theme.clone(),
-        ..options.clone()
-    });
+    let dark = report_options.dark.as_ref().map(|theme| Options { theme: theme.clone(), ..options.clone() });
     let drawn = |kind: Kind, change: &dyn Fn(&mut Options)| -> Option<(Drawing, Option<Drawing>)> {
         let one = |options: &Options| {
             let mut options = options.clone();
@@ -199,13 +156,7 @@ fn figures(
                 true => ranking.touches(),
                 false => Vec::new(),
             };
-            figures.push(Figure {
-                caption: caption.to_owned(),
-                drawing,
-                dark,
-                touches,
-                subject: Some((kind, number)),
-            });
+            figures.push(Figure { caption: caption.to_owned(), drawing, dark, touches, subject: Some((kind, number)) });
         }
     }
     figures
@@ -217,8 +168,7 @@ fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)>
     match frame_analysis.verdict {
         Verdict::Unstable => {
             if !frame_analysis.mechanism.is_empty() {
-                let caption =
-                    "How the structure begins to fall. Dashed: the blocks before they move.";
+                let caption = "How the structure begins to fall. Dashed: the blocks before they move.";
                 kinds.push((Kind::Mechanism, caption));
             }
             let caption = match frame_analysis.failures.is_empty() {
@@ -247,14 +197,9 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
     let column = |heading: &str, words: Vec<String>| {
         let words = words.into_iter().map(SheetPart::Text);
-        [SheetPart::Heading(heading.to_owned())]
-            .into_iter()
-            .chain(words)
-            .collect::<Vec<_>>()
+        [SheetPart::Heading(heading.to_owned())].into_iter().chain(words).collect::<Vec<_>>()
     };
-    let first: Vec<String> = verdict_text::fails_first(analysis, number)
-        .into_iter()
-        .collect();
+    let first: Vec<String> = verdict_text::fails_first(analysis, number).into_iter().collect();
     let take = verdict_text::changes_of_verdict(scene, frame_analysis);
     let take = match take.is_empty() {
         true => take,
@@ -281,44 +226,25 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
 fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
         true => Vec::new(),
-        false => vec![
-            SheetPart::Heading(heading.to_owned()),
-            SheetPart::Table(grid),
-        ],
+        false => vec![SheetPart::Heading(heading.to_owned()), SheetPart::Table(grid)],
     };
     let mut left = titled("Materials", inputs::materials(scene, number, units));
     left.extend(titled("Loads", inputs::loads(scene, number, units)));
     left.extend(titled("Robots", inputs::robots(scene, number, units)));
-    SheetPart::Columns(vec![
-        left,
-        titled("Supports and settings", inputs::facts(scene, number, units)),
-    ])
+    SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number, units))])
 }
 
 fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     let mut grid = Grid::new("", &["margin", "bar", "in words"]);
     for bar in bullet::margin_bars(scene, frame_analysis) {
         let words = bar.words.clone();
-        grid.add(
-            "",
-            [
-                TableCell::from(bar.name.clone()),
-                TableCell::bar(bar),
-                words.into(),
-            ],
-        );
+        grid.add("", [TableCell::from(bar.name.clone()), TableCell::bar(bar), words.into()]);
     }
     if grid.lines.is_empty() {
         return Vec::new();
     }
-    let notes = frame_analysis
-        .margins
-        .iter()
-        .flat_map(|margins| &margins.intervals.notes);
-    let mut parts = vec![
-        SheetPart::Heading("Margins".to_owned()),
-        SheetPart::Table(grid),
-    ];
+    let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.intervals.notes);
+    let mut parts = vec![SheetPart::Heading("Margins".to_owned()), SheetPart::Table(grid)];
     parts.push(SheetPart::Note(bullet::SHAPES_LEGEND.to_owned()));
     parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
     parts
@@ -330,9 +256,7 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         _ => "settlement, time, impact and earthquakes",
     };
     let least = match (frame_analysis.verdict, frame_analysis.least_force) {
-        (Verdict::Stable, true) => {
-            " Other balances of forces may exist; the one shown has the least sum of forces."
-        }
+        (Verdict::Stable, true) => " Other balances of forces may exist; the one shown has the least sum of forces.",
         (Verdict::Stable, false) => {
             " Other balances of forces may exist; it was not proved that the one shown has the least sum of forces."
         }
@@ -353,9 +277,6 @@ fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
         .find(|e| e.effect == EffectName::Wedging && e.simulated)
         .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
-    let notices = frame_analysis
-        .notices
-        .iter()
-        .map(|n| format!("Note: {}.", line(n)));
+    let notices = frame_analysis.notices.iter().map(|n| format!("Note: {}.", line(n)));
     wedging.into_iter().chain(notices).collect()
 }

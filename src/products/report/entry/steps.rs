@@ -25,19 +25,11 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
         first.title = format!("{} (the step that governs)", first.title);
     }
     let mut sections = vec![first];
-    let falling =
-        (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
-    let falling: Vec<usize> = falling
-        .take(if report_options.full {
-            count
-        } else {
-            MAX_FALLING_STEPS
-        })
-        .collect();
+    let falling = (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
+    let falling: Vec<usize> = falling.take(if report_options.full { count } else { MAX_FALLING_STEPS }).collect();
     if !falling.is_empty() {
         let mut section = empty(&analysis.scene, governing, analysis.verdict());
-        (section.letter, section.title) =
-            (String::new(), "Other steps that do not stand".to_owned());
+        (section.letter, section.title) = (String::new(), "Other steps that do not stand".to_owned());
         section.parts = others(analysis, &falling, report_options);
         sections.push(section);
     }
@@ -49,16 +41,7 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
 
 fn table(analysis: &Analysis) -> Grid {
     let scene = &analysis.scene;
-    let mut grid = Grid::new(
-        "",
-        &[
-            "picture",
-            "step",
-            "verdict",
-            "headline margin",
-            "governing joint",
-        ],
-    );
+    let mut grid = Grid::new("", &["picture", "step", "verdict", "headline margin", "governing joint"]);
     for (number, frame_analysis) in analysis.frames.iter().enumerate() {
         let title = match scene.frames[number].title.as_str() {
             "" => format!("Step {}", number + 1),
@@ -74,10 +57,7 @@ fn table(analysis: &Analysis) -> Grid {
             [
                 TableCell::picture(thumbnail(scene, &scene.frames[number].placed)),
                 format!("({}) {title}", letter(number)).into(),
-                TableCell::strong_if(
-                    frame_analysis.verdict != Verdict::Stable,
-                    plain(frame_analysis.verdict),
-                ),
+                TableCell::strong_if(frame_analysis.verdict != Verdict::Stable, plain(frame_analysis.verdict)),
                 headline.into(),
                 governing.unwrap_or_else(|| "–".to_owned()).into(),
             ],

@@ -32,19 +32,13 @@ impl Units {
     /// Chooses the prefix for the largest force, missing force, weight or load: M, k, m, µ or no prefix. Above 1000 N
     /// the prefix is k, above 10⁸ N it is M. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
     pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
-        let contacts = frame_analysis
-            .contacts
-            .iter()
-            .map(|c| c.resultant.force.norm());
+        let contacts = frame_analysis.contacts.iter().map(|c| c.resultant.force.norm());
         let robots = frame_analysis.robots.iter().map(|r| r.force.norm());
         let missing = frame_analysis.failures.iter().map(failure::amount);
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);
         let given = loads.chain(weights);
-        Units::of(
-            contacts.chain(robots).chain(missing).chain(given),
-            scene.units,
-        )
+        Units::of(contacts.chain(robots).chain(missing).chain(given), scene.units)
     }
 
     fn of(forces: impl IntoIterator<Item = f64>, scene: UnitsEntry) -> Units {
@@ -55,11 +49,7 @@ impl Units {
             x if x >= 1e-5 => ("m", 1e3),
             _ => ("µ", 1e6),
         };
-        Units {
-            prefix,
-            factor,
-            scene,
-        }
+        Units { prefix, factor, scene }
     }
 
     /// Chooses the unit and the decimals of a column of forces. `numbers` are all forces of the column, in newtons.
@@ -102,11 +92,7 @@ impl Units {
 
     fn column(self, numbers: impl IntoIterator<Item = f64>, unit: Unit) -> Column {
         let factor = self.factor(unit);
-        Column {
-            unit: self.symbol(unit),
-            factor,
-            decimals: decimals(largest(numbers) * factor),
-        }
+        Column { unit: self.symbol(unit), factor, decimals: decimals(largest(numbers) * factor) }
     }
 
     /// Converts a quantity from the SI unit, and writes it for a sentence with three significant digits and the unit.
@@ -132,11 +118,7 @@ impl Column {
     pub fn lengths(numbers: impl IntoIterator<Item = f64>, units: UnitsEntry) -> Column {
         let unit = units.length();
         let factor = 1.0 / unit.size;
-        Column {
-            unit: unit.symbol(),
-            factor,
-            decimals: decimals(largest(numbers) * factor),
-        }
+        Column { unit: unit.symbol(), factor, decimals: decimals(largest(numbers) * factor) }
     }
 
     /// Converts a value from the SI unit to the unit of the column, and writes it with the decimals of the column,
@@ -174,9 +156,7 @@ fn decimals(largest: f64) -> usize {
         return 0;
     }
     let first = libm::log10(largest).floor() as i32;
-    usize::try_from(SIGNIFICANT_DIGITS - 1 - first)
-        .unwrap_or(0)
-        .min(9)
+    usize::try_from(SIGNIFICANT_DIGITS - 1 - first).unwrap_or(0).min(9)
 }
 
 #[cfg(test)]
@@ -190,16 +170,10 @@ mod tests {
         let column = units.newtons([110_395.0, -42.0, 0.0]);
         assert_eq!(column.unit, "kN");
         assert_eq!(column.write(110_395.0), "110.4");
-        assert_eq!(
-            (column.write(-42.0), column.write(-0.001)),
-            ("0.0".into(), "0.0".into())
-        );
+        assert_eq!((column.write(-42.0), column.write(-0.001)), ("0.0".into(), "0.0".into()));
         assert_eq!(column.write(-420.0), "−0.4");
         assert_eq!(units.torques([7.5]).with_unit(7.5), "0.007500 kN·m");
         assert_eq!(units.force(504.8), "0.505 kN");
-        assert_eq!(
-            Units::of([7.5], si).newtons([7.5]).with_unit(7.5),
-            "7.500 N"
-        );
+        assert_eq!(Units::of([7.5], si).newtons([7.5]).with_unit(7.5), "7.500 N");
     }
 }

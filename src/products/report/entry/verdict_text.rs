@@ -19,17 +19,14 @@ pub(super) fn toward(frame_analysis: &FrameAnalysis) -> Option<Toward> {
     let intervals = &frame_analysis.margins.as_ref()?.intervals;
     let has_edge = |interval: &Option<Interval>| {
         let ends = interval.iter().flat_map(|i| [i.low(), i.high()]);
-        ends.flatten()
-            .any(|end| matches!(end, End::At { mechanism, .. } if !mechanism.is_empty()))
+        ends.flatten().any(|end| matches!(end, End::At { mechanism, .. } if !mechanism.is_empty()))
     };
     let ways = [
         (&intervals.load_factor, Toward::LoadFactor),
         (&intervals.tilt, Toward::Tilt),
         (&intervals.horizontal_load, Toward::HorizontalLoad),
     ];
-    ways.into_iter()
-        .find(|way| has_edge(way.0))
-        .map(|way| way.1)
+    ways.into_iter().find(|way| has_edge(way.0)).map(|way| way.1)
 }
 
 /// Describes how the frame falls, or how it would fall at the end of its margin. Returns `None` if the frame is
@@ -39,9 +36,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
     match frame_analysis.verdict {
         Verdict::Undecided => None,
         Verdict::Unstable => {
-            let mut said: Vec<String> = unsupported_phrase(scene, frame_analysis)
-                .into_iter()
-                .collect();
+            let mut said: Vec<String> = unsupported_phrase(scene, frame_analysis).into_iter().collect();
             // Use the elementary mechanism, because the figure shows it too.
             let shown = with_only_frame(analysis, number).elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
@@ -61,10 +56,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
                 }
                 Toward::HorizontalLoad => {
                     let side = if value < 0.0 { "left" } else { "right" };
-                    format!(
-                        "Under a horizontal load of {} times each weight to the {side}",
-                        three(value.abs())
-                    )
+                    format!("Under a horizontal load of {} times each weight to the {side}", three(value.abs()))
                 }
             };
             let how = collapse(analysis, number, &mechanism)?;
@@ -93,21 +85,13 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
             None => name(scene, contact),
         }
     };
-    let hinges: Vec<String> = moving_joints
-        .iter()
-        .filter(|j| j.hinge.is_some())
-        .map(|j| at(&j))
-        .collect();
+    let hinges: Vec<String> = moving_joints.iter().filter(|j| j.hinge.is_some()).map(|j| at(&j)).collect();
     let sliding = |tips: bool| -> Vec<String> {
         let slides = moving_joints.iter();
         let slides = slides.filter(|j| j.slip != 0.0 && j.touch.is_some() == tips);
         slides.map(|j| at(&j)).collect()
     };
-    let kinds = [
-        (hinges, "hinge"),
-        (sliding(false), "sliding joint"),
-        (sliding(true), "sliding and tipping joint"),
-    ];
+    let kinds = [(hinges, "hinge"), (sliding(false), "sliding joint"), (sliding(true), "sliding and tipping joint")];
     let said = kinds.into_iter().filter(|(joints, _)| !joints.is_empty());
     let said = said.map(|(joints, kind)| {
         let count = counted(joints.len(), kind);
@@ -125,20 +109,13 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
 
 /// Makes an analysis that contains only the frame with index `number`.
 fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
-    Analysis {
-        scene: analysis.scene.clone(),
-        frames: vec![analysis.frames[number].clone()],
-        notes: Vec::new(),
-    }
+    Analysis { scene: analysis.scene.clone(), frames: vec![analysis.frames[number].clone()], notes: Vec::new() }
 }
 
 /// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns
 /// at most one sentence for each computed margin.
 pub(super) fn changes_of_verdict(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
-    stated(scene, frame_analysis)
-        .iter()
-        .filter_map(|margin| change(margin, frame_analysis.verdict))
-        .collect()
+    stated(scene, frame_analysis).iter().filter_map(|margin| change(margin, frame_analysis.verdict)).collect()
 }
 
 /// Describes which change of one parameter would change the verdict, or states that none would. Returns `None` if the
@@ -163,18 +140,14 @@ fn change(margin: &StatedMargin<'_>, verdict: Verdict) -> Option<String> {
         (Parameter::Friction, Verdict::Stable) if inside => Some(match low {
             Some(low) if low > 0.0 => {
                 let low = three_down(low);
-                format!(
-                    "The structure would fall with a friction coefficient below {low}; now {now}."
-                )
+                format!("The structure would fall with a friction coefficient below {low}; now {now}.")
             }
             _ => "The structure needs no friction.".to_owned(),
         }),
         (Parameter::Friction, Verdict::Unstable) if !inside => Some(match low {
             Some(low) if low > 0.0 => {
                 let low = three_up(low);
-                format!(
-                    "The structure would stand with a friction coefficient of {low}; now {now}."
-                )
+                format!("The structure would stand with a friction coefficient of {low}; now {now}.")
             }
             _ => "More friction does not help.".to_owned(),
         }),
@@ -193,16 +166,10 @@ fn limit_of_loads(low: Option<f64>, high: Option<f64>) -> String {
             three_down(low)
         ),
         (None, Some(high)) => {
-            format!(
-                "The structure would fall at {} times its loads.",
-                three_up(high)
-            )
+            format!("The structure would fall at {} times its loads.", three_up(high))
         }
         (Some(low), None) => {
-            format!(
-                "The structure would fall below {} times its loads.",
-                three_down(low)
-            )
+            format!("The structure would fall below {} times its loads.", three_down(low))
         }
         (None, None) => "The structure stands at every factor on its loads.".to_owned(),
     }
@@ -227,12 +194,7 @@ fn limit_of_tilt(low: Option<f64>, high: Option<f64>) -> Option<String> {
         high.map(|v| format!("{}° to the right", three_up(v))),
     ];
     let sides: Vec<String> = sides.into_iter().flatten().collect();
-    (!sides.is_empty()).then(|| {
-        format!(
-            "The structure would fall if gravity turned by {}.",
-            sides.join(" or ")
-        )
-    })
+    (!sides.is_empty()).then(|| format!("The structure would fall if gravity turned by {}.", sides.join(" or ")))
 }
 
 #[cfg(test)]
@@ -254,21 +216,12 @@ mod tests {
         let frame = &mut analysis.frames[0];
         let margins = frame.margins.as_mut().expect("margins were requested");
         margins.intervals.load_factor = Some(Interval::Between {
-            low: End::At {
-                value: 0.0,
-                mechanism: Vec::new(),
-            },
-            high: End::Unconfirmed {
-                stands: 2.0,
-                beyond: 2.5,
-            },
+            low: End::At { value: 0.0, mechanism: Vec::new() },
+            high: End::Unconfirmed { stands: 2.0, beyond: 2.5 },
         });
         let said = changes_of_verdict(&scene, frame);
         let expected = "(upper end not confirmed: between 2 and 2.5)";
         assert!(said[0].contains(expected), "{said:?}");
-        assert!(
-            !said.iter().any(|s| s.contains("times its loads")),
-            "{said:?}"
-        );
+        assert!(!said.iter().any(|s| s.contains("times its loads")), "{said:?}");
     }
 }

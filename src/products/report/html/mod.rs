@@ -24,8 +24,7 @@ const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");
 
 /// The content security policy of a page. It forbids all network requests.
-const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 /// The content security policy of a page with interactive figures. Their script starts web workers from its own
 /// source text.
 const INTERACTIVE_POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' blob: 'wasm-unsafe-eval'; \
@@ -58,10 +57,7 @@ pub(super) fn split(head: &Head<'_>, bodies: &[&str]) -> Vec<OutputFile> {
         (refused(head))
         (overview(head, &link))
     };
-    let mut files = vec![(
-        "index.html".to_owned(),
-        page(head, head.title, &head.summary, &index).into_bytes(),
-    )];
+    let mut files = vec![("index.html".to_owned(), page(head, head.title, &head.summary, &index).into_bytes())];
     for (number, (row, body)) in head.rows.iter().zip(bodies).enumerate() {
         let beside = |number: Option<usize>, words: &str| {
             let name = number.and_then(|n| names.get(n));
@@ -161,11 +157,7 @@ fn path(name: &str) -> Markup {
 
 fn overview(head: &Head<'_>, link: &dyn Fn(usize) -> String) -> Markup {
     let margins = head.rows.iter().any(|row| !row.headline.is_empty());
-    let fails = if head.compares {
-        "what changed"
-    } else {
-        "what fails"
-    };
+    let fails = if head.compares { "what changed" } else { "what fails" };
     html! {
         section.overview aria-labelledby="overview" {
             h2 #overview { "All scenes" }

@@ -7,9 +7,7 @@ use super::{path, thumbnail, verdict, verdicts};
 use crate::chart;
 use crate::drawing::Drawing;
 use crate::output::svg::{self, Options};
-use crate::report::entry::{
-    Badge, Chart, Entry, Figure, Grid, HoverTarget, Section, SheetPart, TableCell, touched,
-};
+use crate::report::entry::{Badge, Chart, Entry, Figure, Grid, HoverTarget, Section, SheetPart, TableCell, touched};
 use crate::wording::verdict::plain;
 
 /// Tables with more rows are collapsed.
@@ -149,11 +147,7 @@ impl Writer {
     fn plate(&mut self, figure: &Figure) -> Markup {
         let mut drawn = |drawing: &Drawing| {
             self.figures += 1;
-            picture(
-                drawing,
-                &format!("{}{}", self.mark, self.figures),
-                &figure.touches,
-            )
+            picture(drawing, &format!("{}{}", self.mark, self.figures), &figure.touches)
         };
         let light = drawn(&figure.drawing);
         let dark = figure.dark.as_ref().map(drawn);
@@ -176,10 +170,7 @@ impl Writer {
 
 fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
     let drawing = touched(drawing, touches);
-    let options = Options {
-        mark: Some(mark.to_owned()),
-        ..Options::default()
-    };
+    let options = Options { mark: Some(mark.to_owned()), ..Options::default() };
     // These options write text with font names, not as outlines. Such text needs no layout, so this call cannot fail.
     PreEscaped(svg::write_with(&drawing, &options).unwrap_or_else(|_| svg::write(&drawing)))
 }
@@ -207,10 +198,7 @@ fn chart(of: &Chart) -> Markup {
         };
     }
     // The page may have a dark background, so the chart uses the colours of the page.
-    let svg = of
-        .svg
-        .replace(chart::INK, "currentColor")
-        .replace(chart::GRID, "var(--rule)");
+    let svg = of.svg.replace(chart::INK, "currentColor").replace(chart::GRID, "var(--rule)");
     html! {
         figure.chart { (PreEscaped(svg)) figcaption { (of.caption) } }
     }

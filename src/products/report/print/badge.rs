@@ -30,15 +30,12 @@ struct BadgeTexts {
 impl BadgeTexts {
     /// Returns the height, in pixels, of the panel for these texts. A line of text is at most `room` pixels wide.
     fn height(&self, room: f64) -> f64 {
-        let lines = |words: &str, face: Face, size: f64| {
-            LINE_HEIGHT * size * wrap(words, face, size, room).len() as f64
-        };
+        let lines =
+            |words: &str, face: Face, size: f64| LINE_HEIGHT * size * wrap(words, face, size, room).len() as f64;
         let headline = self.headline.as_ref();
         let headline = headline.map_or(0.0, |words| lines(words, Face::SansBold, HEADLINE_SIZE));
         let margin = self.margin.as_ref();
-        let margin = margin.map_or(0.0, |words| {
-            BAR_HEIGHT + lines(words, Face::Sans, SMALL_TEXT_SIZE)
-        });
+        let margin = margin.map_or(0.0, |words| BAR_HEIGHT + lines(words, Face::Sans, SMALL_TEXT_SIZE));
         2.0 * PADDING + headline + margin + lines(&self.sentence, Face::Sans, SMALL_TEXT_SIZE)
     }
 }
@@ -61,13 +58,7 @@ impl Flow {
         (self.left, self.room) = (left + WORD_WIDTH, inner);
         let (ink, faint) = (self.theme.ink, self.theme.faint);
         if let Some(headline) = &words.headline {
-            self.words(
-                headline,
-                Face::SansBold,
-                HEADLINE_SIZE,
-                ink,
-                &Role::Paragraph,
-            );
+            self.words(headline, Face::SansBold, HEADLINE_SIZE, ink, &Role::Paragraph);
         }
         if let (Some(of), Some(margin)) = (&badge.bar, &words.margin) {
             let at = PagePoint::new(self.left, self.y + 2.0);
@@ -75,13 +66,7 @@ impl Flow {
             self.y += BAR_HEIGHT;
             self.words(margin, Face::Sans, SMALL_TEXT_SIZE, faint, &Role::Paragraph);
         }
-        self.words(
-            &words.sentence,
-            Face::Sans,
-            SMALL_TEXT_SIZE,
-            ink,
-            &Role::Paragraph,
-        );
+        self.words(&words.sentence, Face::Sans, SMALL_TEXT_SIZE, ink, &Role::Paragraph);
         (self.left, self.room) = (left, room);
         self.y = top + high + 8.0;
     }
@@ -96,8 +81,7 @@ impl Flow {
         let (left, top) = (self.left, self.y);
         let panel = |to: f64| {
             Outline::ring(
-                [(left, top), (to, top), (to, top + high), (left, top + high)]
-                    .map(|(x, y)| PagePoint::new(x, y)),
+                [(left, top), (to, top), (to, top + high), (left, top + high)].map(|(x, y)| PagePoint::new(x, y)),
             )
         };
         self.add(Path::filled(panel(left + self.room), tint));

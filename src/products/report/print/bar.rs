@@ -62,10 +62,8 @@ impl BarPlace<'_> {
         flow.add(Path::stroked(self.along(self.x(from), self.x(to)), safe));
         for (end, value, outward) in [(self.bar.ends.0, from, -1.0), (self.bar.ends.1, to, 1.0)] {
             let x = self.x(value);
-            let upright = Outline::line([
-                PagePoint::new(x, self.at.y + 2.0),
-                PagePoint::new(x, self.at.y + HEIGHT - 2.0),
-            ]);
+            let upright =
+                Outline::line([PagePoint::new(x, self.at.y + 2.0), PagePoint::new(x, self.at.y + HEIGHT - 2.0)]);
             let stroke = Stroke::new(ink, 1.5);
             match end {
                 BarEnd::Domain => {}
@@ -89,11 +87,7 @@ impl BarPlace<'_> {
         let Some((least, most)) = self.bar.now else {
             return;
         };
-        let values = if least < most {
-            vec![least, most]
-        } else {
-            vec![least]
-        };
+        let values = if least < most { vec![least, most] } else { vec![least] };
         let ink = flow.theme.ink;
         for value in values {
             let here = PagePoint::new(self.x(value), self.middle());
@@ -102,12 +96,8 @@ impl BarPlace<'_> {
                 Position::Outside => {
                     for sign in [-1.0, 1.0] {
                         let arm = (4.0, sign * 4.0);
-                        let cross =
-                            Outline::line([here.moved(-arm.0, -arm.1), here.moved(arm.0, arm.1)]);
-                        flow.add(Path::stroked(
-                            cross,
-                            Stroke::new(Colour::hex(FALLS_COLOUR), 2.0),
-                        ));
+                        let cross = Outline::line([here.moved(-arm.0, -arm.1), here.moved(arm.0, arm.1)]);
+                        flow.add(Path::stroked(cross, Stroke::new(Colour::hex(FALLS_COLOUR), 2.0)));
                     }
                 }
                 Position::Unknown => {

@@ -2,9 +2,7 @@
 
 use super::Page;
 use crate::drawing::text::{width, wrap};
-use crate::drawing::{
-    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
-};
+use crate::drawing::{Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, Theme};
 use crate::output::fonts::Fonts;
 use crate::output::pdf::{self, Role};
 use crate::report::entry::{Chart, Figure, SheetPart};
@@ -74,10 +72,7 @@ impl Flow {
     /// Returns the current page. Creates the page if it does not exist.
     pub fn page(&mut self) -> &mut Page {
         while self.pages.len() <= self.current {
-            self.pages.push(Page {
-                foot: self.foot.clone(),
-                ..Page::default()
-            });
+            self.pages.push(Page { foot: self.foot.clone(), ..Page::default() });
         }
         &mut self.pages[self.current]
     }
@@ -99,15 +94,7 @@ impl Flow {
     }
 
     /// Adds one line of text. Its top is at the current y coordinate, and `x` is the coordinate of its anchor.
-    pub fn put(
-        &mut self,
-        words: &str,
-        x: f64,
-        face: Face,
-        size: f64,
-        colour: Colour,
-        anchor: Anchor,
-    ) {
+    pub fn put(&mut self, words: &str, x: f64, face: Face, size: f64, colour: Colour, anchor: Anchor) {
         let at = PagePoint::new(x, self.y + size);
         let text = Text::new(at, words, face, size, colour).anchored(anchor);
         self.open.push(text.into());
@@ -126,10 +113,7 @@ impl Flow {
             return;
         }
         let page = self.page();
-        page.groups.push(Group {
-            items,
-            ..Group::default()
-        });
+        page.groups.push(Group { items, ..Group::default() });
         page.roles.push(role);
     }
 
@@ -185,20 +169,10 @@ impl Flow {
     pub fn title(&mut self, words: &str, details: &[String]) {
         let (top, room) = (self.y, self.room);
         let details: Vec<String> = details.iter().map(|d| self.legible(d)).collect();
-        let wide = details
-            .iter()
-            .map(|d| width(d, Face::Sans, SMALL_TEXT_SIZE))
-            .fold(0.0, f64::max);
+        let wide = details.iter().map(|d| width(d, Face::Sans, SMALL_TEXT_SIZE)).fold(0.0, f64::max);
         for detail in &details {
             let x = self.left + room;
-            self.put(
-                detail,
-                x,
-                Face::Sans,
-                SMALL_TEXT_SIZE,
-                self.theme.faint,
-                Anchor::End,
-            );
+            self.put(detail, x, Face::Sans, SMALL_TEXT_SIZE, self.theme.faint, Anchor::End);
             self.close(Role::Paragraph);
             self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
@@ -211,36 +185,18 @@ impl Flow {
     }
 
     pub fn paragraph(&mut self, words: &str) {
-        self.words(
-            words,
-            Face::Sans,
-            TEXT_SIZE,
-            self.theme.ink,
-            &Role::Paragraph,
-        );
+        self.words(words, Face::Sans, TEXT_SIZE, self.theme.ink, &Role::Paragraph);
         self.y += 0.4 * TEXT_SIZE;
     }
 
     /// Adds a paragraph in bold letters, without space below it.
     pub fn strong(&mut self, words: &str) {
-        self.words(
-            words,
-            Face::SansBold,
-            TEXT_SIZE,
-            self.theme.ink,
-            &Role::Paragraph,
-        );
+        self.words(words, Face::SansBold, TEXT_SIZE, self.theme.ink, &Role::Paragraph);
     }
 
     /// Adds a paragraph in small, faint letters.
     pub fn note(&mut self, words: &str) {
-        self.words(
-            words,
-            Face::Sans,
-            SMALL_TEXT_SIZE,
-            self.theme.faint,
-            &Role::Paragraph,
-        );
+        self.words(words, Face::Sans, SMALL_TEXT_SIZE, self.theme.faint, &Role::Paragraph);
         self.y += 0.4 * TEXT_SIZE;
     }
 
@@ -249,10 +205,7 @@ impl Flow {
         let across = figures.len().max(1) as f64;
         let wide = (self.room - COLUMN_GAP * (across - 1.0)) / across;
         let scales: Vec<f64> = figures.iter().map(|f| fitted(&f.drawing, wide)).collect();
-        let heights = figures
-            .iter()
-            .zip(&scales)
-            .map(|(f, scale)| scale * f.drawing.height);
+        let heights = figures.iter().zip(&scales).map(|(f, scale)| scale * f.drawing.height);
         let high = heights.fold(0.0, f64::max);
         self.reserve(high + 4.0 * SMALL_TEXT_SIZE);
         let (top, left) = (self.y, self.left);
@@ -262,9 +215,7 @@ impl Flow {
             let inset = (wide - scale * figure.drawing.width) / 2.0;
             let down = high - scale * figure.drawing.height;
             let at = PagePoint::new(x + inset, top + down);
-            self.page()
-                .figures
-                .push((figure.drawing.clone(), at, scale));
+            self.page().figures.push((figure.drawing.clone(), at, scale));
             self.y = top + high + 2.0;
             end = f64::max(end, self.caption(&figure.caption, x, wide));
         }
@@ -276,14 +227,7 @@ impl Flow {
     fn caption(&mut self, words: &str, x: f64, wide: f64) -> f64 {
         let words = self.legible(words);
         for row in wrap(&words, Face::Sans, SMALL_TEXT_SIZE, wide) {
-            self.put(
-                &row,
-                x,
-                Face::Sans,
-                SMALL_TEXT_SIZE,
-                self.theme.faint,
-                Anchor::Start,
-            );
+            self.put(&row, x, Face::Sans, SMALL_TEXT_SIZE, self.theme.faint, Anchor::Start);
             self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
         self.close(Role::Paragraph);
@@ -342,7 +286,5 @@ impl Flow {
 /// Returns the scale, at most 1, at which a figure is at most `wide` pixels wide and at most [`MAX_FIGURE_HEIGHT`]
 /// high.
 fn fitted(drawing: &Drawing, wide: f64) -> f64 {
-    (wide / drawing.width)
-        .min(MAX_FIGURE_HEIGHT / drawing.height)
-        .min(1.0)
+    (wide / drawing.width).min(MAX_FIGURE_HEIGHT / drawing.height).min(1.0)
 }

@@ -92,18 +92,13 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
 fn foot(entry: &Entry) -> String {
     let names = entry.row.name.split(" → ");
     let names = names.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(name));
-    format!(
-        "{}, {}",
-        entry.origin,
-        names.collect::<Vec<_>>().join(" → ")
-    )
+    format!("{}, {}", entry.origin, names.collect::<Vec<_>>().join(" → "))
 }
 
 fn parts(flow: &mut Flow, parts: &[SheetPart]) {
     for (number, part) in parts.iter().enumerate() {
         // Keep a heading on the same page as the table below it, or at least as the first rows of this table.
-        if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1))
-        {
+        if let (SheetPart::Heading(_), Some(SheetPart::Table(grid))) = (part, parts.get(number + 1)) {
             flow.reserve(HEADING_HEIGHT + flow.least(grid));
         }
         match part {
@@ -140,20 +135,15 @@ pub(super) fn written(
         .iter()
         .enumerate()
         .flat_map(|(number, page)| {
-            page.bookmarks
-                .iter()
-                .map(move |(level, title, y)| Bookmark {
-                    level: *level,
-                    title: title.clone(),
-                    page: number,
-                    y: *y,
-                })
+            page.bookmarks.iter().map(move |(level, title, y)| Bookmark {
+                level: *level,
+                title: title.clone(),
+                page: number,
+                y: *y,
+            })
         })
         .collect();
-    let heading = Heading {
-        title: &title,
-        description,
-    };
+    let heading = Heading { title: &title, description };
     Ok(pdf::write_sheets(&sheets, &heading, &bookmarks)?)
 }
 
@@ -164,27 +154,11 @@ fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Dra
     let y = PAGE_SIZE.1 - MARGIN + 12.0;
     let at = |x: f64| PagePoint::new(x, y);
     let words = format!("{} of {count}", number + 1);
-    let words = Text::new(
-        at(PAGE_SIZE.0 - MARGIN),
-        words,
-        Face::Sans,
-        SMALL_TEXT_SIZE,
-        theme.faint,
-    );
-    let origin = Text::new(
-        at(MARGIN),
-        page.foot.clone(),
-        Face::Sans,
-        SMALL_TEXT_SIZE,
-        theme.faint,
-    );
+    let words = Text::new(at(PAGE_SIZE.0 - MARGIN), words, Face::Sans, SMALL_TEXT_SIZE, theme.faint);
+    let origin = Text::new(at(MARGIN), page.foot.clone(), Face::Sans, SMALL_TEXT_SIZE, theme.faint);
     page.roles.push(Role::Artifact);
     let mut groups = std::mem::take(&mut page.groups);
-    groups.push(
-        Group::default()
-            .with(origin)
-            .with(words.anchored(Anchor::End)),
-    );
+    groups.push(Group::default().with(origin).with(words.anchored(Anchor::End)));
     for (number, group) in groups.iter_mut().enumerate() {
         group.id = Some(format!("e{number}"));
     }
@@ -199,11 +173,8 @@ fn drawing(page: &mut Page, (number, count): (usize, usize), title: &str) -> Dra
 }
 
 fn sheet<'p>(page: &'p Page, words: &'p Drawing, starts: &[usize]) -> Sheet<'p> {
-    let mut parts = vec![Inset {
-        content: Content::Tagged(words, &page.roles),
-        at: PagePoint::new(0.0, 0.0),
-        scale: 1.0,
-    }];
+    let mut parts =
+        vec![Inset { content: Content::Tagged(words, &page.roles), at: PagePoint::new(0.0, 0.0), scale: 1.0 }];
     parts.extend(page.figures.iter().map(|(drawing, at, scale)| Inset {
         content: Content::Drawing(drawing),
         at: *at,
@@ -215,16 +186,7 @@ fn sheet<'p>(page: &'p Page, words: &'p Drawing, starts: &[usize]) -> Sheet<'p> 
         scale: *scale,
     }));
     let links = page.links.iter().filter_map(|(place, scene, words)| {
-        Some(Link {
-            place: *place,
-            page: *starts.get(scene - 1)?,
-            words: words.clone(),
-        })
+        Some(Link { place: *place, page: *starts.get(scene - 1)?, words: words.clone() })
     });
-    Sheet {
-        width: PAGE_SIZE.0,
-        height: PAGE_SIZE.1,
-        parts,
-        links: links.collect(),
-    }
+    Sheet { width: PAGE_SIZE.0, height: PAGE_SIZE.1, parts, links: links.collect() }
 }

@@ -65,19 +65,10 @@ impl Flow {
     }
 
     fn layout(&self, grid: &Grid) -> Layout {
-        let legible = |cell: &TableCell| TableCell {
-            words: self.legible(&cell.words),
-            ..cell.clone()
-        };
-        let rows: Vec<Vec<TableCell>> = grid
-            .lines
-            .iter()
-            .map(|l| l.cells.iter().map(legible).collect())
-            .collect();
+        let legible = |cell: &TableCell| TableCell { words: self.legible(&cell.words), ..cell.clone() };
+        let rows: Vec<Vec<TableCell>> = grid.lines.iter().map(|l| l.cells.iter().map(legible).collect()).collect();
         let heads = grid.heads.iter();
-        let head: Vec<TableCell> = heads
-            .map(|h| TableCell::strong_if(true, self.legible(&h.0)))
-            .collect();
+        let head: Vec<TableCell> = heads.map(|h| TableCell::strong_if(true, self.legible(&h.0))).collect();
         Layout {
             number: self.tables,
             widths: widths(&head, &rows, self.room),
@@ -95,20 +86,12 @@ impl Flow {
             self.y = top;
             let is_number = layout.is_number.get(column) == Some(&true);
             self.cell(cell, x, *wide, is_number);
-            self.close(Role::Cell {
-                table: layout.number,
-                row: number,
-                head: number == 0,
-            });
+            self.close(Role::Cell { table: layout.number, row: number, head: number == 0 });
             x += wide + COLUMN_GAP;
         }
         self.y = top + high.min(TEXT_BOTTOM - MARGIN);
         let (left, y) = (self.left, self.y - 1.0);
-        let (colour, stroke) = if number == 0 {
-            (self.theme.faint, 1.0)
-        } else {
-            (self.theme.rule, 0.7)
-        };
+        let (colour, stroke) = if number == 0 { (self.theme.faint, 1.0) } else { (self.theme.rule, 0.7) };
         self.rule(left, left + self.room, y, colour, stroke);
     }
 
@@ -120,12 +103,7 @@ impl Flow {
         if let Some(picture) = &cell.picture {
             let at = PagePoint::new(x, self.y + 1.0);
             let scale = PICTURE_SIZE.0 / DRAWN_PICTURE_WIDTH;
-            self.page().charts.push((
-                small(picture),
-                "A small picture of the blocks".to_owned(),
-                at,
-                scale,
-            ));
+            self.page().charts.push((small(picture), "A small picture of the blocks".to_owned(), at, scale));
             return;
         }
         let (at, anchor) = match is_number {
@@ -137,19 +115,12 @@ impl Flow {
         let colour = self.theme.ink;
         // Cut the text of a cell that is taller than a page. The other forms of the report have the whole text.
         let most = ((TEXT_BOTTOM - MARGIN) / (LINE_HEIGHT * SMALL_TEXT_SIZE)) as usize - 4;
-        for part in wrap(&cell.words, face, SMALL_TEXT_SIZE, wide)
-            .into_iter()
-            .take(most)
-        {
+        for part in wrap(&cell.words, face, SMALL_TEXT_SIZE, wide).into_iter().take(most) {
             self.put(&part, at, face, SMALL_TEXT_SIZE, colour, anchor);
             self.y += LINE_HEIGHT * SMALL_TEXT_SIZE;
         }
         if let Some(scene) = cell.scene {
-            let place = PageRect {
-                at: PagePoint::new(x, top),
-                width: wide,
-                height: self.y - top,
-            };
+            let place = PageRect { at: PagePoint::new(x, top), width: wide, height: self.y - top };
             self.page().links.push((place, scene, cell.words.clone()));
         }
     }
@@ -174,22 +145,14 @@ impl Layout {
         let heights = cells.map(|(cell, wide)| match (&cell.bar, &cell.picture) {
             (Some(_), _) => bar::HEIGHT,
             (_, Some(_)) => PICTURE_SIZE.1,
-            _ => {
-                LINE_HEIGHT
-                    * SMALL_TEXT_SIZE
-                    * wrap(&cell.words, face(cell), SMALL_TEXT_SIZE, *wide).len() as f64
-            }
+            _ => LINE_HEIGHT * SMALL_TEXT_SIZE * wrap(&cell.words, face(cell), SMALL_TEXT_SIZE, *wide).len() as f64,
         });
         heights.fold(LINE_HEIGHT * SMALL_TEXT_SIZE, f64::max) + 4.0
     }
 }
 
 fn face(cell: &TableCell) -> Face {
-    if cell.strong {
-        Face::SansBold
-    } else {
-        Face::Sans
-    }
+    if cell.strong { Face::SansBold } else { Face::Sans }
 }
 
 /// Returns a small picture as an SVG document.
@@ -207,9 +170,7 @@ fn small(picture: &Thumbnail) -> String {
 fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> {
     let longest = |words: &str| {
         let parts = words.split_whitespace();
-        parts
-            .map(|w| width(w, Face::SansBold, SMALL_TEXT_SIZE))
-            .fold(0.0, f64::max)
+        parts.map(|w| width(w, Face::SansBold, SMALL_TEXT_SIZE)).fold(0.0, f64::max)
     };
     let cell_width = |cell: &TableCell| match (&cell.bar, &cell.picture) {
         (Some(_), _) => BAR_WIDTH,
@@ -223,10 +184,7 @@ fn widths(heads: &[TableCell], rows: &[Vec<TableCell>], space: f64) -> Vec<f64> 
     let room = space - COLUMN_GAP * heads.len().saturating_sub(1) as f64;
     let columns = 0..heads.len();
     let whole = |column: usize| width(&heads[column].words, Face::SansBold, SMALL_TEXT_SIZE);
-    let mut widths: Vec<f64> = columns
-        .clone()
-        .map(|column| own(column).max(whole(column)) + 2.0)
-        .collect();
+    let mut widths: Vec<f64> = columns.clone().map(|column| own(column).max(whole(column)) + 2.0).collect();
     let left = room - widths.iter().sum::<f64>();
     if left >= 0.0 {
         let more = (left / heads.len().max(1) as f64).min(MAX_SPREAD);

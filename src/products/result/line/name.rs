@@ -18,10 +18,7 @@ pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
     let mut names = Vec::new();
     // A path with `*` belongs to a key below the name of a robot. Such keys cannot be selected one by one, only all
     // together by the name of the object that contains the robots.
-    for key in KEYS
-        .iter()
-        .filter(|k| k.path != "file" && !k.path.contains('*'))
-    {
+    for key in KEYS.iter().filter(|k| k.path != "file" && !k.path.contains('*')) {
         let mut list = &mut names;
         for word in key.path.split('.') {
             let word = word.trim_end_matches("[]");
@@ -42,10 +39,7 @@ pub(super) static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
 });
 
 fn leaf(word: &'static str) -> Name {
-    Name {
-        word,
-        parts: Vec::new(),
-    }
+    Name { word, parts: Vec::new() }
 }
 
 /// Returns the words of the path of the field with this name, such as `frames`, `proof`; `None` if there is no such

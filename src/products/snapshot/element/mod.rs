@@ -69,12 +69,7 @@ fn described(events: Vec<Event>) -> Vec<String> {
             continue;
         }
         done.push(&event.change);
-        described.push(format!(
-            "{} elements, such as {}: {}",
-            alike.len(),
-            event.element,
-            event.change
-        ));
+        described.push(format!("{} elements, such as {}: {}", alike.len(), event.element, event.change));
     }
     described
 }
@@ -84,10 +79,7 @@ fn described(events: Vec<Event>) -> Vec<String> {
 fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) {
     let element = new.called(within);
     let mut report = |change: String| {
-        events.push(Event {
-            element: element.clone(),
-            change,
-        });
+        events.push(Event { element: element.clone(), change });
     };
     for (what, a, b) in [
         ("title", &old.title, &new.title),
@@ -125,14 +117,8 @@ fn compare(old: &Element, new: &Element, within: &str, events: &mut Vec<Event>) 
     for pair in pairing::pairs(&old.children, &new.children) {
         match pair {
             (Some(old), Some(new)) => compare(old, new, &inside, events),
-            (Some(old), None) => events.push(Event {
-                element: old.called(&inside),
-                change: "vanished".into(),
-            }),
-            (None, Some(new)) => events.push(Event {
-                element: new.called(&inside),
-                change: "appeared".into(),
-            }),
+            (Some(old), None) => events.push(Event { element: old.called(&inside), change: "vanished".into() }),
+            (None, Some(new)) => events.push(Event { element: new.called(&inside), change: "appeared".into() }),
             (None, None) => {}
         }
     }
@@ -149,12 +135,10 @@ fn same_value(a: &str, b: &str) -> bool {
     }
     let (a, b) = (pieces(a), pieces(b));
     a.len() == b.len()
-        && a.iter()
-            .zip(&b)
-            .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(x), Ok(y)) => (x - y).abs() <= POSITION_TOL,
-                _ => a == b,
-            })
+        && a.iter().zip(&b).all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
+            (Ok(x), Ok(y)) => (x - y).abs() <= POSITION_TOL,
+            _ => a == b,
+        })
 }
 
 /// True if two texts are equal, apart from one unit in the last digit of rounded numbers. A number counts as rounded
@@ -167,8 +151,7 @@ fn same_words(a: &str, b: &str) -> bool {
     a.len() == b.len()
         && (0..a.len()).all(|i| {
             let next = a.get(i + 1).and_then(|p| p.trim_start().chars().next());
-            let rounded =
-                a[i].contains('.') && b[i].contains('.') || matches!(next, Some('°' | '%'));
+            let rounded = a[i].contains('.') && b[i].contains('.') || matches!(next, Some('°' | '%'));
             match (a[i].parse::<f64>(), b[i].parse::<f64>()) {
                 (Ok(x), Ok(y)) if rounded => (x - y).abs() <= 1.5 * unit(a[i]).max(unit(b[i])),
                 _ => a[i] == b[i],
@@ -222,18 +205,13 @@ mod tests {
         assert!(same_words("6.91 N at 65°", "6.92 N at 66°"));
         assert!(!same_words("6.91 N", "6.93 N"));
         assert!(!same_words("3 hinges", "4 hinges") && !same_words("Block 3", "Block 4"));
-        assert!(same_value(
-            "192.8953857421875 206.76",
-            "192.8953857421900 206.77"
-        ));
+        assert!(same_value("192.8953857421875 206.76", "192.8953857421900 206.77"));
         assert!(!same_value("1.5", "1.6") && !same_value("none", "#000000"));
         assert!(same_value("#102030", "#112030") && !same_value("#102030", "#122030"));
     }
 
     fn page(inside: &str) -> String {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"90\" height=\"50\">{inside}</svg>"
-        )
+        format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"90\" height=\"50\">{inside}</svg>")
     }
 
     #[test]
@@ -243,14 +221,8 @@ mod tests {
             let all = (0..30).filter(|x| *x != lost).map(path);
             page(&all.collect::<String>())
         };
-        assert_eq!(
-            changes(&paths(99), &paths(11)),
-            Ok(vec!["path in the page: vanished".into()])
-        );
-        assert_eq!(
-            changes(&paths(11), &paths(99)),
-            Ok(vec!["path in the page: appeared".into()])
-        );
+        assert_eq!(changes(&paths(99), &paths(11)), Ok(vec!["path in the page: vanished".into()]));
+        assert_eq!(changes(&paths(11), &paths(99)), Ok(vec!["path in the page: appeared".into()]));
     }
 
     #[test]
@@ -260,10 +232,7 @@ mod tests {
             page(&(0..9).map(text).collect::<String>())
         };
         let described = changes(&texts(3), &texts(4)).expect("both are SVG");
-        assert_eq!(
-            described,
-            ["9 elements, such as text \"word 0\": moved by 1 px to the right"]
-        );
+        assert_eq!(described, ["9 elements, such as text \"word 0\": moved by 1 px to the right"]);
     }
 
     #[test]
@@ -271,14 +240,8 @@ mod tests {
         let sound = page("");
         for (text, words) in [
             ("", "it is empty (0 bytes)"),
-            (
-                "version https://git-lfs.github.com/spec/v1\n",
-                "it is a Git LFS pointer",
-            ),
-            (
-                "<<<<<<< HEAD\n<svg/>",
-                "line 1 is a mark of a merge conflict",
-            ),
+            ("version https://git-lfs.github.com/spec/v1\n", "it is a Git LFS pointer"),
+            ("<<<<<<< HEAD\n<svg/>", "line 1 is a mark of a merge conflict"),
             ("<svg><g></svg>", "it is not SVG"),
             ("{}", "it is not SVG"),
         ] {

@@ -33,17 +33,8 @@ fn key(element: &Element, stage: usize) -> u64 {
     match stage {
         0 => element.hash(&mut hasher),
         1 => {
-            let commands = element
-                .place_of("d")
-                .map_or(0, |d| d.matches(char::is_alphabetic).count());
-            (
-                &element.tag,
-                &element.class,
-                element.label(),
-                &element.words,
-                commands,
-            )
-                .hash(&mut hasher);
+            let commands = element.place_of("d").map_or(0, |d| d.matches(char::is_alphabetic).count());
+            (&element.tag, &element.class, element.label(), &element.words, commands).hash(&mut hasher);
         }
         _ => (&element.tag, &element.class, element.label()).hash(&mut hasher),
     }
@@ -92,12 +83,7 @@ fn pair_rest<'e>(old: &'e [Element], new: &'e [Element], pairs: &mut Vec<Pair<'e
 fn longest_common_subsequence(old: &[u64], new: &[u64]) -> Vec<(usize, usize)> {
     let ahead = old.iter().zip(new).take_while(|(a, b)| a == b).count();
     let (a, b) = (&old[ahead..], &new[ahead..]);
-    let behind = a
-        .iter()
-        .rev()
-        .zip(b.iter().rev())
-        .take_while(|(a, b)| a == b)
-        .count();
+    let behind = a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();
     let (a, b) = (&a[..a.len() - behind], &b[..b.len() - behind]);
     let mut found: Vec<(usize, usize)> = (0..ahead).map(|i| (i, i)).collect();
     let middle = if a.len().saturating_mul(b.len()) > MAX_TABLE_ENTRIES {

@@ -40,11 +40,7 @@ impl Movement {
                 format!("moved by {}", ways.join(" and "))
             }
             Movement::Turned(degrees) => {
-                let way = if degrees > 0.0 {
-                    "anticlockwise"
-                } else {
-                    "clockwise"
-                };
+                let way = if degrees > 0.0 { "anticlockwise" } else { "clockwise" };
                 format!("turned by {}° {way}", short(degrees))
             }
             Movement::Reshaped(far) => format!("its outline changed by up to {} px", short(far)),
@@ -92,10 +88,7 @@ pub(super) fn movement(old: &Element, new: &Element) -> Movement {
     let (sin, cos) = libm::sincos(angle);
     let turned = |p: [f64; 2]| {
         let p = [p[0] - from[0], p[1] - from[1]];
-        [
-            to[0] + cos * p[0] - sin * p[1],
-            to[1] + sin * p[0] + cos * p[1],
-        ]
+        [to[0] + cos * p[0] - sin * p[1], to[1] + sin * p[0] + cos * p[1]]
     };
     if far(&b, &turned) <= 2.0 * POSITION_TOL {
         // The y axis of the page points down, so a positive angle is clockwise. Report the opposite sign, positive
@@ -120,10 +113,7 @@ fn rounded(by: f64) -> f64 {
 fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -> f64 {
     let (mut along, mut across) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
-        let (p, q) = (
-            [p[0] - from[0], p[1] - from[1]],
-            [q[0] - to[0], q[1] - to[1]],
-        );
+        let (p, q) = ([p[0] - from[0], p[1] - from[1]], [q[0] - to[0], q[1] - to[1]]);
         along += p[0] * q[0] + p[1] * q[1];
         across += p[0] * q[1] - p[1] * q[0];
     }
@@ -133,9 +123,7 @@ fn best_rotation(a: &[[f64; 2]], b: &[[f64; 2]], from: [f64; 2], to: [f64; 2]) -
 /// Returns the mean of the points.
 fn centre(points: &[[f64; 2]]) -> [f64; 2] {
     let count = points.len().max(1) as f64;
-    let sum = points
-        .iter()
-        .fold([0.0, 0.0], |s, p| [s[0] + p[0], s[1] + p[1]]);
+    let sum = points.iter().fold([0.0, 0.0], |s, p| [s[0] + p[0], s[1] + p[1]]);
     [sum[0] / count, sum[1] / count]
 }
 
@@ -155,14 +143,7 @@ fn points(element: &Element) -> Option<(Vec<[f64; 2]>, String)> {
                     letters.push('L');
                     points.push([x, y]);
                 }
-                SimplePathSegment::CurveTo {
-                    x1,
-                    y1,
-                    x2,
-                    y2,
-                    x,
-                    y,
-                } => {
+                SimplePathSegment::CurveTo { x1, y1, x2, y2, x, y } => {
                     letters.push('C');
                     points.extend([[x1, y1], [x2, y2], [x, y]]);
                 }

@@ -44,9 +44,8 @@ pub(super) struct Element {
 }
 
 /// Attributes for position and size.
-const SHAPE_ATTRIBUTES: [&str; 13] = [
-    "d", "points", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height",
-];
+const SHAPE_ATTRIBUTES: [&str; 13] =
+    ["d", "points", "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "width", "height"];
 /// Attributes that are ignored: drystone derives them from the content of the whole drawing.
 const IGNORED_ATTRIBUTES: [&str; 2] = ["id", "aria-labelledby"];
 
@@ -78,11 +77,7 @@ impl Element {
     /// Returns a name of the element for messages, such as `text "word 0"` or `path in the page`. `within` describes
     /// its parent element.
     pub(super) fn called(&self, within: &str) -> String {
-        let what = if self.class.is_empty() {
-            &self.tag
-        } else {
-            &self.class
-        };
+        let what = if self.class.is_empty() { &self.tag } else { &self.class };
         if self.tag == "svg" {
             "the page".into()
         } else if !self.title.is_empty() {
@@ -97,11 +92,7 @@ impl Element {
     /// Returns the words with which messages locate the children of this element. These are its own name if it is the
     /// page or has a title. Otherwise they are `within`, the words that locate the element itself.
     pub(super) fn place(&self, within: &str) -> String {
-        if self.tag == "svg" || !self.title.is_empty() {
-            self.called(within)
-        } else {
-            within.to_owned()
-        }
+        if self.tag == "svg" || !self.title.is_empty() { self.called(within) } else { within.to_owned() }
     }
 }
 
@@ -120,23 +111,16 @@ pub(super) fn read(text: &str) -> Result<Element, SvgParseError> {
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let name = crate::text::heading(root.tag_name().name(), 40);
-        return Err(SvgParseError::Xml(format!(
-            "its outermost element is {name}"
-        )));
+        return Err(SvgParseError::Xml(format!("its outermost element is {name}")));
     }
     element(root, 0)
 }
 
 fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
     if depth > MAX_DEPTH {
-        return Err(SvgParseError::Xml(format!(
-            "elements are nested more than {MAX_DEPTH} levels deep"
-        )));
+        return Err(SvgParseError::Xml(format!("elements are nested more than {MAX_DEPTH} levels deep")));
     }
-    let mut found = Element {
-        tag: crate::text::line(node.tag_name().name()),
-        ..Element::default()
-    };
+    let mut found = Element { tag: crate::text::line(node.tag_name().name()), ..Element::default() };
     for attribute in node.attributes() {
         let (name, value) = (attribute.name(), crate::text::line(attribute.value()));
         match name {
@@ -146,17 +130,12 @@ fn element(node: Node<'_, '_>, depth: usize) -> Result<Element, SvgParseError> {
             _ if SHAPE_ATTRIBUTES.contains(&name) => found.shape.push((name.to_owned(), value)),
             // Ignore the id after `#`, because it depends on the content of the whole drawing. The element with this
             // id is compared separately.
-            _ if value.starts_with("url(#") => {
-                found.attributes.push((name.to_owned(), "url".into()))
-            }
+            _ if value.starts_with("url(#") => found.attributes.push((name.to_owned(), "url".into())),
             _ => found.attributes.push((name.to_owned(), value)),
         }
     }
     let words = |node: Node<'_, '_>| {
-        let text: String = node
-            .descendants()
-            .filter_map(|n| n.text().filter(|_| n.is_text()))
-            .collect();
+        let text: String = node.descendants().filter_map(|n| n.text().filter(|_| n.is_text())).collect();
         crate::text::heading(&text, 2000)
     };
     if found.tag == "text" || found.tag == "style" {

@@ -28,14 +28,12 @@ pub(super) fn changes(expected: &Facts, found: &Facts) -> Vec<Change> {
     for (old, new) in pairs(&expected.sections, &found.sections) {
         match (old, new) {
             (Some(old), Some(new)) => section(old, new, several, &mut changes),
-            (Some(old), None) => changes.push(Change {
-                words: format!("{} is gone", heading(old)),
-                weight: PRESENCE_WEIGHT,
-            }),
-            (None, Some(new)) => changes.push(Change {
-                words: format!("{} is new", heading(new)),
-                weight: PRESENCE_WEIGHT,
-            }),
+            (Some(old), None) => {
+                changes.push(Change { words: format!("{} is gone", heading(old)), weight: PRESENCE_WEIGHT })
+            }
+            (None, Some(new)) => {
+                changes.push(Change { words: format!("{} is new", heading(new)), weight: PRESENCE_WEIGHT })
+            }
             (None, None) => {}
         }
     }
@@ -49,19 +47,13 @@ type Pair<'f> = (Option<&'f Section>, Option<&'f Section>);
 /// Pairs the sections of two lists of facts: by position if the lists have the same length, otherwise by title.
 fn pairs<'f>(expected: &'f [Section], found: &'f [Section]) -> Vec<Pair<'f>> {
     if expected.len() == found.len() {
-        return expected
-            .iter()
-            .map(Some)
-            .zip(found.iter().map(Some))
-            .collect();
+        return expected.iter().map(Some).zip(found.iter().map(Some)).collect();
     }
     let title = |s: &Section| (s.head.kind == "scene", s.head.names.clone());
     let mut pairs = Vec::new();
     let mut next = 0;
     for old in expected {
-        let same = found[next..]
-            .iter()
-            .position(|new| title(new) == title(old));
+        let same = found[next..].iter().position(|new| title(new) == title(old));
         match same {
             Some(far) => {
                 pairs.extend(found[next..next + far].iter().map(|new| (None, Some(new))));
@@ -85,11 +77,7 @@ fn heading(section: &Section) -> String {
 /// Compares the facts of two paired sections, and adds the differences to `changes`.
 fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change>) {
     let is_frame = new.head.kind.starts_with("frame ");
-    let place = if several && is_frame {
-        format!("{}: ", new.head.kind)
-    } else {
-        String::new()
-    };
+    let place = if several && is_frame { format!("{}: ", new.head.kind) } else { String::new() };
     let before = changes.len();
     head(old, new, is_frame, changes);
     let (was, is) = (by_name(&old.facts), by_name(&new.facts));
@@ -123,38 +111,24 @@ fn section(old: &Section, new: &Section, several: bool, changes: &mut Vec<Change
 /// Compares the headings of two sections: their titles, and their values. The value of a frame is its verdict. The
 /// values of a scene are gravity and kernel.
 fn head(old: &Section, new: &Section, is_frame: bool, changes: &mut Vec<Change>) {
-    let what = if is_frame {
-        heading(new)
-    } else {
-        "the scene".into()
-    };
+    let what = if is_frame { heading(new) } else { "the scene".into() };
     if old.head.names != new.head.names {
         let title = |s: &Section| s.head.names.first().cloned().unwrap_or_default();
         changes.push(Change {
-            words: format!(
-                "{what}: the title was \"{}\", and is now \"{}\"",
-                title(old),
-                title(new)
-            ),
+            words: format!("{what}: the title was \"{}\", and is now \"{}\"", title(old), title(new)),
             weight: FAILURE_WEIGHT,
         });
     }
     if let Some((words, weight)) = values(&old.head.values, &new.head.values) {
-        changes.push(Change {
-            words: format!("{what}: {words}"),
-            weight: if is_frame { VERDICT_WEIGHT } else { weight },
-        });
+        changes
+            .push(Change { words: format!("{what}: {words}"), weight: if is_frame { VERDICT_WEIGHT } else { weight } });
     }
 }
 
 /// Returns the keys of old and new facts, in the order of the new facts. Keys of facts that no longer exist come last.
 fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> Vec<&'k Key> {
     let order = |key: &Key| {
-        let kind = if key.0 == FALLING_FACT {
-            "block"
-        } else {
-            &key.0
-        };
+        let kind = if key.0 == FALLING_FACT { "block" } else { &key.0 };
         let same = |f: &Fact| f.kind == kind && f.names == key.1;
         let place = new.facts.iter().position(same);
         (place.unwrap_or(usize::MAX), key.2)
@@ -167,21 +141,10 @@ fn ordered_keys<'k>(was: &'k ByName<'_>, is: &'k ByName<'_>, new: &Section) -> V
 
 /// If more than [`MAX_SINGLE_CHANGES`] blocks begin to fall, reports all of them in one line, and removes their keys
 /// from `names`. Does the same for blocks that no longer fall.
-fn group_falling(
-    was: &ByName<'_>,
-    is: &ByName<'_>,
-    names: &mut Vec<&Key>,
-    place: &str,
-    changes: &mut Vec<Change>,
-) {
+fn group_falling(was: &ByName<'_>, is: &ByName<'_>, names: &mut Vec<&Key>, place: &str, changes: &mut Vec<Change>) {
     for (before, now, what) in [(was, is, "no longer stand"), (is, was, "no longer fall")] {
-        let fresh =
-            |key: &Key| key.0 == FALLING_FACT && now.contains_key(key) && !before.contains_key(key);
-        let who: Vec<String> = names
-            .iter()
-            .filter(|k| fresh(k))
-            .map(|k| k.1.join("–"))
-            .collect();
+        let fresh = |key: &Key| key.0 == FALLING_FACT && now.contains_key(key) && !before.contains_key(key);
+        let who: Vec<String> = names.iter().filter(|k| fresh(k)).map(|k| k.1.join("–")).collect();
         if who.len() <= MAX_SINGLE_CHANGES {
             continue;
         }
@@ -245,18 +208,10 @@ enum PresenceChange {
 fn presence_change(key: &Key, fact: &Fact, place: &str, presence: PresenceChange) -> Change {
     let block = key.1.join("–");
     let (words, weight) = match (key.0.as_str(), presence) {
-        (FALLING_FACT, PresenceChange::New) => {
-            (format!("block {block} no longer stands"), FALL_WEIGHT)
-        }
-        (FALLING_FACT, PresenceChange::Gone) => {
-            (format!("block {block} no longer falls"), FALL_WEIGHT)
-        }
+        (FALLING_FACT, PresenceChange::New) => (format!("block {block} no longer stands"), FALL_WEIGHT),
+        (FALLING_FACT, PresenceChange::Gone) => (format!("block {block} no longer falls"), FALL_WEIGHT),
         (kind, presence) => {
-            let weight = if kind.starts_with("failure") {
-                FAILURE_WEIGHT
-            } else {
-                PRESENCE_WEIGHT
-            };
+            let weight = if kind.starts_with("failure") { FAILURE_WEIGHT } else { PRESENCE_WEIGHT };
             let first = fact.values.first().map(described).unwrap_or_default();
             let is = match presence {
                 PresenceChange::Gone => "is gone:",
@@ -265,10 +220,7 @@ fn presence_change(key: &Key, fact: &Fact, place: &str, presence: PresenceChange
             (format!("{} {is} {first}", called(key)), weight)
         }
     };
-    Change {
-        words: format!("{place}{words}"),
-        weight,
-    }
+    Change { words: format!("{place}{words}"), weight }
 }
 
 fn described(value: &Value) -> String {
@@ -303,32 +255,13 @@ fn values(old: &[Value], new: &[Value]) -> Option<(String, f64)> {
 
 /// Describes a changed value: `N 3 → 4.2 N`, `stable → unstable`.
 fn change(old: &Value, new: &Value) -> String {
-    let name = if new.name.is_empty() {
-        String::new()
-    } else {
-        format!("{} ", new.name)
-    };
+    let name = if new.name.is_empty() { String::new() } else { format!("{} ", new.name) };
     if old.numbers.is_empty() || new.numbers.is_empty() || old.unit != new.unit {
-        let bare = |v: &Value| {
-            described(&Value {
-                name: String::new(),
-                ..v.clone()
-            })
-        };
+        let bare = |v: &Value| described(&Value { name: String::new(), ..v.clone() });
         return format!("{name}{} → {}", bare(old), bare(new));
     }
-    let list = |v: &Value| {
-        v.numbers
-            .iter()
-            .map(|n| short(n))
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let unit = if new.unit.is_empty() {
-        String::new()
-    } else {
-        format!(" {}", new.unit)
-    };
+    let list = |v: &Value| v.numbers.iter().map(|n| short(n)).collect::<Vec<_>>().join(", ");
+    let unit = if new.unit.is_empty() { String::new() } else { format!(" {}", new.unit) };
     format!("{name}{} → {}{unit}", list(old), list(new))
 }
 
@@ -347,11 +280,7 @@ fn differ(old: &Value, new: &Value) -> Option<f64> {
                 // Numbers without a unit are counts and coefficients. They have no rounding error of the solver, so
                 // they are compared in a fixed small unit.
                 let rounded = last_digit(a).max(last_digit(b));
-                let digit = if new.unit.is_empty() {
-                    UNITLESS_STEP
-                } else {
-                    rounded
-                };
+                let digit = if new.unit.is_empty() { UNITLESS_STEP } else { rounded };
                 most = most.max((x - y).abs() / digit);
             }
             _ if a == b => {}

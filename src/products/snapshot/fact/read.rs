@@ -50,19 +50,13 @@ pub(super) fn facts(text: &str) -> Result<Facts, FactsError> {
         if line.trim().is_empty() {
             continue;
         }
-        let wrong = || FactsError::Line {
-            line: number + 1,
-            text: crate::text::heading(line, 60),
-        };
+        let wrong = || FactsError::Line { line: number + 1, text: crate::text::heading(line, 60) };
         let fact = fact(line.trim()).ok_or_else(wrong)?;
         let is_heading = fact.kind == "scene" || fact.kind.starts_with("frame ");
         match sections.last_mut() {
             Some(section) if !is_heading => section.facts.push(fact),
             None if !is_heading => return Err(wrong()),
-            _ => sections.push(Section {
-                head: fact,
-                facts: Vec::new(),
-            }),
+            _ => sections.push(Section { head: fact, facts: Vec::new() }),
         }
     }
     Ok(Facts { version, sections })
@@ -81,15 +75,8 @@ fn fact(line: &str) -> Option<Fact> {
     }
     let values = rest.strip_prefix(':')?.trim();
     let values: Vec<Value> = values.split(", ").map(value).collect();
-    let is_valid = !kind.is_empty()
-        && values
-            .iter()
-            .all(|v| !v.unit.is_empty() || !v.numbers.is_empty());
-    is_valid.then_some(Fact {
-        kind,
-        names,
-        values,
-    })
+    let is_valid = !kind.is_empty() && values.iter().all(|v| !v.unit.is_empty() || !v.numbers.is_empty());
+    is_valid.then_some(Fact { kind, names, values })
 }
 
 /// Reads a quoted name from `text`, which begins after the opening quotation mark. Returns the name with escaped
@@ -116,17 +103,9 @@ fn value(text: &str) -> Value {
     let parts: Vec<&str> = text.split_whitespace().collect();
     let is_number = |part: &&str| part.parse::<f64>().is_ok() || *part == "none";
     let Some(first) = parts.iter().position(&is_number) else {
-        return Value {
-            name: String::new(),
-            numbers: Vec::new(),
-            unit: text.trim().to_owned(),
-        };
+        return Value { name: String::new(), numbers: Vec::new(), unit: text.trim().to_owned() };
     };
     let count = parts[first..].iter().take_while(|p| is_number(p)).count();
     let numbers = parts[first..first + count].iter().map(|p| (*p).to_owned());
-    Value {
-        name: parts[..first].join(" "),
-        numbers: numbers.collect(),
-        unit: parts[first + count..].join(" "),
-    }
+    Value { name: parts[..first].join(" "), numbers: numbers.collect(), unit: parts[first + count..].join(" ") }
 }

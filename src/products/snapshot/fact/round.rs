@@ -21,22 +21,13 @@ impl Rounding {
         // Read the exponent from the printed number, because a computed logarithm may be wrong by one at powers of
         // ten.
         let printed = format!("{size:e}");
-        let ten: i32 = printed
-            .split_once('e')
-            .and_then(|(_, e)| e.parse().ok())
-            .unwrap_or(0);
+        let ten: i32 = printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
         let digits = digits.max(1);
         if (-3..6).contains(&ten) {
             let decimals = (digits as i32 - 1 - ten).max(0);
-            return Rounding {
-                decimals: decimals as usize,
-                exponent: 0,
-            };
+            return Rounding { decimals: decimals as usize, exponent: 0 };
         }
-        Rounding {
-            decimals: digits - 1,
-            exponent: ten,
-        }
+        Rounding { decimals: digits - 1, exponent: ten }
     }
 
     /// Writes the rounded number as text, never as −0. A number that is not finite becomes `none`.
@@ -54,11 +45,7 @@ impl Rounding {
             }
         };
         let zero = scaled.chars().all(|c| matches!(c, '-' | '0' | '.'));
-        let sign = if zero {
-            scaled.trim_start_matches('-')
-        } else {
-            &scaled
-        };
+        let sign = if zero { scaled.trim_start_matches('-') } else { &scaled };
         match self.exponent {
             0 => sign.to_owned(),
             e => format!("{sign}e{e}"),
@@ -71,9 +58,7 @@ pub(super) fn last_digit(written: &str) -> f64 {
     let (mantissa, exponent) = written.split_once('e').unwrap_or((written, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, d)| d.len());
     let exponent: i64 = exponent.parse().unwrap_or(0);
-    format!("1e{}", exponent - decimals as i64)
-        .parse()
-        .unwrap_or(0.0)
+    format!("1e{}", exponent - decimals as i64).parse().unwrap_or(0.0)
 }
 
 /// Shortens a written number for messages: removes trailing zeros, and replaces the hyphen by a minus sign.
@@ -109,10 +94,7 @@ mod tests {
         assert_eq!(last_digit("-0.01250e9"), 1e4);
         assert_eq!((last_digit("4.4602"), last_digit("8")), (1e-4, 1.0));
         assert_eq!(short("4.20000"), "4.2");
-        assert_eq!(
-            (short("-0.01250e9"), short("0.00000e9")),
-            ("−0.0125e9".into(), "0".into())
-        );
+        assert_eq!((short("-0.01250e9"), short("0.00000e9")), ("−0.0125e9".into(), "0".into()));
         assert_eq!(short("100"), "100");
     }
 }

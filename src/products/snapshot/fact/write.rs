@@ -28,9 +28,7 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
     let loads = scene.loads.iter().map(|l| l.force.norm());
     let largest = blocks.chain(loads).fold(0.0, f64::max);
     let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
-    let size = corners
-        .map(|p| p.x.abs().max(p.y.abs()))
-        .fold(0.0, f64::max);
+    let size = corners.map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
     let roundings = Roundings {
         force: Rounding::new(digits, largest),
         length: Rounding::new(digits, size),
@@ -43,11 +41,7 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
         values.push(unitless("kernel", scene.kernel));
     }
     let mut sections = vec![Section {
-        head: Fact {
-            kind: "scene".into(),
-            names: vec![name(&scene.title)],
-            values,
-        },
+        head: Fact { kind: "scene".into(), names: vec![name(&scene.title)], values },
         facts: causes(scene, &roundings),
     }];
     for (number, (step, found)) in scene.frames.iter().zip(&analysis.frames).enumerate() {
@@ -59,10 +53,7 @@ pub(super) fn from_analysis(analysis: &Analysis, digits: usize) -> Facts {
         let facts = frame(scene, step.placed.len(), found, &roundings);
         sections.push(Section { head, facts });
     }
-    Facts {
-        version: Version::Two,
-        sections,
-    }
+    Facts { version: Version::Two, sections }
 }
 
 /// Returns the facts of the scene itself, such as blocks and loads. A user edits these facts, so they cause the changes
@@ -73,12 +64,7 @@ fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
         names: vec![name(&block.id)],
         values: vec![
             quantity("weight", &[block.weight], roundings.force, "N"),
-            quantity(
-                "centroid",
-                &[block.centroid.x, block.centroid.y],
-                roundings.length,
-                "m",
-            ),
+            quantity("centroid", &[block.centroid.x, block.centroid.y], roundings.length, "m"),
             unitless("μ", block.body.friction),
         ],
     });
@@ -100,20 +86,13 @@ fn causes(scene: &Scene, roundings: &Roundings) -> Vec<Fact> {
             quantity("torque", &[robot.limits.torque], roundings.torque, "N·m"),
         ],
     });
-    let loads = scene
-        .loads
-        .iter()
-        .map(|given| load(scene, given, roundings));
+    let loads = scene.loads.iter().map(|given| load(scene, given, roundings));
     (blocks.chain(pairs).chain(listed).chain(robots).chain(loads)).collect()
 }
 
 /// Makes a fact whose only value is a friction coefficient.
 fn coefficient(kind: &str, names: Vec<String>, friction: f64) -> Fact {
-    Fact {
-        kind: kind.into(),
-        names,
-        values: vec![unitless("μ", friction)],
-    }
+    Fact { kind: kind.into(), names, values: vec![unitless("μ", friction)] }
 }
 
 fn load(scene: &Scene, load: &Load, roundings: &Roundings) -> Fact {
@@ -124,11 +103,7 @@ fn load(scene: &Scene, load: &Load, roundings: &Roundings) -> Fact {
     if load.torque != 0.0 {
         values.push(quantity("torque", &[load.torque], roundings.torque, "N·m"));
     }
-    Fact {
-        kind: "load".into(),
-        names: vec![name(&scene.blocks[load.block.0].id)],
-        values,
-    }
+    Fact { kind: "load".into(), names: vec![name(&scene.blocks[load.block.0].id)], values }
 }
 
 fn verdict(verdict: Verdict) -> &'static str {
@@ -141,24 +116,14 @@ fn verdict(verdict: Verdict) -> &'static str {
 
 fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis, roundings: &Roundings) -> Vec<Fact> {
     let newtons = |name: &str, value: f64| quantity(name, &[value], roundings.force, "N");
-    let mut sums = vec![
-        unitless("blocks", placed as f64),
-        newtons("weight", found.weight),
-    ];
+    let mut sums = vec![unitless("blocks", placed as f64), newtons("weight", found.weight)];
     let proved = found.verdict != Verdict::Undecided;
     if proved {
         sums.push(newtons("total force", found.total_force));
         sums.push(newtons("total sticking", found.total_sticking));
     }
-    let mut facts = vec![Fact {
-        kind: "sums".into(),
-        names: Vec::new(),
-        values: sums,
-    }];
-    let contacts = found
-        .contacts
-        .iter()
-        .map(|c| contact(scene, c, proved, roundings));
+    let mut facts = vec![Fact { kind: "sums".into(), names: Vec::new(), values: sums }];
+    let contacts = found.contacts.iter().map(|c| contact(scene, c, proved, roundings));
     facts.extend(contacts);
     if proved {
         facts.extend(found.robots.iter().map(|r| robot(scene, r, roundings)));
@@ -185,21 +150,12 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
     let mut values = Vec::new();
     if proved {
         values.push(quantity("N", &[n1 + n2], roundings.force, "N"));
-        values.push(quantity(
-            "T",
-            &[contact.friction_force],
-            roundings.force,
-            "N",
-        ));
+        values.push(quantity("T", &[contact.friction_force], roundings.force, "N"));
         let ends = sorted_by_position(contact.application_points, [n1, n2]);
         values.push(quantity("N at its ends", &ends, roundings.force, "N"));
     }
     values.push(unitless("μ", contact.interface.friction));
-    Fact {
-        kind: "interface".into(),
-        names: bodies(scene, contact.interface.bodies),
-        values,
-    }
+    Fact { kind: "interface".into(), names: bodies(scene, contact.interface.bodies), values }
 }
 
 /// Returns the forces at two points, sorted by the positions of the points along a fixed direction. The facts
@@ -208,20 +164,14 @@ fn contact(scene: &Scene, contact: &Contact, proved: bool, roundings: &Roundings
 fn sorted_by_position(at: [Point; 2], forces: [f64; 2]) -> [f64; 2] {
     let along = |p: Point| p.x + 0.381_966_011_25 * p.y;
     let [a, b] = forces;
-    if along(at[0]) <= along(at[1]) {
-        [a, b]
-    } else {
-        [b, a]
-    }
+    if along(at[0]) <= along(at[1]) { [a, b] } else { [b, a] }
 }
 
 /// Returns the sorted names of two bodies, with the ground last. The facts therefore do not depend on the order of
 /// the bodies in the result.
 fn bodies(scene: &Scene, bodies: [BodyId; 2]) -> Vec<String> {
-    let mut names: Vec<(bool, String)> = bodies
-        .iter()
-        .map(|b| (matches!(b, BodyId::Ground(_)), name(scene.name(*b))))
-        .collect();
+    let mut names: Vec<(bool, String)> =
+        bodies.iter().map(|b| (matches!(b, BodyId::Ground(_)), name(scene.name(*b)))).collect();
     names.sort();
     names.into_iter().map(|(_, name)| name).collect()
 }
@@ -245,38 +195,16 @@ fn grip(scene: &Scene, robot: RobotId, block: BlockId) -> Vec<String> {
 fn failure(scene: &Scene, failure: &Failure, roundings: &Roundings) -> Fact {
     let newtons = |amount: f64| vec![quantity("missing", &[amount], roundings.force, "N")];
     let (kind, names, values) = match *failure {
-        Failure::Tension {
-            bodies: b, force, ..
-        } => ("failure tension", bodies(scene, b), newtons(force.norm())),
-        Failure::Friction {
-            bodies: b, force, ..
-        } => ("failure friction", bodies(scene, b), newtons(force.norm())),
-        Failure::RobotForce {
-            robot,
-            block,
-            force,
-            ..
-        } => (
-            "failure robot",
-            grip(scene, robot, block),
-            vec![quantity("missing", &pair(force), roundings.force, "N")],
-        ),
-        Failure::RobotTorque {
-            robot,
-            block,
-            torque,
-            ..
-        } => (
-            "failure robot",
-            grip(scene, robot, block),
-            vec![quantity("missing", &[torque], roundings.torque, "N·m")],
-        ),
+        Failure::Tension { bodies: b, force, .. } => ("failure tension", bodies(scene, b), newtons(force.norm())),
+        Failure::Friction { bodies: b, force, .. } => ("failure friction", bodies(scene, b), newtons(force.norm())),
+        Failure::RobotForce { robot, block, force, .. } => {
+            ("failure robot", grip(scene, robot, block), vec![quantity("missing", &pair(force), roundings.force, "N")])
+        }
+        Failure::RobotTorque { robot, block, torque, .. } => {
+            ("failure robot", grip(scene, robot, block), vec![quantity("missing", &[torque], roundings.torque, "N·m")])
+        }
     };
-    Fact {
-        kind: kind.into(),
-        names,
-        values,
-    }
+    Fact { kind: kind.into(), names, values }
 }
 
 fn pair(v: Vector) -> [f64; 2] {
@@ -289,11 +217,7 @@ fn name(foreign: &str) -> String {
 }
 
 fn quantity(name: &str, values: &[f64], rounding: Rounding, unit: &str) -> Value {
-    Value {
-        name: name.into(),
-        numbers: values.iter().map(|v| rounding.write(*v)).collect(),
-        unit: unit.into(),
-    }
+    Value { name: name.into(), numbers: values.iter().map(|v| rounding.write(*v)).collect(), unit: unit.into() }
 }
 
 /// Makes a value from a number without a unit, with at most six decimals.
@@ -301,23 +225,14 @@ fn unitless(name: &str, value: f64) -> Value {
     let written = format!("{value:.6}");
     Value {
         name: name.into(),
-        numbers: vec![
-            written
-                .trim_end_matches('0')
-                .trim_end_matches('.')
-                .to_owned(),
-        ],
+        numbers: vec![written.trim_end_matches('0').trim_end_matches('.').to_owned()],
         unit: String::new(),
     }
 }
 
 /// Makes a value that is only a word, without a number.
 fn word(word: &str) -> Value {
-    Value {
-        name: String::new(),
-        numbers: Vec::new(),
-        unit: word.into(),
-    }
+    Value { name: String::new(), numbers: Vec::new(), unit: word.into() }
 }
 
 pub(super) fn text(facts: &Facts) -> String {
@@ -345,14 +260,8 @@ fn line(out: &mut String, indent: &str, fact: &Fact) {
     }
     out.push_str(": ");
     let values = fact.values.iter().map(|value| {
-        let parts = [&value.name]
-            .into_iter()
-            .chain(&value.numbers)
-            .chain([&value.unit]);
-        let parts: Vec<&str> = parts
-            .map(String::as_str)
-            .filter(|p| !p.is_empty())
-            .collect();
+        let parts = [&value.name].into_iter().chain(&value.numbers).chain([&value.unit]);
+        let parts: Vec<&str> = parts.map(String::as_str).filter(|p| !p.is_empty()).collect();
         parts.join(" ")
     });
     out.push_str(&values.collect::<Vec<_>>().join(", "));

@@ -18,10 +18,7 @@ pub struct PixelTolerance {
 
 impl Default for PixelTolerance {
     fn default() -> PixelTolerance {
-        PixelTolerance {
-            channel: 1,
-            perceptual: None,
-        }
+        PixelTolerance { channel: 1, perceptual: None }
     }
 }
 
@@ -66,13 +63,8 @@ impl PixelPair<'_> {
         // compared only in pictures of equal size.
         let same_size = (expected.width, expected.height) == (found.width, found.height);
         let antialiased = same_size
-            && (is_antialiased(expected, found, self.x, self.y)
-                || is_antialiased(found, expected, self.x, self.y));
-        let mark = if antialiased {
-            PixelMark::Smoothed
-        } else {
-            PixelMark::Changed
-        };
+            && (is_antialiased(expected, found, self.x, self.y) || is_antialiased(found, expected, self.x, self.y));
+        let mark = if antialiased { PixelMark::Smoothed } else { PixelMark::Changed };
         Some((mark, by))
     }
 }
@@ -111,10 +103,7 @@ impl Difference {
     /// assert_eq!(found.words(), "2 of 40 pixels differ, by up to 240 of 255, within 2 × 2 pixels from (3, 0)");
     /// ```
     pub fn new(expected: &Picture, found: &Picture, tolerance: PixelTolerance) -> Difference {
-        let (width, height) = (
-            expected.width.min(found.width),
-            expected.height.min(found.height),
-        );
+        let (width, height) = (expected.width.min(found.width), expected.height.min(found.height));
         let mut difference = Difference {
             changed: 0,
             smoothed: 0,
@@ -140,12 +129,7 @@ impl Difference {
                     continue;
                 }
                 // 2. Compare the pixel, and mark it if it differs.
-                let pair = PixelPair {
-                    expected,
-                    found,
-                    x,
-                    y,
-                };
+                let pair = PixelPair { expected, found, x, y };
                 if let Some((mark, by)) = pair.compare(tolerance) {
                     difference.count(mark, by, x, y);
                     marked.push((x, y, mark));
@@ -270,10 +254,7 @@ fn pale_grey([r, g, b, a]: [u8; 4]) -> [u8; 4] {
 fn frame(picture: &mut Picture, [x, y, w, h]: [u32; 4]) {
     const BOX_DISTANCE: u32 = 3;
     const BOX_COLOUR: [u8; 4] = [0xf0, 0x70, 0x80, 255];
-    let (left, top) = (
-        x.saturating_sub(BOX_DISTANCE),
-        y.saturating_sub(BOX_DISTANCE),
-    );
+    let (left, top) = (x.saturating_sub(BOX_DISTANCE), y.saturating_sub(BOX_DISTANCE));
     let right = (x + w - 1 + BOX_DISTANCE).min(picture.width - 1);
     let bottom = (y + h - 1 + BOX_DISTANCE).min(picture.height - 1);
     let wide = picture.width as usize;

@@ -112,13 +112,7 @@ impl Picture {
         for pixel in rgba.iter_mut().filter(|p| p[3] == 0) {
             *pixel = [0; 4];
         }
-        Picture {
-            width,
-            height,
-            rgba,
-            rounding: BTreeMap::new(),
-            subject: None,
-        }
+        Picture { width, height, rgba, rounding: BTreeMap::new(), subject: None }
     }
 
     /// Decodes a PNG.
@@ -167,15 +161,9 @@ impl Picture {
         let frame = reader.next_frame(&mut data).map_err(wrong)?;
         reader.finish().map_err(wrong)?;
         data.truncate(frame.buffer_size());
-        let mut picture = Picture::new(
-            width,
-            height,
-            to_rgba(&data, frame.color_type, frame.bit_depth),
-        );
+        let mut picture = Picture::new(width, height, to_rgba(&data, frame.color_type, frame.bit_depth));
         picture.rounding = rounding.unwrap_or_default();
-        picture.subject = [Subject::Scene, Subject::Figure]
-            .into_iter()
-            .find(|s| subject.as_deref() == Some(s.name()));
+        picture.subject = [Subject::Scene, Subject::Figure].into_iter().find(|s| subject.as_deref() == Some(s.name()));
         Ok(picture)
     }
 
@@ -206,11 +194,7 @@ impl Picture {
     /// True if another program has probably removed the note on rounded colours from the file: the picture has 200 to
     /// 256 colours, but neither this note nor a subject.
     pub(super) fn has_lost_rounding_note(&self) -> bool {
-        let mut colours: Vec<[u8; 4]> = self
-            .rgba
-            .chunk_by(|a, b| a == b)
-            .map(|run| run[0])
-            .collect();
+        let mut colours: Vec<[u8; 4]> = self.rgba.chunk_by(|a, b| a == b).map(|run| run[0]).collect();
         colours.sort_unstable();
         colours.dedup();
         self.rounding.is_empty() && self.subject.is_none() && (200..=256).contains(&colours.len())

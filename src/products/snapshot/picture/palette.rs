@@ -70,16 +70,9 @@ impl Palette {
     /// Makes a palette from its colours. Each colour comes with the colours of the picture that it replaces.
     fn with(mut entries: Vec<([u8; 4], Vec<[u8; 4]>)>) -> Palette {
         entries.sort();
-        let mut palette = Palette {
-            colours: Vec::new(),
-            rounding: Vec::new(),
-            index: BTreeMap::new(),
-        };
+        let mut palette = Palette { colours: Vec::new(), rounding: Vec::new(), index: BTreeMap::new() };
         for (number, (colour, members)) in entries.into_iter().enumerate() {
-            let far = members
-                .iter()
-                .map(|m| max_channel_difference(*m, colour))
-                .max();
+            let far = members.iter().map(|m| max_channel_difference(*m, colour)).max();
             palette.colours.push(colour);
             palette.rounding.push(far.unwrap_or(0));
             let places = members.into_iter().map(|m| (m, number as u8));
@@ -154,8 +147,7 @@ fn boxes(all: Vec<[u8; 4]>, max: usize) -> Vec<Vec<[u8; 4]>> {
             break;
         }
         let cut = low + (high - low) / 2;
-        let (below, above): (Vec<_>, Vec<_>) =
-            boxes[at].iter().copied().partition(|m| m[channel] <= cut);
+        let (below, above): (Vec<_>, Vec<_>) = boxes[at].iter().copied().partition(|m| m[channel] <= cut);
         widths[at] = widest(&below);
         boxes[at] = below;
         widths.push(widest(&above));
@@ -173,9 +165,7 @@ fn middle(members: &[[u8; 4]]) -> [u8; 4] {
         let (low, high) = values.fold((255, 0), |(low, high), v| (v.min(low), v.max(high)));
         *value = low + (high - low) / 2;
     }
-    let nearest = members
-        .iter()
-        .min_by_key(|m| max_channel_difference(**m, centre));
+    let nearest = members.iter().min_by_key(|m| max_channel_difference(**m, centre));
     nearest.copied().unwrap_or(centre)
 }
 

@@ -43,10 +43,7 @@ fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
 /// picture.
 fn neighbours(picture: &Picture, x: u32, y: u32) -> (impl Iterator<Item = (u32, u32)>, bool) {
     let (left, top) = (x.saturating_sub(1), y.saturating_sub(1));
-    let (right, bottom) = (
-        (x + 1).min(picture.width - 1),
-        (y + 1).min(picture.height - 1),
-    );
+    let (right, bottom) = ((x + 1).min(picture.width - 1), (y + 1).min(picture.height - 1));
     let edge = x == left || x == right || y == top || y == bottom;
     let all = (left..=right).flat_map(move |i| (top..=bottom).map(move |j| (i, j)));
     (all.filter(move |place| *place != (x, y)), edge)

@@ -34,12 +34,7 @@ fn whole_frame<'a>(
     use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
     let share = "horizontal load, as a share of the weights";
     let all = [
-        (
-            LoadFactor,
-            "factor on the loads",
-            &intervals.load_factor,
-            1.0,
-        ),
+        (LoadFactor, "factor on the loads", &intervals.load_factor, 1.0),
         (Friction, "friction coefficient", &intervals.friction, 0.0),
         (Tilt, "tilt of gravity", &intervals.tilt, 0.0),
         (HorizontalLoad, share, &intervals.horizontal_load, 0.0),
@@ -50,13 +45,8 @@ fn whole_frame<'a>(
         let Some(interval) = interval else {
             continue;
         };
-        let mut margin = StatedMargin {
-            parameter,
-            name: name.to_owned(),
-            interval,
-            present: Some((present, present)),
-            position,
-        };
+        let mut margin =
+            StatedMargin { parameter, name: name.to_owned(), interval, present: Some((present, present)), position };
         if parameter == Friction {
             margin.present = friction(frame_analysis);
             margin.position = friction_position(interval, margin.present, position);
@@ -67,11 +57,7 @@ fn whole_frame<'a>(
 }
 
 /// Returns the margins for the force and torque limits of each robot.
-fn robot_limits<'a>(
-    scene: &Scene,
-    intervals: &'a Intervals,
-    position: Position,
-) -> Vec<StatedMargin<'a>> {
+fn robot_limits<'a>(scene: &Scene, intervals: &'a Intervals, position: Position) -> Vec<StatedMargin<'a>> {
     let force = Parameter::RobotForce(scene.units.force());
     let torque = Parameter::RobotTorque(scene.units.torque());
     let mut list = Vec::new();
@@ -98,24 +84,15 @@ fn robot_limits<'a>(
 /// carry every multiple of its loads. Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns
 /// `None` for an empty list.
 fn headline(list: &[StatedMargin<'_>]) -> Option<usize> {
-    let loads = list
-        .iter()
-        .position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
+    let loads = list.iter().position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
     let reserves = list.iter().map(StatedMargin::reserve).enumerate();
-    loads.or_else(|| {
-        reserves
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(first, _)| first)
-    })
+    loads.or_else(|| reserves.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first))
 }
 
 /// Returns the smallest and the largest friction coefficient of the frame's interfaces, or `None` if there are no
 /// interfaces.
 pub(super) fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
-    let all = frame_analysis
-        .contacts
-        .iter()
-        .map(|contact| contact.interface.friction);
+    let all = frame_analysis.contacts.iter().map(|contact| contact.interface.friction);
     all.fold(None, |range, friction| match range {
         None => Some((friction, friction)),
         Some((low, high)) => Some((friction.min(low), friction.max(high))),
@@ -125,19 +102,13 @@ pub(super) fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
 /// Returns the position of the present friction coefficients relative to the interval of the friction margin. This
 /// interval assumes one coefficient at all interfaces. `alike` is the result if all present coefficients are equal, or
 /// if there are no interfaces.
-fn friction_position(
-    interval: &Interval,
-    present: Option<(f64, f64)>,
-    alike: Position,
-) -> Position {
+fn friction_position(interval: &Interval, present: Option<(f64, f64)>, alike: Position) -> Position {
     match present {
-        Some((low, high)) if low < high => {
-            match (interval.contains(low), interval.contains(high)) {
-                (true, true) => Position::Inside,
-                (false, false) if !matches!(interval, Interval::Undecided) => Position::Outside,
-                _ => Position::Unknown,
-            }
-        }
+        Some((low, high)) if low < high => match (interval.contains(low), interval.contains(high)) {
+            (true, true) => Position::Inside,
+            (false, false) if !matches!(interval, Interval::Undecided) => Position::Outside,
+            _ => Position::Unknown,
+        },
         _ => alike,
     }
 }

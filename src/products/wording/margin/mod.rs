@@ -130,9 +130,7 @@ impl StatedMargin<'_> {
     pub fn has_no_limit(&self) -> bool {
         let free = |end: Option<&End>| matches!(end, Some(End::Unbounded));
         let from_zero = self.interval.low().and_then(confirmed) == Some(0.0);
-        self.position == Position::Inside
-            && free(self.interval.high())
-            && (from_zero || free(self.interval.low()))
+        self.position == Position::Inside && free(self.interval.high()) && (from_zero || free(self.interval.low()))
     }
 
     /// Returns the relative distance of the current value from the nearest end of the interval, from 0 to 1. It is 0 if
@@ -160,11 +158,7 @@ impl StatedMargin<'_> {
             Parameter::Tilt => [low.map(|v| -v / 90.0), high.map(|v| v / 90.0)],
             Parameter::HorizontalLoad => [low.map(|v| -v), high],
             Parameter::Kernel => [None, high.map(|v| (v - most) / (1.0 - most))],
-            _ => [
-                low.filter(|v| *v > 0.0 && least.is_finite())
-                    .map(|v| 1.0 - v / least),
-                high.map(|v| 1.0 - most / v),
-            ],
+            _ => [low.filter(|v| *v > 0.0 && least.is_finite()).map(|v| 1.0 - v / least), high.map(|v| 1.0 - most / v)],
         };
         let room = room.into_iter().flatten().filter(|share| !share.is_nan());
         room.fold(1.0, f64::min).max(0.0)
@@ -187,10 +181,7 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, frame_analysis);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());
     let mut lines: Vec<String> = stated.iter().map(line).collect();
-    let notes = frame_analysis
-        .margins
-        .iter()
-        .flat_map(|margins| &margins.intervals.notes);
+    let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.intervals.notes);
     lines.extend(notes.map(|note| format!("note: {note}")));
     lines
 }

@@ -16,9 +16,7 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
                 Some([low, high]) => {
                     let [low, high] = [low, high].map(|value| parameter.value(value));
                     match parameter.is_signed() {
-                        true => format!(
-                            "{none}: falls to the left of {low}, and falls to the right of {high}"
-                        ),
+                        true => format!("{none}: falls to the left of {low}, and falls to the right of {high}"),
                         false => format!("{none}: falls below {low}, and falls above {high}"),
                     }
                 }
@@ -27,20 +25,18 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
         }
         Interval::Undecided => return "no verdict shows at which values it stands".to_owned(),
     };
-    let unconfirmed = [("lower", low), ("upper", high)]
-        .into_iter()
-        .filter_map(|(name, end)| {
-            let End::Unconfirmed { stands, beyond } = end else {
-                return None;
-            };
-            let value = |value: f64| parameter.value(value);
-            Some(if beyond.is_finite() {
-                let [stands, beyond] = [value(*stands), value(*beyond)];
-                format!(" ({name} end not confirmed: between {stands} and {beyond})")
-            } else {
-                format!(" ({name} end not confirmed: beyond {})", value(*stands))
-            })
-        });
+    let unconfirmed = [("lower", low), ("upper", high)].into_iter().filter_map(|(name, end)| {
+        let End::Unconfirmed { stands, beyond } = end else {
+            return None;
+        };
+        let value = |value: f64| parameter.value(value);
+        Some(if beyond.is_finite() {
+            let [stands, beyond] = [value(*stands), value(*beyond)];
+            format!(" ({name} end not confirmed: between {stands} and {beyond})")
+        } else {
+            format!(" ({name} end not confirmed: beyond {})", value(*stands))
+        })
+    });
     let unconfirmed: String = unconfirmed.collect();
     format!("stands {}{unconfirmed}", range(parameter, low, high))
 }
@@ -49,9 +45,7 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
 /// values below the first value, and the second motion excludes values above the second value.
 fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     match excluded {
-        [below, above] if below.from.is_none() && above.to.is_none() => {
-            Some([below.to?, above.from?])
-        }
+        [below, above] if below.from.is_none() && above.to.is_none() => Some([below.to?, above.from?]),
         _ => None,
     }
 }

@@ -30,9 +30,7 @@ fn quantities_have_three_significant_digits_and_a_prefix() {
 #[test]
 fn a_chosen_unit_has_no_prefix() {
     use crate::scene::format::{ForceUnit, LengthUnit};
-    let units = UnitsEntry::default()
-        .of_length(LengthUnit::Millimetre)
-        .of_force(ForceUnit::Kilonewton);
+    let units = UnitsEntry::default().of_length(LengthUnit::Millimetre).of_force(ForceUnit::Kilonewton);
     let cases = [
         (2400.0, units.force(), "2.4 kN"),
         (-2.4, units.force(), "−0.0024 kN"),
@@ -68,36 +66,17 @@ fn only_full_utilisation_is_written_as_100_percent() {
 
 #[test]
 fn directions_are_measured_anticlockwise_from_the_x_axis() {
-    assert_eq!(
-        force(Vector::new(0.0, -6.0), UnitsEntry::default()),
-        "6 N at 270°"
-    );
-    assert_eq!(
-        force(Vector::new(3.0, 3.0), UnitsEntry::default()),
-        "4.24 N at 45°"
-    );
-    assert_eq!(
-        force(Vector::new(1.0, -1e-9), UnitsEntry::default()),
-        "1 N at 0°"
-    );
+    assert_eq!(force(Vector::new(0.0, -6.0), UnitsEntry::default()), "6 N at 270°");
+    assert_eq!(force(Vector::new(3.0, 3.0), UnitsEntry::default()), "4.24 N at 45°");
+    assert_eq!(force(Vector::new(1.0, -1e-9), UnitsEntry::default()), "1 N at 0°");
 }
 
 #[test]
 fn round_numbers_are_never_above_the_value() {
-    for (value, expected) in [
-        (9.99, 5.0),
-        (5.0, 5.0),
-        (4.9, 2.0),
-        (0.013, 0.01),
-        (1e9, 1e9),
-        (0.0, 0.0),
-    ] {
+    for (value, expected) in [(9.99, 5.0), (5.0, 5.0), (4.9, 2.0), (0.013, 0.01), (1e9, 1e9), (0.0, 0.0)] {
         assert_eq!(round_below(value), expected);
     }
-    assert_eq!(
-        (letter(0), letter(25), letter(26)),
-        ("a".into(), "z".into(), "aa".into())
-    );
+    assert_eq!((letter(0), letter(25), letter(26)), ("a".into(), "z".into(), "aa".into()));
     assert_eq!(listed(&["a".into(), "b".into(), "c".into()]), "a, b and c");
 }
 

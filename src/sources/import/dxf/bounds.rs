@@ -11,14 +11,8 @@ const COINCIDENCE_TOL: f64 = 1e-6;
 /// not finite.
 pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
     let hull = curve.hull();
-    let is_finite = hull
-        .iter()
-        .all(|p: &Point| p.x.is_finite() && p.y.is_finite());
-    if is_finite {
-        Bounds::from_points(hull)
-    } else {
-        None
-    }
+    let is_finite = hull.iter().all(|p: &Point| p.x.is_finite() && p.y.is_finite());
+    if is_finite { Bounds::from_points(hull) } else { None }
 }
 
 /// Returns the bounding box of a part; `None` for a point, or if no curve has finite coordinates.

@@ -37,9 +37,7 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
         ends[*start].push((i, false));
         ends[*end].push((i, true));
     }
-    chains.branch = (0..places.len())
-        .find(|p| ends[*p].len() > 2)
-        .map(|p| places[p]);
+    chains.branch = (0..places.len()).find(|p| ends[*p].len() > 2).map(|p| places[p]);
     let mut used = vec![false; curves.len()];
     for first in 0..curves.len() {
         if used[first] {
@@ -69,11 +67,7 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
 
 /// Follows connected curves from the curve `first` until they return to its start (step 3). Returns the loop as the
 /// index of each curve, and whether the curve is reversed. `None` if the curves form no loop.
-fn walk(
-    first: usize,
-    points: &[[usize; 2]],
-    ends: &[Vec<(usize, bool)>],
-) -> Option<Vec<(usize, bool)>> {
+fn walk(first: usize, points: &[[usize; 2]], ends: &[Vec<(usize, bool)>]) -> Option<Vec<(usize, bool)>> {
     let mut walk = vec![(first, false)];
     let mut at = points[first][1];
     while at != points[first][0] {
@@ -115,14 +109,8 @@ fn numbered(curves: &[OpenCurve], tolerance: f64) -> (Vec<[usize; 2]>, Vec<Point
     };
     let ends = |curve: &OpenCurve| {
         let curve = &curve.curve;
-        [
-            curve.start,
-            curve.segments.last().map_or(curve.start, Segment::end),
-        ]
+        [curve.start, curve.segments.last().map_or(curve.start, Segment::end)]
     };
-    let numbers = curves
-        .iter()
-        .map(|curve| ends(curve).map(&mut number))
-        .collect();
+    let numbers = curves.iter().map(|curve| ends(curve).map(&mut number)).collect();
     (numbers, places)
 }

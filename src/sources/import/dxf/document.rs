@@ -40,11 +40,8 @@ impl<'r> Document<'r> {
             match (records[i].kind, records[i].text(2)) {
                 ("SECTION", Some("HEADER")) => document.unit = unit(&records[i]),
                 ("SECTION", Some("TABLES")) => {
-                    document.hidden_layers = inner
-                        .iter()
-                        .filter(|r| r.kind == "LAYER" && is_hidden(r))
-                        .filter_map(|r| r.text(2))
-                        .collect();
+                    document.hidden_layers =
+                        inner.iter().filter(|r| r.kind == "LAYER" && is_hidden(r)).filter_map(|r| r.text(2)).collect();
                 }
                 ("SECTION", Some("BLOCKS")) => document.blocks = blocks(inner),
                 ("SECTION", Some("ENTITIES")) => {

@@ -24,10 +24,7 @@ pub(super) enum Shape {
 /// Returns `None` for kinds of entities that this function does not know, such as text.
 pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
     let shape = match entity.kind {
-        "LINE" => Shape::Curve(open(
-            point(entity, 10),
-            vec![Segment::Line(point(entity, 11))],
-        )),
+        "LINE" => Shape::Curve(open(point(entity, 10), vec![Segment::Line(point(entity, 11))])),
         "ARC" => Shape::Curve(arc(entity)),
         "CIRCLE" => {
             let radius = entity.number(40).unwrap_or(f64::NAN);
@@ -56,17 +53,13 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         }
         "POINT" => Shape::Point(point(entity, 10)),
         "SPLINE" => Shape::Unreadable("a spline has no exact corners"),
-        "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => {
-            Shape::Unreadable("it is not a plane outline")
-        }
+        "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => Shape::Unreadable("it is not a plane outline"),
         "MLINE" => Shape::Unreadable("a multiline (MLINE) has no single outline"),
         _ => return None,
     };
     Some(match (extrusion(entity), shape) {
         (Extrusion::Up, shape) => shape,
-        (Extrusion::Down, Shape::Curve(curve))
-            if entity.kind != "LINE" && entity.kind != "ELLIPSE" =>
-        {
+        (Extrusion::Down, Shape::Curve(curve)) if entity.kind != "LINE" && entity.kind != "ELLIPSE" => {
             // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE and
             // ELLIPSE are not mirrored, because they always use the axes of the drawing.
             Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
@@ -87,8 +80,7 @@ pub(super) enum Extrusion {
 /// Returns the direction of an entity's normal, which has the group codes 210, 220 and 230. The direction is `Other` if
 /// the magnitude of the x or y component exceeds 1e-6, or if the z component is 0.
 pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
-    let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)]
-        .map(|(code, default)| entity.number(code).unwrap_or(default));
+    let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)].map(|(code, default)| entity.number(code).unwrap_or(default));
     if !(x.abs() <= 1e-6 && y.abs() <= 1e-6 && z != 0.0) {
         Extrusion::Other
     } else if z > 0.0 {
@@ -112,10 +104,7 @@ pub(super) struct Corner {
 }
 
 fn corner(vertex: &Record<'_>) -> Corner {
-    Corner {
-        at: point(vertex, 10),
-        bulge: vertex.number(42).unwrap_or(0.0),
-    }
+    Corner { at: point(vertex, 10), bulge: vertex.number(42).unwrap_or(0.0) }
 }
 
 /// Reads the corners of an LWPOLYLINE. Group code 10 (x) begins a corner; codes 20 (y) and 42 (bulge) belong to it.
@@ -123,10 +112,7 @@ fn corners(entity: &Record<'_>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::new();
     for (code, value) in &entity.groups {
         match (code, corners.last_mut()) {
-            (10, _) => corners.push(Corner {
-                at: Point::new(number(value), f64::NAN),
-                bulge: 0.0,
-            }),
+            (10, _) => corners.push(Corner { at: Point::new(number(value), f64::NAN), bulge: 0.0 }),
             (20, Some(corner)) => corner.at.y = number(value),
             (42, Some(corner)) => corner.bulge = number(value),
             _ => {}
@@ -140,18 +126,12 @@ pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
         return Shape::Unreadable("it has no corners");
     };
-    let mut segments: Vec<Segment> = corners
-        .windows(2)
-        .map(|pair| segment(pair[0].at, pair[1].at, pair[0].bulge))
-        .collect();
+    let mut segments: Vec<Segment> =
+        corners.windows(2).map(|pair| segment(pair[0].at, pair[1].at, pair[0].bulge)).collect();
     if is_closed && last.bulge.abs() > MIN_BULGE && last.at != first.at {
         segments.push(segment(last.at, first.at, last.bulge));
     }
-    Shape::Curve(Subpath {
-        start: first.at,
-        segments,
-        closed: is_closed,
-    })
+    Shape::Curve(Subpath { start: first.at, segments, closed: is_closed })
 }
 
 /// Returns the segment between two corners: an arc, or a straight line if the bulge is negligible. The bulge is the
@@ -181,13 +161,7 @@ fn segment(from: Point, to: Point, bulge: f64) -> Segment {
 fn arc(entity: &Record<'_>) -> Subpath {
     let radius = entity.number(40).unwrap_or(f64::NAN);
     let angle = |code| entity.number(code).unwrap_or(0.0).to_radians();
-    part_of_ellipse(
-        point(entity, 10),
-        Vector::new(radius, 0.0),
-        Vector::new(0.0, radius),
-        angle(50),
-        angle(51),
-    )
+    part_of_ellipse(point(entity, 10), Vector::new(radius, 0.0), Vector::new(0.0, radius), angle(50), angle(51))
 }
 
 /// Reads an ELLIPSE: centre, the end of the long axis relative to the centre, the ratio of the axes, and the angles of
@@ -200,10 +174,7 @@ fn ellipse(entity: &Record<'_>) -> Subpath {
         _ => 1.0,
     };
     let minor = Vector::new(-major.y, major.x) * (turn * entity.number(40).unwrap_or(1.0));
-    let (from, to) = (
-        entity.number(41).unwrap_or(0.0),
-        entity.number(42).unwrap_or(TAU),
-    );
+    let (from, to) = (entity.number(41).unwrap_or(0.0), entity.number(42).unwrap_or(TAU));
     part_of_ellipse(centre, major, minor, from, to)
 }
 
@@ -219,27 +190,12 @@ pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to
     let start = at(from);
     let is_closed = sweep == TAU;
     let end = if is_closed { start } else { at(from + sweep) };
-    Subpath {
-        start,
-        segments: vec![Segment::Arc(Arc {
-            centre,
-            u,
-            v,
-            from,
-            sweep,
-            to: end,
-        })],
-        closed: is_closed,
-    }
+    Subpath { start, segments: vec![Segment::Arc(Arc { centre, u, v, from, sweep, to: end })], closed: is_closed }
 }
 
 /// Returns an open curve of segments that begins at `start`.
 pub(super) fn open(start: Point, segments: Vec<Segment>) -> Subpath {
-    Subpath {
-        start,
-        segments,
-        closed: false,
-    }
+    Subpath { start, segments, closed: false }
 }
 
 /// Parses a whole number of at least 0. Returns 0 for any other text.

@@ -14,9 +14,7 @@ const END_TOL: f64 = 1e-6;
 /// # Errors
 /// Returns the reason why the boundary cannot be read.
 pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
-    let mut groups = Groups {
-        rest: &hatch.groups,
-    };
+    let mut groups = Groups { rest: &hatch.groups };
     groups.skip_to(91).ok_or("it has no boundary")?;
     let paths = count(groups.next().map_or("", |(_, value)| value));
     let mut loops = Vec::new();

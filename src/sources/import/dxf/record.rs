@@ -47,18 +47,11 @@ pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
             ));
         };
         let Some((line, value)) = lines.next() else {
-            return Err(format!(
-                "the file ends after the group code in line {}; it is not complete",
-                number + 1
-            ));
+            return Err(format!("the file ends after the group code in line {}; it is not complete", number + 1));
         };
         let value = value.trim();
         match (code, records.last_mut()) {
-            (0, _) => records.push(Record {
-                kind: value,
-                line: line + 1,
-                groups: Vec::new(),
-            }),
+            (0, _) => records.push(Record { kind: value, line: line + 1, groups: Vec::new() }),
             (999, _) => {}
             (code, Some(record)) => record.groups.push((code, value)),
             (_, None) => {

@@ -9,9 +9,7 @@ use crate::import::subpath::Subpath;
 
 /// The text of a DXF file with these blocks and entities. Each group is given as a line `code value`.
 fn file(blocks: &str, entities: &str) -> String {
-    let text = format!(
-        "0 SECTION\n2 BLOCKS\n{blocks}\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n{entities}\n0 ENDSEC\n0 EOF"
-    );
+    let text = format!("0 SECTION\n2 BLOCKS\n{blocks}\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n{entities}\n0 ENDSEC\n0 EOF");
     let groups = text.lines().map(str::trim).filter(|l| !l.is_empty());
     groups
         .map(|l| l.split_once(' ').expect("code and value"))
@@ -20,12 +18,7 @@ fn file(blocks: &str, entities: &str) -> String {
 }
 
 fn draft(blocks: &str, entities: &str) -> Draft {
-    read(
-        &file(blocks, entities),
-        Scale::default(),
-        &Naming::default(),
-    )
-    .expect("a DXF file")
+    read(&file(blocks, entities), Scale::default(), &Naming::default()).expect("a DXF file")
 }
 
 fn curves(draft: &Draft) -> Vec<&Subpath> {
@@ -44,25 +37,20 @@ fn area(curve: &Subpath) -> f64 {
     twice.sum::<f64>() / 2.0
 }
 
-const SQUARE: &str =
-    "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 2\n20 0\n10 2\n20 1\n10 0\n20 1\n";
+const SQUARE: &str = "0 LWPOLYLINE\n8 0\n90 4\n70 1\n10 0\n20 0\n10 2\n20 0\n10 2\n20 1\n10 0\n20 1\n";
 
 #[test]
 fn a_bulge_of_one_is_a_half_circle() {
     // Two half circles of radius 1: anticlockwise for positive bulges, clockwise for negative ones.
     for bulge in [1.0, -1.0] {
-        let text = format!(
-            "0 LWPOLYLINE\n8 0\n90 2\n70 1\n10 0\n20 0\n42 {bulge}\n10 2\n20 0\n42 {bulge}"
-        );
+        let text = format!("0 LWPOLYLINE\n8 0\n90 2\n70 1\n10 0\n20 0\n42 {bulge}\n10 2\n20 0\n42 {bulge}");
         let draft = draft("", &text);
         let found = area(curves(&draft)[0]);
         assert!((found - bulge * TAU / 2.0).abs() < 1e-4, "{found}");
     }
     // A quarter circle over the chord from (1, 0) to (0, 1): its bulge is tan(π/8).
-    let text = format!(
-        "0 LWPOLYLINE\n8 0\n90 3\n70 1\n10 0\n20 0\n10 1\n20 0\n42 {}\n10 0\n20 1",
-        libm::tan(TAU / 16.0)
-    );
+    let text =
+        format!("0 LWPOLYLINE\n8 0\n90 3\n70 1\n10 0\n20 0\n10 1\n20 0\n42 {}\n10 0\n20 1", libm::tan(TAU / 16.0));
     let found = area(curves(&draft("", &text))[0]);
     assert!((found - TAU / 8.0).abs() < 1e-5, "{found}");
 }
@@ -85,15 +73,10 @@ fn lines_and_arcs_that_meet_form_a_loop_whatever_their_direction() {
 #[test]
 fn lines_that_branch_are_reported_with_their_place() {
     let triangle = "0 LINE\n8 0\n10 0\n20 0\n11 1\n21 0\n0 LINE\n8 0\n10 1\n20 0\n11 0\n21 1\n0 LINE\n8 0\n10 0\n20 1\n11 0\n21 0\n";
-    let draft = draft(
-        "",
-        &format!("{triangle}0 LINE\n8 0\n10 1\n20 0\n11 2\n21 2"),
-    );
+    let draft = draft("", &format!("{triangle}0 LINE\n8 0\n10 1\n20 0\n11 2\n21 2"));
     assert!(draft.parts.is_empty());
     assert!(
-        draft.remarks[0]
-            .message
-            .contains("more than two lines meet at (1.000000, 0.000000) m"),
+        draft.remarks[0].message.contains("more than two lines meet at (1.000000, 0.000000) m"),
         "{:?}",
         draft.remarks
     );
@@ -116,20 +99,12 @@ fn blocks_are_inserted_with_scale_rotation_and_arrays() {
     // The base point (1, 0) moves to (10, 20). The corner (2, 1) is 1 to the right of it and 1 above it. Scaling
     // makes this 2 and 3, and then it is rotated.
     let hull = curves(&draft)[0].hull();
-    assert!(
-        hull.iter()
-            .any(|p| (p - Point::new(7.0, 22.0)).norm() < 1e-12),
-        "{hull:?}"
-    );
+    assert!(hull.iter().any(|p| (p - Point::new(7.0, 22.0)).norm() < 1e-12), "{hull:?}");
     // The last copy is in column 2 and row 1, counted from 0. Columns are 2 wide, rows are 1 high, and the base point
     // is subtracted.
     let last = curves(&draft)[6].start;
     assert!((last - Point::new(3.0, 1.0)).norm() < 1e-12, "{last}");
-    assert!(
-        draft.remarks[0]
-            .message
-            .contains("`ABSENT` is not in the file")
-    );
+    assert!(draft.remarks[0].message.contains("`ABSENT` is not in the file"));
 }
 
 #[test]
@@ -153,12 +128,7 @@ fn a_hatch_is_imported_only_if_no_outline_is_drawn_around_it() {
     };
     let found = draft("", &format!("{SQUARE}{}{}", hatch(0.0), hatch(5.0)));
     assert_eq!(found.parts.len(), 2);
-    assert!(
-        found
-            .notes
-            .iter()
-            .any(|n| n.contains("fill a drawn outline (1)"))
-    );
+    assert!(found.notes.iter().any(|n| n.contains("fill a drawn outline (1)")));
     // Edges: a line, and a half circle that is drawn clockwise.
     let edges = "0 HATCH\n8 0\n91 1\n92 1\n93 2\n72 1\n10 1\n20 0\n11 -1\n21 0\n72 2\n10 0\n20 0\n40 1\n50 180\n51 360\n73 0\n97 0\n";
     let found = draft("", edges);
@@ -169,10 +139,7 @@ fn a_hatch_is_imported_only_if_no_outline_is_drawn_around_it() {
 fn the_name_of_a_layer_decides_the_role_of_its_entities() {
     let on = |layer: &str| SQUARE.replacen("8 0", &format!("8 {layer}"), 1);
     let point = "0 POINT\n8 robot arm\n10 1\n20 0.5\n0 POINT\n8 0\n10 1\n20 0.5\n";
-    let found = draft(
-        "",
-        &[on("Ground"), on("guides"), on("0"), point.into()].concat(),
-    );
+    let found = draft("", &[on("Ground"), on("guides"), on("0"), point.into()].concat());
     let roles: Vec<Role> = found.parts.iter().map(|p| p.kind).collect();
     assert_eq!(roles, [Role::Ground, Role::Block, Role::Robot]);
     assert!(found.notes.contains(&"left out: POINT (1)".to_owned()));
@@ -183,14 +150,8 @@ fn texts_that_are_not_dxf_are_refused_with_a_reason() {
     for (text, why) in [
         ("AutoCAD Binary DXF\r\n", "binary DXF"),
         ("<svg/>", "line 1 is not a DXF group code"),
-        (
-            "0\nSECTION\n2\nENTITIES\n0",
-            "ends after the group code in line 5",
-        ),
-        (
-            "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n",
-            "no section ENTITIES",
-        ),
+        ("0\nSECTION\n2\nENTITIES\n0", "ends after the group code in line 5"),
+        ("0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n", "no section ENTITIES"),
         ("  5\nA\n", "does not begin with a section"),
     ] {
         let refusal = read(text, Scale::default(), &Naming::default()).expect_err("refused");

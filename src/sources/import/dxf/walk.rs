@@ -86,11 +86,7 @@ impl<'d> DxfWalk<'d> {
         self.entities(self.document.entities, &place)
     }
 
-    fn entities(
-        &mut self,
-        records: &'d [Record<'d>],
-        around: &EntityContext,
-    ) -> Result<(), String> {
+    fn entities(&mut self, records: &'d [Record<'d>], around: &EntityContext) -> Result<(), String> {
         for (i, entity) in records.iter().enumerate() {
             if self.draft.parts.len() > MAX_BODIES {
                 return Err(too_many(self.draft.parts.len()).message);
@@ -134,11 +130,7 @@ impl<'d> DxfWalk<'d> {
             self.leave("entities on layers whose names begin with ignore or guide");
             return None;
         }
-        Some(EntityContext {
-            layer,
-            role,
-            ..around.clone()
-        })
+        Some(EntityContext { layer, role, ..around.clone() })
     }
 
     fn entity(&mut self, entity: &Record<'_>, vertices: &[Record<'_>], place: EntityContext) {
@@ -159,11 +151,9 @@ impl<'d> DxfWalk<'d> {
                 self.draft.parts.push(new_part(&place, form, element));
             }
             Some(Shape::Point(_)) => self.leave("POINT"),
-            Some(Shape::Unreadable(why)) => self.draft.remark(
-                element,
-                format!("{why}; left out"),
-                "draw the block as a closed polyline",
-            ),
+            Some(Shape::Unreadable(why)) => {
+                self.draft.remark(element, format!("{why}; left out"), "draw the block as a closed polyline")
+            }
             None if ANNOTATIONS.contains(&entity.kind) => self.leave(entity.kind),
             None => self.draft.remark(
                 element,
@@ -184,18 +174,14 @@ impl<'d> DxfWalk<'d> {
         let name = insert.text(2).unwrap_or("");
         let element = described(insert, around);
         let Some(block) = self.document.blocks.get(name) else {
-            let why = format!(
-                "its block `{}` is not in the file; left out",
-                crate::text::heading(name, 60)
-            );
+            let why = format!("its block `{}` is not in the file; left out", crate::text::heading(name, 60));
             self.draft.remark(element, why, "");
             return Ok(());
         };
         // If flag 4 or 8 is set in group code 70, the block refers to another drawing file.
         if block.head.has_flag(70, 4 | 8) {
             let help = "bind the external drawing, or explode it";
-            self.draft
-                .remark(element, "it refers to another drawing file; left out", help);
+            self.draft.remark(element, "it refers to another drawing file; left out", help);
             return Ok(());
         }
         if around.depth >= MAX_DEPTH {
@@ -222,9 +208,7 @@ impl<'d> DxfWalk<'d> {
                 return Err(too_many(self.inserted).message);
             }
             let place = EntityContext {
-                map: around
-                    .map
-                    .after(&transform(insert, block, [cell % columns, cell / columns])),
+                map: around.map.after(&transform(insert, block, [cell % columns, cell / columns])),
                 // Names of anonymous blocks, such as those of dimensions and hatches, begin with an asterisk. No user
                 // gave them, so the name of the outer block is kept.
                 block: match name.starts_with('*') {
@@ -259,15 +243,8 @@ impl<'d> DxfWalk<'d> {
     /// Joins open curves into loops, adds the boundaries of hatches that do not fill a drawn outline, adds notes
     /// about everything that is left out, and returns the draft.
     pub(super) fn finish(mut self) -> Draft {
-        let boxes = self
-            .open
-            .values()
-            .flat_map(|(_, list)| list)
-            .map(|o| around(&o.curve));
-        let size = boxes
-            .chain(self.draft.parts.iter().map(part_box))
-            .flatten()
-            .reduce(Bounds::union);
+        let boxes = self.open.values().flat_map(|(_, list)| list).map(|o| around(&o.curve));
+        let size = boxes.chain(self.draft.parts.iter().map(part_box)).flatten().reduce(Bounds::union);
         // Two ends meet if their distance is at most `LENGTH_TOL` times the size of the drawing.
         let tolerance = LENGTH_TOL * size.map_or(0.0, Bounds::diagonal);
         for ((layer, _), (place, list)) in std::mem::take(&mut self.open) {
@@ -275,9 +252,7 @@ impl<'d> DxfWalk<'d> {
         }
         self.add_hatches();
         for (reason, number) in std::mem::take(&mut self.left_out) {
-            self.draft
-                .notes
-                .push(format!("left out: {reason} ({number})"));
+            self.draft.notes.push(format!("left out: {reason} ({number})"));
         }
         self.draft
     }
@@ -295,11 +270,7 @@ impl<'d> DxfWalk<'d> {
         };
         let more = match chained.left.len() {
             1 => String::new(),
-            n => format!(
-                " and {} more on layer {}",
-                n - 1,
-                crate::text::heading(layer, 60)
-            ),
+            n => format!(" and {} more on layer {}", n - 1, crate::text::heading(layer, 60)),
         };
         let (why, help) = match chained.branch {
             Some(at) => (
@@ -309,13 +280,9 @@ impl<'d> DxfWalk<'d> {
                 ),
                 "draw each block as a closed polyline, for example with the command BOUNDARY",
             ),
-            None => (
-                "the lines do not close to a loop; left out".to_owned(),
-                "close the outline",
-            ),
+            None => ("the lines do not close to a loop; left out".to_owned(), "close the outline"),
         };
-        self.draft
-            .remark(format!("{}{more}", first.element), why, help);
+        self.draft.remark(format!("{}{more}", first.element), why, help);
     }
 
     /// Adds the boundaries of hatches as outlines, unless they coincide with outlines that are drawn.
@@ -325,19 +292,15 @@ impl<'d> DxfWalk<'d> {
         let mut filled = 0;
         for (place, loops, element) in std::mem::take(&mut self.hatches) {
             let total = loops.len();
-            let own: Vec<Subpath> = loops
-                .into_iter()
-                .filter(|curve| around(curve).is_some_and(|own| !coincides(own, &drawn)))
-                .collect();
+            let own: Vec<Subpath> =
+                loops.into_iter().filter(|curve| around(curve).is_some_and(|own| !coincides(own, &drawn))).collect();
             filled += total - own.len();
             if !own.is_empty() {
                 self.part(&place, own, element);
             }
         }
         if filled > 0 {
-            self.draft.notes.push(format!(
-                "left out: boundaries of hatches that fill a drawn outline ({filled})"
-            ));
+            self.draft.notes.push(format!("left out: boundaries of hatches that fill a drawn outline ({filled})"));
         }
     }
 }
@@ -350,11 +313,7 @@ fn new_part(place: &EntityContext, form: PartGeometry, element: String) -> Part 
         element,
         form,
         fill: None,
-        values: Values {
-            friction: stone.map(|s| s.friction),
-            density: stone.map(|s| s.density),
-            weight: None,
-        },
+        values: Values { friction: stone.map(|s| s.friction), density: stone.map(|s| s.density), weight: None },
     }
 }
 
@@ -370,10 +329,7 @@ fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) 
     let number = |code, default| insert.number(code).unwrap_or(default);
     let base = point(block.head, 10);
     let at = point(insert, 10);
-    let offset = [
-        column as f64 * number(44, 0.0),
-        row as f64 * number(45, 0.0),
-    ];
+    let offset = [column as f64 * number(44, 0.0), row as f64 * number(45, 0.0)];
     let map = Affine::translation(at.x, at.y)
         .after(&Affine::rotation(number(50, 0.0)))
         .after(&Affine::translation(offset[0], offset[1]))

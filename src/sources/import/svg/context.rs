@@ -34,15 +34,7 @@ pub(super) struct UseElement {
 impl Context {
     /// Returns the context of the root element: a transform, a style and a viewport, but no role and no names.
     pub(super) fn of_page(map: Affine, style: Style, viewport: Viewport) -> Context {
-        Context {
-            map,
-            style,
-            viewport,
-            kind: None,
-            group: None,
-            copy: None,
-            depth: 0,
-        }
+        Context { map, style, viewport, kind: None, group: None, copy: None, depth: 0 }
     }
 
     /// Sets the transform and the viewport for the content of a nested `<svg>` or a `<symbol>`.
@@ -57,26 +49,15 @@ impl Context {
             size.0 = size.0.or(length(node, "width", outer.width));
             size.1 = size.1.or(length(node, "height", outer.height));
         }
-        let (width, height) = (
-            size.0.unwrap_or(outer.width),
-            size.1.unwrap_or(outer.height),
-        );
+        let (width, height) = (size.0.unwrap_or(outer.width), size.1.unwrap_or(outer.height));
         self.map = self.map.after(&Affine::translation(x, y));
-        self.viewport = Viewport {
-            width,
-            height,
-            copied: (None, None),
-        };
+        self.viewport = Viewport { width, height, copied: (None, None) };
         if let Some(view) = view_box(node)
             && width > 0.0
             && height > 0.0
         {
-            let ratio = node
-                .attribute("preserveAspectRatio")
-                .and_then(|t| AspectRatio::from_str(t).ok());
-            self.map = self
-                .map
-                .after(&fitted(view, width, height, ratio.unwrap_or_default()));
+            let ratio = node.attribute("preserveAspectRatio").and_then(|t| AspectRatio::from_str(t).ok());
+            self.map = self.map.after(&fitted(view, width, height, ratio.unwrap_or_default()));
             self.viewport.width = view.w;
             self.viewport.height = view.h;
         }

@@ -22,11 +22,7 @@ pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Sub
         "line" => {
             let place = |x, y| point(node, viewport, [x, y]);
             let segments = vec![Segment::Line(place("x2", "y2"))];
-            Ok(vec![Subpath {
-                start: place("x1", "y1"),
-                segments,
-                closed: false,
-            }])
+            Ok(vec![Subpath { start: place("x1", "y1"), segments, closed: false }])
         }
         _ => path::subpaths(node.attribute("d").unwrap_or(""))
             .map_err(|why| format!("its path data cannot be read ({why})")),
@@ -35,10 +31,7 @@ pub(super) fn subpaths(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Sub
 
 /// Reads a point from two attributes. A coordinate whose attribute is missing is 0.
 fn point(node: Node<'_, '_>, viewport: Viewport, [x, y]: [&str; 2]) -> Point {
-    Point::new(
-        length(node, x, viewport.width).unwrap_or(0.0),
-        length(node, y, viewport.height).unwrap_or(0.0),
-    )
+    Point::new(length(node, x, viewport.width).unwrap_or(0.0), length(node, y, viewport.height).unwrap_or(0.0))
 }
 
 fn positive(name: &str, value: Option<f64>) -> Result<f64, String> {
@@ -54,9 +47,7 @@ fn rect(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, String> 
     let down = |name| length(node, name, viewport.height);
     let width = positive("width", across("width"))?;
     let height = positive("height", down("height"))?;
-    let radius = |own: Option<f64>, other: Option<f64>, side: f64| {
-        own.or(other).unwrap_or(0.0).clamp(0.0, side / 2.0)
-    };
+    let radius = |own: Option<f64>, other: Option<f64>, side: f64| own.or(other).unwrap_or(0.0).clamp(0.0, side / 2.0);
     let (rx, ry) = (across("rx"), down("ry"));
     let radii = Vector::new(radius(rx, ry, width), radius(ry, rx, height));
     let at = point(node, viewport, ["x", "y"]);
@@ -72,10 +63,7 @@ fn ellipse(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, Strin
     } else {
         let rx = length(node, "rx", viewport.width);
         let ry = length(node, "ry", viewport.height);
-        (
-            positive("radius rx", rx.or(ry))?,
-            positive("radius ry", ry.or(rx))?,
-        )
+        (positive("radius rx", rx.or(ry))?, positive("radius ry", ry.or(rx))?)
     };
     let centre = point(node, viewport, ["cx", "cy"]);
     Ok(vec![Subpath::ellipse(centre, rx, ry)])
@@ -83,9 +71,7 @@ fn ellipse(node: Node<'_, '_>, viewport: Viewport) -> Result<Vec<Subpath>, Strin
 
 fn polyline(node: Node<'_, '_>, closed: bool) -> Result<Vec<Subpath>, String> {
     let text = node.attribute("points").unwrap_or("");
-    let points: Vec<Point> = PointsParser::from(text)
-        .map(|p| Point::new(p.0, p.1))
-        .collect();
+    let points: Vec<Point> = PointsParser::from(text).map(|p| Point::new(p.0, p.1)).collect();
     let subpath = Subpath::closed(&points).ok_or("it has no points")?;
     Ok(vec![Subpath { closed, ..subpath }])
 }
@@ -93,12 +79,7 @@ fn polyline(node: Node<'_, '_>, closed: bool) -> Result<Vec<Subpath>, String> {
 fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {
     let corner = |x: f64, y: f64| at + Vector::new(x * size.x, y * size.y);
     if !(radii.x > 0.0 && radii.y > 0.0) {
-        let corners = [
-            corner(0.0, 0.0),
-            corner(1.0, 0.0),
-            corner(1.0, 1.0),
-            corner(0.0, 1.0),
-        ];
+        let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
         return Subpath {
             start: corners[0],
             segments: corners[1..].iter().map(|p| Segment::Line(*p)).collect(),
@@ -125,11 +106,7 @@ fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {
             to: centre + to,
         }));
     }
-    Subpath {
-        start: corner(0.0, 0.0) + u,
-        segments,
-        closed: true,
-    }
+    Subpath { start: corner(0.0, 0.0) + u, segments, closed: true }
 }
 
 #[cfg(test)]
@@ -139,11 +116,7 @@ mod tests {
 
     fn shape(element: &str) -> Result<Vec<Subpath>, String> {
         let document = roxmltree::Document::parse(element).expect("XML");
-        let viewport = Viewport {
-            width: 200.0,
-            height: 100.0,
-            copied: (None, None),
-        };
+        let viewport = Viewport { width: 200.0, height: 100.0, copied: (None, None) };
         subpaths(document.root_element(), viewport)
     }
 
@@ -157,14 +130,8 @@ mod tests {
         let quarter = core::f64::consts::FRAC_PI_4;
         for (element, expected) in [
             ("<rect x='1' y='2' width='4' height='3'/>", 12.0),
-            (
-                "<rect width='4' height='3' rx='1'/>",
-                12.0 - 4.0 + 4.0 * quarter,
-            ),
-            (
-                "<rect width='4' height='3' rx='9' ry='0.5'/>",
-                12.0 - 4.0 + 4.0 * quarter,
-            ),
+            ("<rect width='4' height='3' rx='1'/>", 12.0 - 4.0 + 4.0 * quarter),
+            ("<rect width='4' height='3' rx='9' ry='0.5'/>", 12.0 - 4.0 + 4.0 * quarter),
             ("<rect width='10%' height='10%'/>", 200.0),
             ("<circle cx='3' r='2'/>", 16.0 * quarter),
             ("<ellipse rx='2' ry='1'/>", 8.0 * quarter),
@@ -172,10 +139,7 @@ mod tests {
             ("<path d='M0 0h4v3z'/>", 6.0),
         ] {
             let found = shape_area(element);
-            assert!(
-                (found - expected).abs() < 2e-3,
-                "{element}: {found} {expected}"
-            );
+            assert!((found - expected).abs() < 2e-3, "{element}: {found} {expected}");
         }
     }
 

@@ -19,9 +19,7 @@ pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
     let found: Vec<Node<'a, 'd>> = root
         .descendants()
         .filter(|n| {
-            n.node_type() == NodeType::Element
-                && n.has_attribute(SCALE_ATTRIBUTE)
-                && n.has_attribute(ORIGIN_ATTRIBUTE)
+            n.node_type() == NodeType::Element && n.has_attribute(SCALE_ATTRIBUTE) && n.has_attribute(ORIGIN_ATTRIBUTE)
         })
         .collect();
     (!found.is_empty()).then_some(found)
@@ -32,9 +30,7 @@ pub(super) fn frames<'a, 'd>(root: Node<'a, 'd>) -> Option<Vec<Node<'a, 'd>>> {
 fn frame_map(picture: Node<'_, '_>, scale: Option<f64>) -> Result<Affine, String> {
     let numbers = |name: &str| -> Option<Vec<f64>> {
         let text = picture.attribute(name)?;
-        let all = text
-            .split_whitespace()
-            .map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
+        let all = text.split_whitespace().map(|t| t.parse::<f64>().ok().filter(|x| x.is_finite()));
         all.collect()
     };
     let (pixels, origin) = (numbers(SCALE_ATTRIBUTE), numbers(ORIGIN_ATTRIBUTE));
@@ -62,33 +58,19 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let count = pictures.len();
         let number = frame.unwrap_or(count - 1);
         let Some(picture) = pictures.get(number).copied() else {
-            let has = if count == 1 {
-                "one frame".into()
-            } else {
-                format!("{count} frames")
-            };
-            return Err(format!(
-                "there is no frame {}: the figure has {has}",
-                number + 1
-            ));
+            let has = if count == 1 { "one frame".into() } else { format!("{count} frames") };
+            return Err(format!("there is no frame {}: the figure has {has}", number + 1));
         };
         let map = frame_map(picture, scale)?;
         let note = if count == 1 {
             "a figure by drystone".into()
         } else {
-            format!(
-                "a figure by drystone; imported from frame {} of {count}",
-                number + 1
-            )
+            format!("a figure by drystone; imported from frame {} of {count}", number + 1)
         };
         self.draft.notes.push(format!(
             "{note}: colours and arrows show forces and are not imported; weights, friction and limits are not in the figure"
         ));
-        let viewport = Viewport {
-            width: 0.0,
-            height: 0.0,
-            copied: (None, None),
-        };
+        let viewport = Viewport { width: 0.0, height: 0.0, copied: (None, None) };
         let around = Context::of_page(map, Style::ROOT, viewport);
         self.read_groups(picture, &around);
         Ok(())
@@ -106,11 +88,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 depth: around.depth + 1,
                 ..around.clone()
             };
-            let title = child
-                .children()
-                .find(|n| is(*n, "title"))
-                .map(words)
-                .unwrap_or_default();
+            let title = child.children().find(|n| is(*n, "title")).map(words).unwrap_or_default();
             match child.attribute("class").unwrap_or("") {
                 "ground" => {
                     for path in child.children().filter(|n| is(*n, "path")) {
@@ -160,10 +138,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 kind,
                 name: name.to_owned(),
                 element,
-                form: PartGeometry::Subpaths(
-                    subpaths.iter().map(|t| t.mapped(&map)).collect(),
-                    FillRule::NonZero,
-                ),
+                form: PartGeometry::Subpaths(subpaths.iter().map(|t| t.mapped(&map)).collect(), FillRule::NonZero),
                 fill: None,
                 values: Values::default(),
             }),

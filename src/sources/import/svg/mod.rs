@@ -40,16 +40,8 @@ const MAX_RULE_MATCHES: usize = 150_000_000;
 ///
 /// # Errors
 /// Returns the reason why the text cannot be read as SVG.
-pub(super) fn read(
-    text: &str,
-    scale: Scale,
-    frame: Option<usize>,
-    naming: &Naming<'_>,
-) -> Result<Draft, String> {
-    let options = ParsingOptions {
-        allow_dtd: true,
-        ..ParsingOptions::default()
-    };
+pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Naming<'_>) -> Result<Draft, String> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| e.to_string())?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
@@ -81,9 +73,7 @@ pub(super) fn read(
     }
     if let Some(pictures) = figure::frames(root) {
         if scale.ratio.is_some() {
-            return Err(
-                "a figure by drystone contains its own scale; leave out --scale 1:N".into(),
-            );
+            return Err("a figure by drystone contains its own scale; leave out --scale 1:N".into());
         }
         walk.figure(&pictures, scale.metres, frame)?;
     } else if frame.is_some() {

@@ -40,9 +40,8 @@ fn label(node: Node<'_, '_>) -> Option<String> {
 
 /// True if a program generated the id: Inkscape writes the tag and a number, such as `path12`.
 fn is_generated(node: Node<'_, '_>, id: &str) -> bool {
-    id.strip_prefix(node.tag_name().name()).is_some_and(|rest| {
-        !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit() || b == b'-')
-    })
+    id.strip_prefix(node.tag_name().name())
+        .is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|b| b.is_ascii_digit() || b == b'-'))
 }
 
 /// Undoes the escapes of Illustrator: `_x30_` stands for the character 0, and `_2_` at the end marks the second object
@@ -52,10 +51,7 @@ fn unescaped(id: &str) -> String {
     let mut rest = id.trim();
     if let Some(body) = rest.strip_suffix('_') {
         let name = body.trim_end_matches(|c: char| c.is_ascii_digit());
-        if let Some(name) = name
-            .strip_suffix('_')
-            .filter(|n| !n.is_empty() && name.len() < body.len())
-        {
+        if let Some(name) = name.strip_suffix('_').filter(|n| !n.is_empty() && name.len() < body.len()) {
             rest = name;
         }
     }
@@ -129,15 +125,8 @@ mod tests {
             <path id='path12-3' inkscape:label='keystone'/><path id='path12'/><path id='arch'/>\n<path/></svg>";
         let document = roxmltree::Document::parse(text).expect("XML");
         let lines = Lines::new(text);
-        let nodes: Vec<_> = document
-            .root_element()
-            .children()
-            .filter(Node::is_element)
-            .collect();
-        let names: Vec<_> = nodes
-            .iter()
-            .map(|n| (user_name(*n), any_name(*n)))
-            .collect();
+        let nodes: Vec<_> = document.root_element().children().filter(Node::is_element).collect();
+        let names: Vec<_> = nodes.iter().map(|n| (user_name(*n), any_name(*n))).collect();
         let some = |s: &str| Some(s.to_owned());
         assert_eq!(names[0], (some("keystone"), some("keystone")));
         assert_eq!(names[1], (None, some("path12")));

@@ -12,13 +12,8 @@ use crate::import::subpath::{Arc, Segment, Subpath};
 /// # Errors
 /// Returns the message of the parser if the path data is not valid.
 pub(super) fn subpaths(text: &str) -> Result<Vec<Subpath>, String> {
-    let mut builder = SubpathBuilder {
-        subpaths: Vec::new(),
-        at: Point::origin(),
-        open: None,
-        handle: None,
-        quadratic: None,
-    };
+    let mut builder =
+        SubpathBuilder { subpaths: Vec::new(), at: Point::origin(), open: None, handle: None, quadratic: None };
     for segment in PathParser::from(text) {
         builder.draw(segment.map_err(|error| error.to_string())?);
     }
@@ -39,33 +34,21 @@ struct SubpathBuilder {
 impl SubpathBuilder {
     /// Ends the current subpath. A subpath without segments is dropped.
     fn finish(&mut self) {
-        self.subpaths.extend(
-            self.open
-                .take()
-                .filter(|subpath| !subpath.segments.is_empty()),
-        );
+        self.subpaths.extend(self.open.take().filter(|subpath| !subpath.segments.is_empty()));
     }
 
     /// Adds a segment to the current subpath. After a `Z` that no `M` follows, the segment begins a new subpath at the
     /// current point.
     fn add(&mut self, segment: Segment) {
         let start = self.at;
-        let subpath = self.open.get_or_insert(Subpath {
-            start,
-            segments: Vec::new(),
-            closed: false,
-        });
+        let subpath = self.open.get_or_insert(Subpath { start, segments: Vec::new(), closed: false });
         subpath.segments.push(segment);
         self.at = segment.end();
     }
 
     /// Adds the segments of one path command.
     fn draw(&mut self, segment: PathSegment) {
-        let base = if segment.is_abs() {
-            Vector::zeros()
-        } else {
-            self.at.coords
-        };
+        let base = if segment.is_abs() { Vector::zeros() } else { self.at.coords };
         let place = |x: f64, y: f64| Point::new(x, y) + base;
         let (handle, quadratic) = (self.handle.take(), self.quadratic.take());
         match segment {
@@ -77,15 +60,7 @@ impl SubpathBuilder {
             PathSegment::VerticalLineTo { y, .. } => {
                 self.add(Segment::Line(Point::new(self.at.x, y + base.y)));
             }
-            PathSegment::CurveTo {
-                x1,
-                y1,
-                x2,
-                y2,
-                x,
-                y,
-                ..
-            } => {
+            PathSegment::CurveTo { x1, y1, x2, y2, x, y, .. } => {
                 self.cubic(place(x1, y1), place(x2, y2), place(x, y));
             }
             PathSegment::SmoothCurveTo { x2, y2, x, y, .. } => {
@@ -99,16 +74,7 @@ impl SubpathBuilder {
                 let handle = quadratic.map_or(self.at, |h| self.at + (self.at - h));
                 self.quadratic(handle, place(x, y));
             }
-            PathSegment::EllipticalArc {
-                rx,
-                ry,
-                x_axis_rotation,
-                large_arc,
-                sweep,
-                x,
-                y,
-                ..
-            } => {
+            PathSegment::EllipticalArc { rx, ry, x_axis_rotation, large_arc, sweep, x, y, .. } => {
                 let to = place(x, y);
                 let turn = x_axis_rotation.to_radians();
                 self.add(match arc(self.at, to, [rx, ry], turn, large_arc, sweep) {
@@ -124,11 +90,7 @@ impl SubpathBuilder {
     fn begin(&mut self, start: Point) {
         self.finish();
         self.at = start;
-        self.open = Some(Subpath {
-            start,
-            segments: Vec::new(),
-            closed: false,
-        });
+        self.open = Some(Subpath { start, segments: Vec::new(), closed: false });
     }
 
     /// Closes the current subpath and ends it.
@@ -163,14 +125,7 @@ impl SubpathBuilder {
 /// 2. If the chord is longer than the diameter, enlarge the radii (B.2.5).
 /// 3. The centre is at distance √(1 − h²) from the middle of the chord; the two flags decide on which side.
 /// 4. Compute the angles of both ends, and correct the sign of the sweep.
-fn arc(
-    from: Point,
-    to: Point,
-    radii: [f64; 2],
-    turn: f64,
-    large: bool,
-    clockwise: bool,
-) -> Option<Arc> {
+fn arc(from: Point, to: Point, radii: [f64; 2], turn: f64, large: bool, clockwise: bool) -> Option<Arc> {
     let (rx, ry) = (radii[0].abs(), radii[1].abs());
     if from == to || !(rx > 0.0 && ry > 0.0) {
         return None;
@@ -204,14 +159,7 @@ fn arc(
     if sweep == 0.0 || !(rx.is_finite() && ry.is_finite()) {
         return None;
     }
-    Some(Arc {
-        centre: middle + u * centre.x + v * centre.y,
-        u,
-        v,
-        from: begin,
-        sweep,
-        to,
-    })
+    Some(Arc { centre: middle + u * centre.x + v * centre.y, u, v, from: begin, sweep, to })
 }
 
 #[cfg(test)]
@@ -228,12 +176,7 @@ mod tests {
     #[test]
     fn relative_commands_and_commands_with_one_coordinate_give_the_same_outline() {
         let square = [(1.0, 2.0), (5.0, 2.0), (5.0, 5.0), (1.0, 5.0)];
-        for d in [
-            "M1 2 5 2 5 5 1 5Z",
-            "m1,2h4v3h-4z",
-            "M1 2H5V5H1V2",
-            "m 1 2 l 4 0 0 3 -4 0 z",
-        ] {
+        for d in ["M1 2 5 2 5 5 1 5Z", "m1,2h4v3h-4z", "M1 2H5V5H1V2", "m 1 2 l 4 0 0 3 -4 0 z"] {
             assert_eq!(corners(d), square, "{d}");
         }
     }
@@ -243,20 +186,12 @@ mod tests {
         let subpaths = subpaths("M1 1h2v2z l-5 0 0 -5z M9 9").expect("path data");
         assert_eq!(subpaths.len(), 2);
         assert_eq!(subpaths[1].start, Point::new(1.0, 1.0));
-        assert_eq!(
-            subpaths[1].segments[1],
-            Segment::Line(Point::new(-4.0, -4.0))
-        );
+        assert_eq!(subpaths[1].segments[1], Segment::Line(Point::new(-4.0, -4.0)));
     }
 
     #[test]
     fn each_of_the_four_arcs_lies_on_its_ellipse() {
-        for (large, sweep, centre) in [
-            (0, 0, (4.0, 3.0)),
-            (0, 1, (0.0, 0.0)),
-            (1, 0, (0.0, 0.0)),
-            (1, 1, (4.0, 3.0)),
-        ] {
+        for (large, sweep, centre) in [(0, 0, (4.0, 3.0)), (0, 1, (0.0, 0.0)), (1, 0, (0.0, 0.0)), (1, 1, (4.0, 3.0))] {
             let d = format!("M4 0A4 3 0 {large} {sweep} 0 3Z");
             let found = corners(&d);
             for p in &found {
@@ -265,23 +200,14 @@ mod tests {
             }
             // The area of a quarter of an ellipse or of three quarters, minus or plus a triangle.
             let area = crate::geometry::snap::area(
-                &subpaths(&d).expect("path data")[0]
-                    .flattened(1e-4, 1e-9)
-                    .expect("closed"),
+                &subpaths(&d).expect("path data")[0].flattened(1e-4, 1e-9).expect("closed"),
             );
             let expected = 12.0 * core::f64::consts::PI / 4.0 * if large == 1 { 3.0 } else { 1.0 };
             let triangle = if large == 1 { 6.0 } else { -6.0 };
-            assert!(
-                (area.abs() - expected - triangle).abs() < 1e-2,
-                "{d}: {area}"
-            );
+            assert!((area.abs() - expected - triangle).abs() < 1e-2, "{d}: {area}");
         }
         // Radii that are too small for their chord are enlarged. A radius of 0 gives a line.
-        assert!(
-            corners("M0 0A1 1 0 0 1 10 0Z")
-                .iter()
-                .all(|p| (libm::hypot(p.0 - 5.0, p.1) - 5.0).abs() < 1e-12)
-        );
+        assert!(corners("M0 0A1 1 0 0 1 10 0Z").iter().all(|p| (libm::hypot(p.0 - 5.0, p.1) - 5.0).abs() < 1e-12));
         assert_eq!(corners("M0 0A0 1 0 0 1 10 0L3 3Z").len(), 3);
     }
 

@@ -55,11 +55,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 "a gradient or pattern cannot become a material; the fill is not imported",
                 "use one colour",
             ),
-            Fill::Unknown => (
-                RemarkKind::BadFill,
-                "its fill is not a valid colour; it is not imported",
-                "write it as #rrggbb",
-            ),
+            Fill::Unknown => {
+                (RemarkKind::BadFill, "its fill is not a valid colour; it is not imported", "write it as #rrggbb")
+            }
         };
         self.remark(kind, node, around, why, help);
         None
@@ -71,8 +69,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let mut map = Affine::IDENTITY;
         for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
             let Ok(token) = token else {
-                let why =
-                    "its transform cannot be read completely; the part before the error is used";
+                let why = "its transform cannot be read completely; the part before the error is used";
                 self.remark(RemarkKind::BadTransform, node, around, why, "");
                 break;
             };
@@ -81,12 +78,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 TransformListToken::Translate { tx, ty } => Affine::translation(tx, ty),
                 TransformListToken::Scale { sx, sy } => Affine::scale(sx, sy),
                 TransformListToken::Rotate { angle } => Affine::rotation(angle),
-                TransformListToken::SkewX { angle } => {
-                    Affine([1.0, 0.0, libm::tan(angle.to_radians()), 1.0, 0.0, 0.0])
-                }
-                TransformListToken::SkewY { angle } => {
-                    Affine([1.0, libm::tan(angle.to_radians()), 0.0, 1.0, 0.0, 0.0])
-                }
+                TransformListToken::SkewX { angle } => Affine([1.0, 0.0, libm::tan(angle.to_radians()), 1.0, 0.0, 0.0]),
+                TransformListToken::SkewY { angle } => Affine([1.0, libm::tan(angle.to_radians()), 0.0, 1.0, 0.0, 0.0]),
             });
         }
         map

@@ -49,12 +49,7 @@ impl Style {
 
     /// Returns the style of a child element: inherited from this style, and changed by its own declarations.
     pub(super) fn of_child(&self, node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Style {
-        let mut style = Style {
-            displayed: true,
-            clipped: false,
-            masked: false,
-            ..*self
-        };
+        let mut style = Style { displayed: true, clipped: false, masked: false, ..*self };
         let own = declarations(node, sheet);
         // Read `color` first, because `currentColor` in a fill refers to it, whatever the order of the declarations.
         for (name, value) in own.iter().filter(|d| d.0 == "color") {
@@ -80,9 +75,7 @@ impl Style {
                     Ok(Paint::Inherit) => outer.fill,
                     Ok(Paint::CurrentColor) => self.current(),
                     Ok(Paint::Color(colour)) => Fill::Colour(bytes(colour)),
-                    Ok(Paint::FuncIRI(_, Some(PaintFallback::Color(colour)))) => {
-                        Fill::Colour(bytes(colour))
-                    }
+                    Ok(Paint::FuncIRI(_, Some(PaintFallback::Color(colour)))) => Fill::Colour(bytes(colour)),
                     Ok(Paint::FuncIRI(_, _)) => Fill::Paint,
                     Ok(Paint::ContextFill | Paint::ContextStroke) => Fill::Unspecified,
                     Err(_) => Fill::Unknown,
@@ -129,11 +122,7 @@ fn declarations<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Vec<(&'v s
         .filter(|rule| rule.selector.matches(&Matched(node)))
         .flat_map(|rule| rule.declarations.iter().copied());
     for declaration in rules.chain(DeclarationTokenizer::from(inline)) {
-        let list = if declaration.important {
-            &mut important
-        } else {
-            &mut plain
-        };
+        let list = if declaration.important { &mut important } else { &mut plain };
         list.push((declaration.name, declaration.value));
     }
     plain.extend(important);
@@ -156,9 +145,7 @@ impl simplecss::Element for Matched<'_, '_> {
     }
 
     fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
-        self.0
-            .attribute(name)
-            .is_some_and(|value| operator.matches(value))
+        self.0.attribute(name).is_some_and(|value| operator.matches(value))
     }
 
     fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
@@ -184,28 +171,12 @@ mod tests {
         let cases = [
             ("<g/>", "", [255, 0, 0]),
             ("<g fill='#0f0'/>", "", [0, 255, 0]),
-            (
-                "<g fill='#0f0' class='a'/>",
-                ".a { fill: blue }",
-                [0, 0, 255],
-            ),
-            (
-                "<g class='a' style='fill:#8b6b3d'/>",
-                ".a { fill: blue }",
-                [0x8b, 0x6b, 0x3d],
-            ),
-            (
-                "<g class='a' style='fill:#000'/>",
-                ".a { fill: blue !important }",
-                [0, 0, 255],
-            ),
+            ("<g fill='#0f0' class='a'/>", ".a { fill: blue }", [0, 0, 255]),
+            ("<g class='a' style='fill:#8b6b3d'/>", ".a { fill: blue }", [0x8b, 0x6b, 0x3d]),
+            ("<g class='a' style='fill:#000'/>", ".a { fill: blue !important }", [0, 0, 255]),
             ("<g style='fill: inherit'/>", "", [255, 0, 0]),
             ("<g fill='currentColor'/>", "", [1, 2, 3]),
-            (
-                "<g fill='currentColor' style='color:rgb(4,5,6)'/>",
-                "",
-                [4, 5, 6],
-            ),
+            ("<g fill='currentColor' style='color:rgb(4,5,6)'/>", "", [4, 5, 6]),
             ("<g fill='url(#a) #070809'/>", "", [7, 8, 9]),
         ];
         for (element, css, fill) in cases {
@@ -222,9 +193,6 @@ mod tests {
         assert!(!style("<g visibility='hidden'/>", "").visible);
         assert!(style("<g clip-path='url(#c)'/>", "").clipped);
         assert!(style("<g mask='url(#m)'/>", "").masked);
-        assert_eq!(
-            style("<g fill-rule='evenodd'/>", "").rule,
-            FillRule::EvenOdd
-        );
+        assert_eq!(style("<g fill-rule='evenodd'/>", "").rule, FillRule::EvenOdd);
     }
 }

@@ -29,14 +29,9 @@ pub(super) struct Page {
 
 /// Reads the viewport, the position of the page and its physical size from the attributes of the root element.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
-    let sizes =
-        ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
+    let sizes = ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
     let view = view_box(root);
-    let pixels = |i: usize| {
-        sizes[i]
-            .and_then(|l| in_pixels(l, None))
-            .filter(|p| *p > 0.0)
-    };
+    let pixels = |i: usize| sizes[i].and_then(|l| in_pixels(l, None)).filter(|p| *p > 0.0);
     let view = view.or_else(|| Some(ViewBox::new(0.0, 0.0, pixels(0)?, pixels(1)?)));
     let metres = |i: usize| sizes[i].and_then(physical).filter(|m| *m > 0.0);
     let mut unit = None;
@@ -57,11 +52,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
     let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
     Page {
-        viewport: Viewport {
-            width: shown.w,
-            height: shown.h,
-            copied: (None, None),
-        },
+        viewport: Viewport { width: shown.w, height: shown.h, copied: (None, None) },
         left: shown.x,
         bottom: shown.y + shown.h,
         unit,
@@ -70,11 +61,7 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
 
 /// Returns a text with the size of the page that determines the scale, such as `210mm wide`.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
-    let (name, way) = if by_width {
-        ("width", "wide")
-    } else {
-        ("height", "high")
-    };
+    let (name, way) = if by_width { ("width", "wide") } else { ("height", "high") };
     format!("{} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
@@ -87,10 +74,7 @@ pub(super) fn length(node: Node<'_, '_>, name: &str, whole: f64) -> Option<f64> 
 pub(super) fn view_box(node: Node<'_, '_>) -> Option<ViewBox> {
     let text = node.attribute("viewBox")?;
     let view = ViewBox::from_str(text).ok()?;
-    [view.x, view.y, view.w, view.h]
-        .iter()
-        .all(|v| v.is_finite())
-        .then_some(view)
+    [view.x, view.y, view.w, view.h].iter().all(|v| v.is_finite()).then_some(view)
 }
 
 /// Returns the map from a view box to a viewport of this width and height. `ratio` is the attribute
@@ -162,25 +146,14 @@ mod tests {
 
     #[test]
     fn the_unit_of_a_drawing_follows_from_its_physical_size() {
-        assert_eq!(
-            unit("width='210mm' height='297mm' viewBox='0 0 210 297'"),
-            Some(0.001)
-        );
+        assert_eq!(unit("width='210mm' height='297mm' viewBox='0 0 210 297'"), Some(0.001));
         assert_eq!(unit("width='20cm' viewBox='0 0 50 10'"), Some(0.004));
         for pixels in ["width='10in' height='5in'", "width='5mm'"] {
             let found = unit(pixels).expect("a size");
             assert!((found / 0.0254 * 96.0 - 1.0).abs() < 1e-13, "{found}");
         }
-        assert_eq!(
-            unit("width='72pt' height='72pt' viewBox='0 0 2 1'"),
-            Some(0.0127)
-        );
-        for none in [
-            "width='800px' height='600px'",
-            "width='100%' viewBox='0 0 5 5'",
-            "viewBox='0 0 5 5'",
-            "",
-        ] {
+        assert_eq!(unit("width='72pt' height='72pt' viewBox='0 0 2 1'"), Some(0.0127));
+        for none in ["width='800px' height='600px'", "width='100%' viewBox='0 0 5 5'", "viewBox='0 0 5 5'", ""] {
             assert_eq!(unit(none), None, "{none}");
         }
     }

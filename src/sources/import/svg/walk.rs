@@ -44,20 +44,11 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Reads an SVG that is not a figure of drystone.
     pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Scale) -> Result<(), String> {
         let page = viewport::page(root);
-        let stated = page
-            .unit
-            .map(|(unit, stated)| (unit, format!("it is {stated}")));
+        let stated = page.unit.map(|(unit, stated)| (unit, format!("it is {stated}")));
         let (scale, note) = scale.of(stated, "it has no size in mm, cm, in or pt")?;
         self.draft.notes.push(note);
         // The lower left corner of the page becomes the origin, as in the rulers of Inkscape.
-        let map = Affine([
-            scale,
-            0.0,
-            0.0,
-            -scale,
-            -scale * page.left,
-            scale * page.bottom,
-        ]);
+        let map = Affine([scale, 0.0, 0.0, -scale, -scale * page.left, scale * page.bottom]);
         let style = Style::ROOT.of_child(root, &self.sheet);
         let around = Context::of_page(map, style, page.viewport);
         self.children(root, &around);
@@ -82,9 +73,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             return;
         }
         let style = around.style.of_child(node, &self.sheet);
-        let kind = name::all_names(node)
-            .find_map(|n| self.naming.role(&n))
-            .or(around.kind);
+        let kind = name::all_names(node).find_map(|n| self.naming.role(&n)).or(around.kind);
         if !style.displayed {
             self.skip(node, around, "it is hidden");
             return;
@@ -121,12 +110,10 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
             let count = self.seen - 1;
             let why = match self.seen > MAX_ELEMENTS {
-                true => format!(
-                    "the drawing has more than {count} elements, copies included; this one is left out"
-                ),
-                false => format!(
-                    "the drawing has too many style rules for more than {count} elements; this one is left out"
-                ),
+                true => format!("the drawing has more than {count} elements, copies included; this one is left out"),
+                false => {
+                    format!("the drawing has too many style rules for more than {count} elements; this one is left out")
+                }
             };
             self.remark(RemarkKind::TooManyElements, node, around, &why, "");
             return true;
@@ -155,9 +142,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                     }
                     "switch" => {
                         let first = node.children().find(|c| {
-                            c.is_element()
-                                && !is(*c, "foreignObject")
-                                && c.attribute("requiredExtensions").is_none()
+                            c.is_element() && !is(*c, "foreignObject") && c.attribute("requiredExtensions").is_none()
                         });
                         first.into_iter().for_each(|c| self.element(c, &inner));
                     }
@@ -191,42 +176,22 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
 
     /// Reads the element to which a `<use>` element refers.
     fn copy(&mut self, node: Node<'a, 'd>, mut inner: Context) {
-        let reference = node
-            .attribute("href")
-            .or_else(|| node.attribute((XLINK_NAMESPACE, "href")));
-        let target = reference
-            .and_then(|r| r.trim().strip_prefix('#'))
-            .and_then(|id| self.ids.get(id).copied());
+        let reference = node.attribute("href").or_else(|| node.attribute((XLINK_NAMESPACE, "href")));
+        let target = reference.and_then(|r| r.trim().strip_prefix('#')).and_then(|id| self.ids.get(id).copied());
         let Some(target) = target else {
-            let why = format!(
-                "it copies {}, which does not exist; left out",
-                reference.unwrap_or("nothing")
-            );
+            let why = format!("it copies {}, which does not exist; left out", reference.unwrap_or("nothing"));
             self.remark(RemarkKind::MissingCopy, node, &inner, &why, "");
             return;
         };
         if node == target || node.ancestors().any(|a| a == target) {
-            self.remark(
-                RemarkKind::MissingCopy,
-                node,
-                &inner,
-                "it copies itself; left out",
-                "",
-            );
+            self.remark(RemarkKind::MissingCopy, node, &inner, "it copies itself; left out", "");
             return;
         }
-        let (x, y) = (
-            viewport::length(node, "x", inner.viewport.width),
-            viewport::length(node, "y", inner.viewport.height),
-        );
-        inner.map = inner
-            .map
-            .after(&Affine::translation(x.unwrap_or(0.0), y.unwrap_or(0.0)));
+        let (x, y) =
+            (viewport::length(node, "x", inner.viewport.width), viewport::length(node, "y", inner.viewport.height));
+        inner.map = inner.map.after(&Affine::translation(x.unwrap_or(0.0), y.unwrap_or(0.0)));
         if inner.copy.is_none() {
-            inner.copy = Some(UseElement {
-                element: self.lines.element(node),
-                name: name::user_name(node),
-            });
+            inner.copy = Some(UseElement { element: self.lines.element(node), name: name::user_name(node) });
         }
         if matches!(target.tag_name().name(), "svg" | "symbol") {
             // A `<use>` element may set the size of the symbol that it copies.
@@ -257,14 +222,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     /// Adds a remark about an element, up to a limit for its kind.
-    pub(super) fn remark(
-        &mut self,
-        kind: RemarkKind,
-        node: Node<'a, 'd>,
-        around: &Context,
-        message: &str,
-        help: &str,
-    ) {
+    pub(super) fn remark(&mut self, kind: RemarkKind, node: Node<'a, 'd>, around: &Context, message: &str, help: &str) {
         let times = self.remarked.entry(kind).or_default();
         *times += 1;
         if *times <= MAX_LISTED_REMARKS {
@@ -276,10 +234,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// For each kind of remarks that are not all listed, adds a remark or note with the number of unlisted remarks.
     pub(super) fn count_unlisted(&mut self) {
         for (kind, times) in &self.remarked {
-            let Some(more) = times
-                .checked_sub(MAX_LISTED_REMARKS)
-                .filter(|more| *more > 0)
-            else {
+            let Some(more) = times.checked_sub(MAX_LISTED_REMARKS).filter(|more| *more > 0) else {
                 continue;
             };
             match kind.plural() {

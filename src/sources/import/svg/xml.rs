@@ -7,9 +7,7 @@ pub(super) const SVG: &str = "http://www.w3.org/2000/svg";
 
 /// True if a node is an SVG element with this tag.
 pub(super) fn is(node: Node<'_, '_>, tag: &str) -> bool {
-    node.is_element()
-        && node.tag_name().name() == tag
-        && node.tag_name().namespace().is_none_or(|n| n == SVG)
+    node.is_element() && node.tag_name().name() == tag && node.tag_name().namespace().is_none_or(|n| n == SVG)
 }
 
 /// True for tags such as `defs` and `clipPath`, whose content is never drawn directly.

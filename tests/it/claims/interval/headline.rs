@@ -51,9 +51,8 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
         let intervals = &stated.frame["margins"]["intervals"];
         let load_factor = intervals.get("load_factor");
         let verdict = stated.frame["verdict"].as_str().expect("a word");
-        let is_free = |interval: &Value| {
-            verdict == "stable" && interval[0].as_f64() == Some(0.0) && interval[1].is_null()
-        };
+        let is_free =
+            |interval: &Value| verdict == "stable" && interval[0].as_f64() == Some(0.0) && interval[1].is_null();
         if load_factor.is_some_and(is_free) {
             let words = "and carries any multiple of its load";
             assert!(headline.contains(words), "{headline}");
@@ -73,22 +72,14 @@ fn the_headline_is_the_margin_nearest_to_its_end() {
                 "/kernel" => 1.0 - now,
                 _ => 1.0,
             };
-            let below = low.map_or(1.0, |low| {
-                if parameter.is_signed {
-                    -low / all
-                } else {
-                    1.0 - low / now
-                }
-            });
+            let below = low.map_or(1.0, |low| if parameter.is_signed { -low / all } else { 1.0 - low / now });
             let above = high.map_or(1.0, |high| (high - now) / all);
             Some(below.min(above))
         };
         let all = parameters(&stated.file);
         let reserves = all.iter().filter_map(|p| Some((p, reserve(p)?)));
         let (nearest, least) = reserves.min_by(|a, b| a.1.total_cmp(&b.1)).expect("some");
-        let sign = HEADLINE_SIGNS
-            .iter()
-            .find(|(words, _)| headline.contains(words));
+        let sign = HEADLINE_SIGNS.iter().find(|(words, _)| headline.contains(words));
         let pointer = sign.map_or("", |(_, pointer)| *pointer);
         let is_named = |p: &&Parameter| p.pointer == pointer || headline.starts_with(&p.name);
         let named = all.iter().find(is_named).expect("named");
@@ -110,19 +101,11 @@ fn factors_at_which_it_would_fall_or_stand_lie_on_the_right_side() {
     ]) {
         let has = stated.page.contains(sentence);
         let is_loaded = !list(&stated.file["loads"]).is_empty();
-        assert_eq!(
-            has, is_loaded,
-            "{sentence}: {}",
-            stated.frame["margins"]["intervals"]
-        );
+        assert_eq!(has, is_loaded, "{sentence}: {}", stated.frame["margins"]["intervals"]);
     }
     // The plank falls below its least load factor, and the drawing shows this.
     let plank = &scenes()[2];
-    assert!(
-        plank
-            .page
-            .contains("Below 0.302 times its loads, 1 block moves")
-    );
+    assert!(plank.page.contains("Below 0.302 times its loads, 1 block moves"));
 }
 
 /// The number after `start` in a page.
@@ -146,19 +129,13 @@ fn frictions_and_tilts_at_which_it_would_fall_lie_beyond_the_end() {
             assert!(is_below, "{found}: {low}");
             frictions += 1;
         }
-        let Some((_, turned)) = stated
-            .page
-            .split_once("The structure would fall if gravity turned by ")
-        else {
+        let Some((_, turned)) = stated.page.split_once("The structure would fall if gravity turned by ") else {
             continue;
         };
         let turned = &turned[..turned.find(". ").unwrap_or(turned.len())];
         let mut sides = turned.split(" or ").take(2);
         for (side, end) in [("left", -1.0), ("right", 1.0)] {
-            let end = end
-                * intervals["tilt"][usize::from(end > 0.0)]
-                    .as_f64()
-                    .unwrap_or(f64::NAN);
+            let end = end * intervals["tilt"][usize::from(end > 0.0)].as_f64().unwrap_or(f64::NAN);
             if end.is_nan() {
                 continue;
             }

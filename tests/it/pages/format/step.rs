@@ -9,10 +9,8 @@ use crate::structure::rectangle;
 /// A scene with the given steps, three blocks, one of them on another, and two robots.
 fn steps(steps: Value) -> Value {
     let at = |id: &str, x: f64, y: f64| json!({ "id": id, "polygon": rectangle(x, y, 1.0, 1.0) });
-    file(
-        json!({ "blocks": [at("a", 0.0, 0.0), at("b", 0.0, 1.0), at("c", 3.0, 0.0)],
-        "robots": [{ "id": "r" }, { "id": "q", "holds": "a", "at": [0.25, 0.25] }], "steps": steps }),
-    )
+    file(json!({ "blocks": [at("a", 0.0, 0.0), at("b", 0.0, 1.0), at("c", 3.0, 0.0)],
+        "robots": [{ "id": "r" }, { "id": "q", "holds": "a", "at": [0.25, 0.25] }], "steps": steps }))
 }
 
 #[test]
@@ -25,11 +23,7 @@ fn steps_work_as_the_page_says() {
             steps(json!([{ "title": "t" }, {}, {}])),
             Result("/frames/2/title", json!("")),
         ),
-        Claim(
-            "blocks stay placed",
-            steps(json!([{ "place": ["a"] }, {}])),
-            Result("/frames/1/weight", json!(9.81)),
-        ),
+        Claim("blocks stay placed", steps(json!([{ "place": ["a"] }, {}])), Result("/frames/1/weight", json!(9.81))),
         Claim(
             "robots hold their blocks until a later step releases them",
             steps(json!([holding, {}])),
@@ -55,11 +49,7 @@ fn steps_work_as_the_page_says() {
             steps(json!([holding, { "hold": { "r": { "block": "a", "at": [0.1, 0.1] } } }])),
             Result("/frames/1/robots/0/at", json!([0.1, 0.1])),
         ),
-        Claim(
-            "Several robots may hold one block",
-            steps(json!([two])),
-            Result("/frames/0/robots/1/holds", json!("a")),
-        ),
+        Claim("Several robots may hold one block", steps(json!([two])), Result("/frames/0/robots/1/holds", json!("a"))),
         Claim(
             "The `at` of a robot also applies in a step",
             steps(json!([two])),
@@ -70,11 +60,7 @@ fn steps_work_as_the_page_says() {
             steps(json!([{ "place": ["a"] }])),
             Result("/frames/0/robots", json!([])),
         ),
-        Claim(
-            "has one frame, in which all blocks are placed",
-            steps(json!([])),
-            Result(WEIGHT, json!(3.0 * 9.81)),
-        ),
+        Claim("has one frame, in which all blocks are placed", steps(json!([])), Result(WEIGHT, json!(3.0 * 9.81))),
         Claim(
             "each robot holds the block in its key `holds`",
             steps(json!([])),
@@ -118,21 +104,13 @@ fn steps_work_as_the_page_says() {
     ]);
     let loaded = |steps: Value| {
         let blocks = json!([{ "id": "a", "polygon": rectangle(0.0, 0.0, 1.0, 1.0) }, { "id": "b", "polygon": rectangle(3.0, 0.0, 1.0, 1.0) }]);
-        file(
-            json!({ "blocks": blocks, "loads": [{ "block": "b", "force": [0, -5] }], "steps": steps }),
-        )
+        file(json!({ "blocks": blocks, "loads": [{ "block": "b", "force": [0, -5] }], "steps": steps }))
     };
     let phrase = "A load acts in every frame in which its block is placed";
     let steps = json!([{ "place": ["a"] }, { "place": ["b"] }, {}]);
-    for (pointer, force) in [
-        ("/frames/0/total_force", 9.81),
-        ("/frames/1/total_force", 24.62),
-        ("/frames/2/total_force", 24.62),
-    ] {
-        assert_claims(vec![Claim(
-            phrase,
-            loaded(steps.clone()),
-            Result(pointer, json!(force)),
-        )]);
+    for (pointer, force) in
+        [("/frames/0/total_force", 9.81), ("/frames/1/total_force", 24.62), ("/frames/2/total_force", 24.62)]
+    {
+        assert_claims(vec![Claim(phrase, loaded(steps.clone()), Result(pointer, json!(force)))]);
     }
 }

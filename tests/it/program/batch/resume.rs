@@ -11,9 +11,7 @@ use super::{Bench, lines, tower};
 #[test]
 fn an_interrupted_run_continues_where_it_ended() {
     let bench = Bench::new();
-    let input: String = (0..20)
-        .map(|k| tower(&format!("tower {k}"), 4, 0.02 * f64::from(k)))
-        .collect();
+    let input: String = (0..20).map(|k| tower(&format!("tower {k}"), 4, 0.02 * f64::from(k))).collect();
     fs::write(bench.path("in.ndjson"), &input).expect("writable");
     let whole = bench.run("batch in.ndjson -o whole.ndjson");
     assert_eq!((whole.code, &*whole.out), (1, ""));
@@ -33,11 +31,7 @@ fn an_interrupted_run_continues_where_it_ended() {
     // The existing lines stay as they are, and the answers to the remaining scenes follow.
     let ran = bench.run("batch in.ndjson -o part.ndjson --resume");
     assert_eq!((ran.code, &*ran.out), (0, ""), "{}", ran.err);
-    assert!(
-        ran.err.contains("20 scenes are answered already"),
-        "{}",
-        ran.err
-    );
+    assert!(ran.err.contains("20 scenes are answered already"), "{}", ran.err);
     assert!(fs::read(bench.path("part.ndjson")).expect("there") == whole);
     let more = format!("{input}{}", tower("last", 3, 0.1));
     fs::write(bench.path("in.ndjson"), more).expect("writable");
@@ -53,9 +47,7 @@ fn an_interrupted_run_continues_where_it_ended() {
 #[test]
 fn output_of_other_scenes_or_options_is_not_resumed() {
     let bench = Bench::new();
-    let towers: Vec<String> = (0..9)
-        .map(|k| tower(&format!("tower {k}"), 4, 0.02))
-        .collect();
+    let towers: Vec<String> = (0..9).map(|k| tower(&format!("tower {k}"), 4, 0.02)).collect();
     let write = |name: &str, text: &str| fs::write(bench.path(name), text).expect("writable");
     write("in.ndjson", &towers.concat());
     assert_eq!(bench.run("batch in.ndjson -o out.ndjson").code, 0);
@@ -74,69 +66,21 @@ fn output_of_other_scenes_or_options_is_not_resumed() {
     // The content of the output file, the command, and the expected texts of the refusal.
     let cases: [(&str, &str, &[&str]); 13] = [
         // Other scenes at the positions of those that were answered.
-        (
-            &whole,
-            "batch < other.ndjson",
-            &[
-                "line 1 ",
-                "answers in.ndjson, line 1",
-                "standard input, line 1",
-            ],
-        ),
-        (
-            &whole,
-            "batch other.ndjson",
-            &[
-                "line 1 ",
-                "answers in.ndjson, line 1",
-                "other.ndjson, line 1",
-            ],
-        ),
-        (
-            &whole,
-            "batch stands.json",
-            &["line 1 ", "stands.json at this place"],
-        ),
+        (&whole, "batch < other.ndjson", &["line 1 ", "answers in.ndjson, line 1", "standard input, line 1"]),
+        (&whole, "batch other.ndjson", &["line 1 ", "answers in.ndjson, line 1", "other.ndjson, line 1"]),
+        (&whole, "batch stands.json", &["line 1 ", "stands.json at this place"]),
         (&whole, "batch short.ndjson", &["answers in.ndjson"]),
         // Other options.
-        (
-            &whole,
-            "batch in.ndjson --fields verdict",
-            &["--fields was scene,verdict and is now verdict"],
-        ),
-        (
-            cut,
-            "batch in.ndjson --fields all",
-            &["--fields was scene,verdict and is now all"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --accuracy proved",
-            &["--accuracy was standard and is now proved"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --contact-tolerance 1e-3",
-            &["--contact-tolerance was not given and is now 0.001 m"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --margins",
-            &["--margins was none and is now all", "frames.margins"],
-        ),
-        (
-            &whole,
-            "batch in.ndjson --render drawn",
-            &["pictures was none and is now png"],
-        ),
+        (&whole, "batch in.ndjson --fields verdict", &["--fields was scene,verdict and is now verdict"]),
+        (cut, "batch in.ndjson --fields all", &["--fields was scene,verdict and is now all"]),
+        (&whole, "batch in.ndjson --accuracy proved", &["--accuracy was standard and is now proved"]),
+        (&whole, "batch in.ndjson --contact-tolerance 1e-3", &["--contact-tolerance was not given and is now 0.001 m"]),
+        (&whole, "batch in.ndjson --margins", &["--margins was none and is now all", "frames.margins"]),
+        (&whole, "batch in.ndjson --render drawn", &["pictures was none and is now png"]),
         // Foreign text, and lines that were changed.
         ("mine\n", "batch in.ndjson", &["line 1 ", "was changed"]),
         (&swapped, "batch in.ndjson", &["line 3 ", "was changed"]),
-        (
-            &format!("{whole}{first}"),
-            "batch in.ndjson",
-            &["line 10 ", "more lines"],
-        ),
+        (&format!("{whole}{first}"), "batch in.ndjson", &["line 10 ", "more lines"]),
     ];
     for (output, line, expected) in cases {
         write("out.ndjson", output);
@@ -154,22 +98,13 @@ fn output_of_other_scenes_or_options_is_not_resumed() {
         assert_eq!(read("out.ndjson"), output, "{line}");
         assert_eq!(read("out.ndjson.resume"), record, "{line}");
     }
-    assert!(
-        !bench.path("drawn").exists(),
-        "a refused run creates no folder"
-    );
+    assert!(!bench.path("drawn").exists(), "a refused run creates no folder");
 
     // An input file with the same name, but with other or fewer scenes.
     write("out.ndjson", &whole);
     for (input, expected) in [
-        (
-            other.concat(),
-            "line 5 of out.ndjson answers another scene than in.ndjson, line 5 now contains",
-        ),
-        (
-            towers[..7].concat(),
-            "more lines than the input has scenes (7)",
-        ),
+        (other.concat(), "line 5 of out.ndjson answers another scene than in.ndjson, line 5 now contains"),
+        (towers[..7].concat(), "more lines than the input has scenes (7)"),
     ] {
         write("in.ndjson", &input);
         let ran = bench.run(run);
@@ -180,11 +115,9 @@ fn output_of_other_scenes_or_options_is_not_resumed() {
     write("in.ndjson", &towers.concat());
 
     // Without a valid record, it is unknown which scenes the lines answer.
-    for (record, expected) in [
-        (None, "is missing"),
-        (Some("{"), "drystone batch wrote"),
-        (Some(""), "drystone batch wrote"),
-    ] {
+    for (record, expected) in
+        [(None, "is missing"), (Some("{"), "drystone batch wrote"), (Some(""), "drystone batch wrote")]
+    {
         match record {
             None => fs::remove_file(bench.path("out.ndjson.resume")).expect("there"),
             Some(text) => write("out.ndjson.resume", text),

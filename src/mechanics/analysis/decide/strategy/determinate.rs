@@ -7,11 +7,5 @@ use crate::solve::{Effort, collapse};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
     let (motion, least_adhesion) = collapse(program).unzip();
-    Attempt {
-        forces: None,
-        motion,
-        witness: None,
-        least_adhesion,
-        effort: Effort::default(),
-    }
+    Attempt { forces: None, motion, witness: None, least_adhesion, effort: Effort::default() }
 }

@@ -23,12 +23,6 @@ fn from_residual(residual: Option<Residual>) -> Attempt {
             least_adhesion: None,
             effort: residual.effort,
         },
-        None => Attempt {
-            forces: None,
-            motion: None,
-            witness: None,
-            least_adhesion: None,
-            effort: Effort::default(),
-        },
+        None => Attempt { forces: None, motion: None, witness: None, least_adhesion: None, effort: Effort::default() },
     }
 }

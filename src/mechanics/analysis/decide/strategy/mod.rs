@@ -95,10 +95,7 @@ impl Attempt {
     /// Returns the unproved forces of this attempt. These may be forces that balance only together with adhesion.
     /// `None` if the attempt found no forces.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
-        let least_adhesion = self
-            .least_adhesion
-            .as_ref()
-            .map(|least_adhesion| &least_adhesion.forces);
+        let least_adhesion = self.least_adhesion.as_ref().map(|least_adhesion| &least_adhesion.forces);
         self.forces.as_ref().or(least_adhesion)
     }
 }
@@ -150,16 +147,8 @@ impl Strategy {
             // least residual, full attempts with least force.
             LimitDistance::Unknown if is_large => {
                 strategies.splice(0..0, residual);
-                let with_unique_forces = |settings| SolverSettings {
-                    choice: Choice::Unique,
-                    ..settings
-                };
-                strategies.splice(
-                    1..1,
-                    quick_settings
-                        .map(with_unique_forces)
-                        .map(Strategy::FirstLook),
-                );
+                let with_unique_forces = |settings| SolverSettings { choice: Choice::Unique, ..settings };
+                strategies.splice(1..1, quick_settings.map(with_unique_forces).map(Strategy::FirstLook));
             }
             // Small components. Order: least force, any balance, least residual, least force with full conditioning.
             LimitDistance::Unknown => {
@@ -217,9 +206,7 @@ impl Strategy {
         match self {
             Strategy::Determinate => Method::ClosedForm,
             Strategy::FirstLook(_) => Method::LeastForce,
-            Strategy::Force(settings) if settings.conditioning == Conditioning::Plain => {
-                Method::LeastForce
-            }
+            Strategy::Force(settings) if settings.conditioning == Conditioning::Plain => Method::LeastForce,
             Strategy::Force(_) => Method::LeastForceRefined,
             Strategy::AnyBalance | Strategy::Residual => Method::LeastResidual,
             Strategy::Adhesion(_) => Method::LeastSticking,

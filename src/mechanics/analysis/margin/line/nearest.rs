@@ -1,8 +1,6 @@
 //! Finds the value of a parameter nearest to its present value at which a component stands.
 
-use super::{
-    CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH,
-};
+use super::{CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH};
 use crate::analysis::Verdict;
 use crate::analysis::margin::exclusion::Exclusion;
 use crate::analysis::margin::interval::Interval;
@@ -13,12 +11,7 @@ impl Line<'_> {
     /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is
     /// this value according to a linear program. If no value is found, the `Err` contains the interval: empty if
     /// mechanisms exclude all values, otherwise undecided.
-    pub fn nearest(
-        &self,
-        trial: &mut Trial,
-        present: f64,
-        hint: Option<f64>,
-    ) -> Result<f64, Interval> {
+    pub fn nearest(&self, trial: &mut Trial, present: f64, hint: Option<f64>) -> Result<f64, Interval> {
         let (mut low, mut high) = (self.min_value, f64::INFINITY);
         // `below` excludes all values below `low`, and `above` excludes all values above `high`.
         let [mut below, mut above] = [None, None];
@@ -30,10 +23,7 @@ impl Line<'_> {
                 Some(value) => value,
                 None => {
                     let within = |value: &f64| (low..=high).contains(value);
-                    hinted
-                        .take()
-                        .filter(within)
-                        .unwrap_or(present.clamp(low, high))
+                    hinted.take().filter(within).unwrap_or(present.clamp(low, high))
                 }
             };
             let found = self.decide_near(trial, value, [low, high]);
@@ -63,17 +53,10 @@ impl Line<'_> {
 
     /// Returns the verdict at `value`. If it is undecided, tries values near it, between `low` and `high`. Also returns
     /// the value that the verdict belongs to, and the mechanism if the component falls there.
-    fn decide_near(
-        &self,
-        trial: &mut Trial,
-        value: f64,
-        [low, high]: [f64; 2],
-    ) -> (Verdict, f64, Vec<Motion>) {
+    fn decide_near(&self, trial: &mut Trial, value: f64, [low, high]: [f64; 2]) -> (Verdict, f64, Vec<Motion>) {
         let steps = std::iter::successors(Some(END_TOL), |step| Some(step * OFFSET_GROWTH))
             .take_while(|step| *step <= CONFIRMATION_TOL);
-        let away = steps
-            .flat_map(|step| [step, -step])
-            .map(|step| value + step * self.size(value));
+        let away = steps.flat_map(|step| [step, -step]).map(|step| value + step * self.size(value));
         let mut last = Vec::new();
         // If the range from `low` to `high` is hardly wider than rounding errors, it may contain none of the values to
         // try. Therefore also try its ends if they are near.

@@ -22,12 +22,9 @@ fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
         // The second factorisation must not depend on the first.
         factor.factor(&posed, &doubled, 0.0);
         factor.factor(&posed, &weights, 0.0);
-        let wanted: [Vec<f64>; 2] =
-            std::array::from_fn(|_| (0..unknowns).map(|_| numbers.next()).collect());
+        let wanted: [Vec<f64>; 2] = std::array::from_fn(|_| (0..unknowns).map(|_| numbers.next()).collect());
         let ordered = [0, 1].map(|n| factor.to_elimination_order(&wanted[n]));
-        let mut both: Vec<[f64; 2]> = (0..unknowns)
-            .map(|k| [ordered[0][k], ordered[1][k]])
-            .collect();
+        let mut both: Vec<[f64; 2]> = (0..unknowns).map(|k| [ordered[0][k], ordered[1][k]]).collect();
         let mut one: Vec<[f64; 1]> = ordered[0].iter().map(|v| [*v]).collect();
         factor.solve(&mut both);
         factor.solve(&mut one);
@@ -44,10 +41,7 @@ fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
             let mut given = vec![0.0; unknowns];
             plain.add_product(&along, &mut given);
             for (given, wanted) in given.iter().zip(wanted) {
-                assert!(
-                    (given - wanted).abs() < 1e-7,
-                    "{wide} × {high}: {given} for {wanted}"
-                );
+                assert!((given - wanted).abs() < 1e-7, "{wide} × {high}: {given} for {wanted}");
             }
         }
     }
@@ -57,20 +51,11 @@ fn a_factor_solves_its_system_for_one_and_for_two_right_hand_sides() {
 fn an_unknown_without_columns_is_zero() {
     // The second of three blocks, with unknowns 3 to 5, has no column. Unknowns 7 and 8 of the third block have none
     // either.
-    let columns = vec![
-        vec![(0, 2.0)],
-        vec![(1, 1.0)],
-        vec![(2, 1.0)],
-        vec![(6, 1.0), (0, 1.0)],
-    ];
+    let columns = vec![vec![(0, 2.0)], vec![(1, 1.0)], vec![(2, 1.0)], vec![(6, 1.0), (0, 1.0)]];
     let mut posed = elements(9, &columns);
     let mut factor = Cholesky::new(&mut posed).expect("an order of elimination exists");
     factor.factor(&posed, &[1.0; 4], 0.0);
-    let mut x: Vec<[f64; 1]> = factor
-        .to_elimination_order(&[1.0; 9])
-        .iter()
-        .map(|v| [*v])
-        .collect();
+    let mut x: Vec<[f64; 1]> = factor.to_elimination_order(&[1.0; 9]).iter().map(|v| [*v]).collect();
     factor.solve(&mut x);
     let x = factor.to_program_order(&x.iter().map(|v| v[0]).collect::<Vec<_>>());
     // (4 + 1)·x₀ + x₆ = 1 and x₀ + x₆ = 1.
@@ -83,9 +68,8 @@ fn an_unknown_without_columns_is_zero() {
 #[test]
 fn columns_of_the_same_two_bodies_form_one_group_with_the_same_products() {
     let mut numbers = RandomNumbers(3);
-    let mut column = |unknowns: &[usize]| -> Vec<(usize, f64)> {
-        unknowns.iter().map(|i| (*i, numbers.next())).collect()
-    };
+    let mut column =
+        |unknowns: &[usize]| -> Vec<(usize, f64)> { unknowns.iter().map(|i| (*i, numbers.next())).collect() };
     // Bodies 0 and 1: a normal force, a friction force, and both together. Then body 1 and the ground, bodies 1 and
     // 2, no body, and a single unknown of body 2.
     let columns = vec![
@@ -110,10 +94,7 @@ fn columns_of_the_same_two_bodies_form_one_group_with_the_same_products() {
     elements.add_product(&amounts, &mut sum);
     elements.transpose_product(&y, &mut products);
     for (k, column) in columns.iter().enumerate() {
-        let along: f64 = column
-            .iter()
-            .map(|(i, v)| v * y[position[*i] as usize])
-            .sum();
+        let along: f64 = column.iter().map(|(i, v)| v * y[position[*i] as usize]).sum();
         assert!((products[k] - along).abs() < 1e-14, "column {k}");
         for (i, v) in column {
             sum[position[*i] as usize] -= v * amounts[k];

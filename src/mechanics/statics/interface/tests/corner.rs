@@ -9,10 +9,7 @@ fn a_block_on_the_tip_of_an_earlier_block_is_pushed_upward() {
     let board = rectangle(-1.0, 1.0, 5.0, 1.0);
     let example = scene(vec![rectangle(-5.0, -1.0, 20.0, 1.0)], vec![roof, board]);
     let found = Interfaces::new(&example).all;
-    let corners: Vec<&Interface> = found
-        .iter()
-        .filter(|i| i.kind == ContactKind::Corner)
-        .collect();
+    let corners: Vec<&Interface> = found.iter().filter(|i| i.kind == ContactKind::Corner).collect();
     assert_eq!(corners.len(), 1, "{found:?}");
     assert_eq!(corners[0].bodies, [SECOND, FIRST]);
     assert!(near(corners[0].normal, [0.0, 1.0]));
@@ -35,28 +32,13 @@ fn blocks_at_the_four_corners_of_a_square_press_along_its_diagonals() {
 /// A wedge whose tip stands in a notch of the ground, and a spire of the ground in a notch of a block.
 #[test]
 fn a_tip_in_a_notch_presses_along_the_notch() {
-    let notched = odd(&[
-        [-5.0, -3.0],
-        [5.0, -3.0],
-        [5.0, 0.0],
-        [1.5, 0.0],
-        [0.0, -1.0],
-        [-1.5, 0.0],
-        [-5.0, 0.0],
-    ]);
+    let notched = odd(&[[-5.0, -3.0], [5.0, -3.0], [5.0, 0.0], [1.5, 0.0], [0.0, -1.0], [-1.5, 0.0], [-5.0, 0.0]]);
     let wedge = odd(&[[0.0, -1.0], [0.5, 0.5], [-0.5, 0.5]]);
     let found = Interfaces::new(&scene(vec![notched], vec![wedge])).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
     let spire = odd(&[[-1.0, -1.0], [1.0, -1.0], [0.0, 2.0]]);
-    let roof = odd(&[
-        [-4.0, 0.0],
-        [-3.0, 0.0],
-        [0.0, 2.0],
-        [3.0, 0.0],
-        [4.0, 0.0],
-        [0.0, 5.0],
-    ]);
+    let roof = odd(&[[-4.0, 0.0], [-3.0, 0.0], [0.0, 2.0], [3.0, 0.0], [4.0, 0.0], [0.0, 5.0]]);
     let found = Interfaces::new(&scene(vec![spire], vec![roof])).all;
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(near(found[0].normal, [0.0, 1.0]), "{found:?}");
@@ -91,15 +73,7 @@ fn a_tip_anywhere_on_a_slope_is_pushed_perpendicular_to_the_slope() {
 fn a_tip_next_to_a_joint_belongs_to_it_up_to_four_gaps() {
     // A block with a flat foot 0.3 m wide and, after a slit, a pointed foot.
     let at = |slit: f64| {
-        let foot = odd(&[
-            [0.0, 0.0],
-            [0.3, 0.0],
-            [0.3, 1.0],
-            [0.3, 1.0],
-            [0.3, 0.0],
-            [0.6, 1.5],
-            [0.0, 1.5],
-        ]);
+        let foot = odd(&[[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.3, 1.0], [0.3, 0.0], [0.6, 1.5], [0.0, 1.5]]);
         let mut foot = foot;
         foot.remove(3);
         foot[2][0] += slit / 2.0;

@@ -32,8 +32,7 @@ fn application_points_lie_inward_of_the_ends() {
 fn edges_are_found_on_every_side_of_a_block() {
     for times in 0..4 {
         let at = |apart: f64| {
-            let turned =
-                |list: Vec<Pair>| list.iter().map(|p| quarters(*p, times)).collect::<Vec<_>>();
+            let turned = |list: Vec<Pair>| list.iter().map(|p| quarters(*p, times)).collect::<Vec<_>>();
             let ledge = turned(rectangle(-2.0, -1.0, 3.0, 1.0));
             let block = rectangle(-0.75, 0.0, 4.0, 2.0);
             let block = block.iter().map(|p| [p[0], p[1] + apart]).collect();
@@ -42,18 +41,10 @@ fn edges_are_found_on_every_side_of_a_block() {
         let gap = gap(&at(0.0), BodyId::Ground(0));
         let outward = quarters([0.0, 1.0], times);
         let found = Interfaces::new(&at(0.9 * gap));
-        assert_eq!(
-            (found.all.len(), found.near_misses.len()),
-            (1, 0),
-            "{times}"
-        );
+        assert_eq!((found.all.len(), found.near_misses.len()), (1, 0), "{times}");
         assert!(near(found.all[0].normal, outward));
         let apart = Interfaces::new(&at(29.0 * gap));
-        assert_eq!(
-            (apart.all.len(), apart.near_misses.len()),
-            (0, 1),
-            "{times}"
-        );
+        assert_eq!((apart.all.len(), apart.near_misses.len()), (0, 1), "{times}");
         let place = quarters([0.125 * ODD, 29.0 * gap], times);
         let off = apart.near_misses[0].at - Point::new(place[0], place[1]);
         assert!(off.norm() < 1e-9, "{:?}", apart.near_misses[0]);
@@ -63,10 +54,7 @@ fn edges_are_found_on_every_side_of_a_block() {
 /// The smaller of two blocks decides whether edges are too far apart, whatever the order of the blocks.
 #[test]
 fn the_size_of_the_smaller_block_limits_near_misses() {
-    let (small, large) = (
-        |apart: f64| rectangle(0.0, 4.0 + apart, 1.0, 1.0),
-        rectangle(0.0, 0.0, 4.0, 4.0),
-    );
+    let (small, large) = (|apart: f64| rectangle(0.0, 4.0 + apart, 1.0, 1.0), rectangle(0.0, 0.0, 4.0, 4.0));
     let floor = vec![rectangle(-5.0, -1.0, 20.0, 1.0)];
     for (share, seen) in [(0.009, 1), (0.011, 0), (0.03, 0)] {
         let example = scene(floor.clone(), vec![small(share), large.clone()]);
@@ -82,19 +70,10 @@ fn edges_whose_overlap_is_shorter_than_their_distance_do_not_face_each_other() {
     let at = |shared: f64, apart: f64| {
         let other = rectangle(2.0, 1.0, 2.0, 1.0);
         let other = other.iter().map(|p| [p[0] - shared, p[1] + apart]);
-        scene(
-            vec![rectangle(-5.0, -1.0, 10.0, 1.0)],
-            vec![rectangle(0.0, 0.0, 2.0, 1.0), other.collect()],
-        )
+        scene(vec![rectangle(-5.0, -1.0, 10.0, 1.0)], vec![rectangle(0.0, 0.0, 2.0, 1.0), other.collect()])
     };
     let gap = at(0.0, 0.0).tolerance_between(FIRST, SECOND).gap;
-    for (shared, apart, seen) in [
-        (25.0, 20.0, 1),
-        (19.0, 20.0, 0),
-        (5.0, 20.0, 0),
-        (-5.0, 20.0, 0),
-        (-5.0, 0.0, 0),
-    ] {
+    for (shared, apart, seen) in [(25.0, 20.0, 1), (19.0, 20.0, 0), (5.0, 20.0, 0), (-5.0, 20.0, 0), (-5.0, 0.0, 0)] {
         let found = Interfaces::new(&at(shared * gap, apart * gap));
         let edges = found.all.iter().filter(|i| i.kind == ContactKind::Edge);
         assert_eq!(edges.count(), 1, "{shared} {apart}");
@@ -140,13 +119,7 @@ fn strongly_inclined_edges_have_no_joint_even_over_a_short_overlap() {
 #[test]
 fn two_segments_of_one_line_are_joined_and_opposite_faces_are_not() {
     // A corner in the floor, below the block.
-    let floor = odd(&[
-        [-5.0, -1.0],
-        [5.0, -1.0],
-        [5.0, 0.0],
-        [0.75, 0.0],
-        [-5.0, 0.0],
-    ]);
+    let floor = odd(&[[-5.0, -1.0], [5.0, -1.0], [5.0, 0.0], [0.75, 0.0], [-5.0, 0.0]]);
     let example = scene(vec![floor], vec![rectangle(0.0, 0.0, 2.0, 1.0)]);
     let found = Interfaces::new(&example).all;
     assert_eq!(found.len(), 1, "{found:?}");
@@ -166,25 +139,14 @@ fn two_segments_of_one_line_are_joined_and_opposite_faces_are_not() {
         [left, 0.0],
         [-5.0, 0.0],
     ]);
-    let finned = odd(&[
-        [left, -1.0],
-        [right, -1.0],
-        [right, 0.0],
-        [2.0, 0.0],
-        [2.0, 1.0],
-        [0.0, 1.0],
-        [0.0, 0.0],
-        [left, 0.0],
-    ]);
+    let finned =
+        odd(&[[left, -1.0], [right, -1.0], [right, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0], [left, 0.0]]);
     let example = scene(vec![slotted], vec![finned]);
     let gap = gap(&example, BodyId::Ground(0));
     assert!(gap < width && width < 4.0 * gap, "{gap}");
     let found = Interfaces::new(&example).all;
-    let faces: Vec<f64> = found
-        .iter()
-        .filter(|i| i.length() > 0.5 && i.normal.x.abs() > 0.5)
-        .map(|i| i.normal.x)
-        .collect();
+    let faces: Vec<f64> =
+        found.iter().filter(|i| i.length() > 0.5 && i.normal.x.abs() > 0.5).map(|i| i.normal.x).collect();
     assert_eq!(faces.len(), 2, "{found:?}");
     assert!((faces[0] + faces[1]).abs() < 1e-9, "{faces:?}");
 }
@@ -193,13 +155,7 @@ fn two_segments_of_one_line_are_joined_and_opposite_faces_are_not() {
 #[test]
 fn segments_are_joined_only_in_one_line() {
     let stair = odd(&[[-5.0, -1.0], [1.0, -1.0], [1.0, 0.0], [-5.0, 3.0]]);
-    let block = odd(&[
-        [1.0, -1.0],
-        [3.0, -1.0],
-        [3.0, 3.0],
-        [-5.0, 3.0],
-        [1.0, 0.0],
-    ]);
+    let block = odd(&[[1.0, -1.0], [3.0, -1.0], [3.0, 3.0], [-5.0, 3.0], [1.0, 0.0]]);
     let found = Interfaces::new(&scene(vec![stair], vec![block])).all;
     let edges = found.iter().filter(|i| i.kind == ContactKind::Edge);
     let lengths: Vec<f64> = edges.map(|i| i.length() / ODD).collect();
@@ -234,12 +190,7 @@ fn slivers_count_as_interfaces_on_request() {
     let found = Interfaces::new(&at(1e-10, None));
     assert_eq!((found.slivers.len(), found.notices.len()), (0, 0));
     // Three slivers are reported together, with the length of the longest.
-    let row = |shared: f64, x: f64| {
-        [
-            rectangle(x, 0.0, 1.0, 1.0),
-            rectangle(x - 1.0 + shared, 1.0, 1.0, 1.0),
-        ]
-    };
+    let row = |shared: f64, x: f64| [rectangle(x, 0.0, 1.0, 1.0), rectangle(x - 1.0 + shared, 1.0, 1.0, 1.0)];
     let rows = [row(1e-7, -3.0), row(3e-7, 0.0), row(2e-7, 3.0)].concat();
     let found = Interfaces::new(&scene(vec![rectangle(-9.0, -1.0, 18.0, 1.0)], rows));
     let begin = "3 contact(s) up to 3.1e-7 m long are shorter than ";

@@ -14,13 +14,7 @@ fn lidded() -> Scene {
         .grid(GridKind::Square, 2.0)
         .friction(0.5)
         .ground(GroundEntry::default().cells(squares(&[(0.0, -1.0), (1.0, -1.0), (2.0, -1.0)])))
-        .block(BlockEntry::new("u").cells(squares(&[
-            (0.0, 1.0),
-            (0.0, 0.0),
-            (1.0, 0.0),
-            (2.0, 0.0),
-            (2.0, 1.0),
-        ])))
+        .block(BlockEntry::new("u").cells(squares(&[(0.0, 1.0), (0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0)])))
         .block(BlockEntry::new("bar").cells(squares(&[(1.0, 1.0)])))
         .block(BlockEntry::new("lid").cells(squares(&[(0.0, 2.0), (1.0, 2.0), (2.0, 2.0)])))
         .build()
@@ -36,15 +30,7 @@ fn interfaces_of_one_body_at_a_time_are_those_of_all_bodies_together() {
     let pairs: Vec<[BodyId; 2]> = all.all.iter().map(|i| i.bodies).collect();
     let (u, bar, lid) = (block(0), block(1), block(2));
     let ground = BodyId::Ground(0);
-    let expected = [
-        [u, ground],
-        [bar, u],
-        [bar, u],
-        [bar, u],
-        [lid, u],
-        [lid, u],
-        [lid, bar],
-    ];
+    let expected = [[u, ground], [bar, u], [bar, u], [bar, u], [lid, u], [lid, u], [lid, bar]];
     assert_eq!(pairs, expected);
     let lattice = scene.lattice.expect("a lattice");
     let cells = |id: BodyId| scene.body(id).cells.clone().expect("cells");
@@ -72,19 +58,11 @@ fn interfaces_of_one_body_at_a_time_are_those_of_all_bodies_together() {
 #[test]
 fn tips_of_cells_touch_sides_and_tips_at_nodes() {
     let triangles = |list: &[(f64, f64, CellHalf)]| {
-        let cells = list
-            .iter()
-            .map(|(x, y, half)| CellEntry::Triangle(*x, *y, *half));
+        let cells = list.iter().map(|(x, y, half)| CellEntry::Triangle(*x, *y, *half));
         cells.collect::<Vec<_>>()
     };
     let (up, down) = (CellHalf::Up, CellHalf::Down);
-    let slope = triangles(&[
-        (0.0, 0.0, up),
-        (0.0, 1.0, down),
-        (0.0, 1.0, up),
-        (0.0, 2.0, down),
-        (0.0, 2.0, up),
-    ]);
+    let slope = triangles(&[(0.0, 0.0, up), (0.0, 1.0, down), (0.0, 1.0, up), (0.0, 2.0, down), (0.0, 2.0, up)]);
     let scene = Scene::builder()
         .grid(GridKind::Triangular, 0.3)
         .friction(0.5)
@@ -96,10 +74,7 @@ fn tips_of_cells_touch_sides_and_tips_at_nodes() {
         .expect("the scene is valid");
     let found = Interfaces::new(&scene).all;
     let root = libm::sqrt(0.75);
-    let expected = [
-        (FIRST, [0.5, root], [-root, 0.5]),
-        (SECOND, [1.5, 3.0 * root], [0.5, root]),
-    ];
+    let expected = [(FIRST, [0.5, root], [-root, 0.5]), (SECOND, [1.5, 3.0 * root], [0.5, root])];
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (tip, (body, at, normal)) in found.iter().zip(expected) {
         assert_eq!(tip.bodies, [body, BodyId::Ground(0)]);
@@ -160,11 +135,7 @@ fn parts_of_the_ground_have_no_contacts_with_each_other() {
     };
     assert_eq!(pairs(&cells), [on, tip]);
     let drawn = scene(
-        vec![
-            rectangle(0.0, 0.0, 1.0, 1.0),
-            rectangle(1.0, 0.0, 1.0, 1.0),
-            rectangle(2.0, 1.0, 1.0, 1.0),
-        ],
+        vec![rectangle(0.0, 0.0, 1.0, 1.0), rectangle(1.0, 0.0, 1.0, 1.0), rectangle(2.0, 1.0, 1.0, 1.0)],
         vec![rectangle(0.0, 1.0, 0.5, 1.0)],
     );
     assert_eq!(pairs(&drawn), [on]);

@@ -21,11 +21,7 @@ fn interface(bodies: [BodyId; 2], middle: [f64; 2], normal: [f64; 2]) -> Interfa
 
 /// A gap of 2 m between the first block and the ground below it.
 fn gap() -> NearMiss {
-    NearMiss {
-        bodies: [FIRST, GROUND],
-        at: Point::new(0.0, 2.0),
-        distance: 2.0,
-    }
+    NearMiss { bodies: [FIRST, GROUND], at: Point::new(0.0, 2.0), distance: 2.0 }
 }
 
 fn below() -> Interface {
@@ -77,10 +73,7 @@ fn a_stone_keeps_a_gap_open_only_if_it_is_present_and_touches_both_bodies() {
     let other = interface([third, STONE], [0.0, 2.0], [0.0, 1.0]);
     assert_eq!(keeps(&[below(), other], true, 0.0), None);
     let part = BodyId::Ground(1);
-    let parts = [
-        interface([FIRST, part], [0.0, 2.0], [0.0, 1.0]),
-        interface([FIRST, GROUND], [0.0, 0.0], [0.0, 1.0]),
-    ];
+    let parts = [interface([FIRST, part], [0.0, 2.0], [0.0, 1.0]), interface([FIRST, GROUND], [0.0, 0.0], [0.0, 1.0])];
     assert_eq!(keeps(&parts, true, 0.0), None);
 }
 
@@ -96,12 +89,8 @@ fn pinned() -> Scene {
     ];
     bricks[1].iter_mut().for_each(|p| p[1] += height);
     let base = bricks[2][0];
-    bricks[2] = vec![
-        base,
-        [base[0] + height, base[1]],
-        [base[0] + height, base[1] + height],
-        [base[0], base[1] + height],
-    ];
+    bricks[2] =
+        vec![base, [base[0] + height, base[1]], [base[0] + height, base[1] + height], [base[0], base[1] + height]];
     scene(vec![rectangle(-5.0, -1.0, 10.0, 1.0)], bricks.into())
 }
 
@@ -139,21 +128,13 @@ fn a_frame_has_the_contacts_of_its_blocks_except_in_gaps_that_its_stones_keep_op
 
 #[test]
 fn a_gap_contains_only_interfaces_of_its_bodies_near_its_position() {
-    let pinned_gaps = PinnedGap {
-        gap: gap(),
-        stone: BlockId(1),
-    };
+    let pinned_gaps = PinnedGap { gap: gap(), stone: BlockId(1) };
     let seam = |x: f64, y: f64| interface([FIRST, GROUND], [x, y], [0.0, 1.0]);
     // The interface may be as far from the gap as it is long, here 1 m. Across the gap it may be no farther away than
     // the gap's 2 m.
-    for (x, y, inside) in [
-        (0.0, 2.0, true),
-        (0.9, 2.0, true),
-        (-0.9, 2.0, true),
-        (1.1, 2.0, false),
-        (0.0, 2.9, true),
-        (0.0, 3.1, false),
-    ] {
+    for (x, y, inside) in
+        [(0.0, 2.0, true), (0.9, 2.0, true), (-0.9, 2.0, true), (1.1, 2.0, false), (0.0, 2.9, true), (0.0, 3.1, false)]
+    {
         assert_eq!(pinned_gaps.contains(&seam(x, y)), inside, "{x} {y}");
     }
     let mut long = seam(0.0, 4.1);

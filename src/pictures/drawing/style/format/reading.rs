@@ -2,8 +2,8 @@
 
 use super::value::Value;
 use super::{
-    AMPLITUDES_KEY, COLOUR_FIELDS, FONT_SIZE_LIMITS, LIST_FIELDS, PIXEL_UNIT, SIZE_FIELDS,
-    StyleProblem, Theme, WIDTH_FIELDS,
+    AMPLITUDES_KEY, COLOUR_FIELDS, FONT_SIZE_LIMITS, LIST_FIELDS, PIXEL_UNIT, SIZE_FIELDS, StyleProblem, Theme,
+    WIDTH_FIELDS,
 };
 use crate::drawing::colour::Colour;
 use crate::drawing::ramp;
@@ -18,11 +18,7 @@ pub(super) struct ThemeReader {
 impl ThemeReader {
     /// Adds a problem to the list. `path` is the path to the value, and `help` says what is expected.
     pub(super) fn note(&mut self, path: &str, message: String, help: String) {
-        self.problems.push(StyleProblem {
-            path: path.to_owned(),
-            message,
-            help,
-        });
+        self.problems.push(StyleProblem { path: path.to_owned(), message, help });
     }
 
     /// Returns the theme that the key `theme` of a file names. Returns `None` if there is no such key or if the name is
@@ -76,11 +72,7 @@ impl ThemeReader {
     fn once(&mut self, entries: &[(String, Value)], number: usize, path: &str) {
         let key = &entries[number].0;
         if entries[..number].iter().any(|e| e.0 == *key) {
-            self.note(
-                path,
-                "this key is given twice".into(),
-                "keep one of them".into(),
-            );
+            self.note(path, "this key is given twice".into(), "keep one of them".into());
         }
     }
 
@@ -96,22 +88,13 @@ impl ThemeReader {
     /// "theme"; the message contains this word.
     fn name(&mut self, path: &str, value: &Value, known: &[&str], sort: &str) {
         let Value::Text(name) = value else {
-            return self.note(
-                path,
-                format!("{} is not a {sort}", value.stated()),
-                known.join(", "),
-            );
+            return self.note(path, format!("{} is not a {sort}", value.stated()), known.join(", "));
         };
         if known.contains(&name.as_str()) {
             return;
         }
-        let near =
-            nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
-        let help = format!(
-            "known names are {}{}",
-            known.join(", "),
-            near.unwrap_or_default()
-        );
+        let near = nearest(name, known.iter().copied()).map(|near| format!("; the nearest is {near}"));
+        let help = format!("known names are {}{}", known.join(", "), near.unwrap_or_default());
         self.note(path, format!("{} is not a {sort}", value.stated()), help);
     }
 
@@ -122,11 +105,7 @@ impl ThemeReader {
         };
         if colour.is_none() {
             let help = "give #rrggbb or #rgb in quotes, such as \"#d55e00\" or \"#d50\"";
-            self.note(
-                path,
-                format!("{} is not a colour", value.stated()),
-                help.into(),
-            );
+            self.note(path, format!("{} is not a colour", value.stated()), help.into());
         }
         colour
     }
@@ -136,21 +115,15 @@ impl ThemeReader {
     fn colours(&mut self, path: &str, value: &Value, least: usize) -> Option<Vec<Colour>> {
         let Value::List(list) = value else {
             let help = "give a list of colours, such as [\"#0072b2\", \"#56b4e9\"]";
-            self.note(
-                path,
-                format!("{} is not a list of colours", value.stated()),
-                help.into(),
-            );
+            self.note(path, format!("{} is not a list of colours", value.stated()), help.into());
             return None;
         };
         if list.len() < least {
             let help = format!("give at least {least}");
             self.note(path, format!("{} colours are too few", list.len()), help);
         }
-        let colours: Vec<Option<Colour>> = (0..)
-            .zip(list)
-            .map(|(i, value): (usize, _)| self.colour(&format!("{path}[{i}]"), value))
-            .collect();
+        let colours: Vec<Option<Colour>> =
+            (0..).zip(list).map(|(i, value): (usize, _)| self.colour(&format!("{path}[{i}]"), value)).collect();
         colours.into_iter().collect()
     }
 
@@ -165,21 +138,12 @@ impl ThemeReader {
 
     /// Reads a table of numbers. `known` lists each possible key with the range and unit of its number. Returns each
     /// valid number with the index of its key in `known`. Reports a problem for every other entry.
-    fn numbers(
-        &mut self,
-        path: &str,
-        value: &Value,
-        known: &[(&str, [f64; 2], &str)],
-    ) -> Vec<(usize, f64)> {
+    fn numbers(&mut self, path: &str, value: &Value, known: &[(&str, [f64; 2], &str)]) -> Vec<(usize, f64)> {
         let keys: Vec<&str> = known.iter().map(|k| k.0).collect();
         let mut numbers = Vec::new();
         let Value::Table(entries) = value else {
             let help = format!("give a table with some of {}", keys.join(", "));
-            self.note(
-                path,
-                format!("{} is not a table of {path}", value.stated()),
-                help,
-            );
+            self.note(path, format!("{} is not a table of {path}", value.stated()), help);
             return numbers;
         };
         for (number, (key, value)) in entries.iter().enumerate() {
@@ -191,9 +155,7 @@ impl ThemeReader {
             };
             let (_, [least, most], unit) = known[place];
             match value {
-                Value::Number(number) if (least..=most).contains(number) => {
-                    numbers.push((place, *number))
-                }
+                Value::Number(number) if (least..=most).contains(number) => numbers.push((place, *number)),
                 _ => {
                     let help = format!("give a number of {unit} from {least} to {most}");
                     self.note(&path, format!("{} cannot be drawn", value.stated()), help);

@@ -8,21 +8,8 @@ fn printed() -> Vec<Summary> {
     let number = |cell: &str| cell.trim_matches('*').parse::<f64>().ok();
     let line = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let method = Method::ALL
-            .into_iter()
-            .find(|m| cells.first() == Some(&m.name()))?;
-        let [
-            _,
-            tolerance,
-            time,
-            iterations,
-            median,
-            worst,
-            largest,
-            wrong,
-            undecided,
-        ] = cells[..]
-        else {
+        let method = Method::ALL.into_iter().find(|m| cells.first() == Some(&m.name()))?;
+        let [_, tolerance, time, iterations, median, worst, largest, wrong, undecided] = cells[..] else {
             return None;
         };
         Some(Summary {
@@ -53,10 +40,7 @@ fn the_picture_in_the_documentation_shows_its_table() {
         std::fs::write(path, &drawn).expect("writable");
     }
     let kept = std::fs::read_to_string(path).expect("assets/accuracy.svg exists");
-    assert!(
-        drawn == kept,
-        "assets/accuracy.svg is not the picture of the table"
-    );
+    assert!(drawn == kept, "assets/accuracy.svg is not the picture of the table");
 }
 
 /// The README makes this statement about the picture.
@@ -64,11 +48,7 @@ fn the_picture_in_the_documentation_shows_its_table() {
 fn proved_verdicts_are_never_wrong_and_others_sometimes_are() {
     let lines = printed();
     for method in Method::ALL {
-        let wrong: usize = lines
-            .iter()
-            .filter(|l| l.method == method)
-            .map(|l| l.wrong)
-            .sum();
+        let wrong: usize = lines.iter().filter(|l| l.method == method).map(|l| l.wrong).sum();
         let proved = matches!(method, Method::Level(_));
         assert_eq!(wrong == 0, proved, "{}", method.name());
     }
@@ -91,11 +71,7 @@ fn every_row_shows_wrong_and_undecided_verdicts_and_only_the_default_is_ringed()
     assert_eq!(drawing.items.iter().filter(ring).count(), 3);
     for item in &drawing.items {
         if let Item::Text(t) = item {
-            assert!(
-                t.at.x > 0.0 && t.at.x < WIDTH && t.at.y < drawing.height,
-                "{}",
-                t.words
-            );
+            assert!(t.at.x > 0.0 && t.at.x < WIDTH && t.at.y < drawing.height, "{}", t.words);
         }
     }
 }

@@ -28,10 +28,7 @@ impl<'a> SharedForces<'a> {
         });
         let all = shared_forces([was, is]);
         let forces = was.1.iter().chain(is.1);
-        SharedForces {
-            all,
-            noise: noise(forces.map(|c| c.resultant.force.norm())),
-        }
+        SharedForces { all, noise: noise(forces.map(|c| c.resultant.force.norm())) }
     }
 
     /// Iterates over the forces that changed by more than 5 % of the larger force. Forces at the level of rounding

@@ -12,22 +12,15 @@ const RING_RADIUS_LIMITS: (f64, f64) = (3.0, 9.0);
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING_RADIUS_LIMITS;
     let span = |of: fn(&PagePoint) -> f64| {
-        let (low, high) = places
-            .iter()
-            .map(of)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-                (low.min(x), high.max(x))
-            });
+        let (low, high) =
+            places.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         (high - low).max(0.0)
     };
     let (width, height) = (span(|p| p.x), span(|p| p.y));
     let count = places.len() as f64;
     // Estimate the distance between neighbouring rings, as if they were spread evenly over their bounding box or
     // along a line.
-    let apart = f64::max(
-        libm::sqrt(width * height / count),
-        width.max(height) / count,
-    );
+    let apart = f64::max(libm::sqrt(width * height / count), width.max(height) / count);
     match places.len() {
         0 | 1 => most,
         _ => (0.3 * apart).clamp(least, most),
@@ -36,13 +29,7 @@ fn radius(places: &[PagePoint]) -> f64 {
 
 /// Draws an outline around some blocks, and a ring around some points, in a drawing of the scene. `blocks` has the
 /// indices of the blocks, and `rings` has the points in metres.
-pub(super) fn mark(
-    drawing: &mut Drawing,
-    scene: &Scene,
-    blocks: &[usize],
-    rings: &[Point],
-    colour: Colour,
-) {
+pub(super) fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
     if blocks.is_empty() && rings.is_empty() {
         return;
     }
@@ -51,10 +38,7 @@ pub(super) fn mark(
         for block in blocks {
             outline.extend(camera.polygon(&scene.blocks[*block].body.polygon));
         }
-        let mut group = Group {
-            echo: true,
-            ..Group::with_class("changed")
-        };
+        let mut group = Group { echo: true, ..Group::with_class("changed") };
         if !outline.segments.is_empty() {
             group = group.with(Path::stroked(outline, Stroke::new(colour, 3.0)));
         }

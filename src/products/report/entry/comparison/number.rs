@@ -49,21 +49,14 @@ pub(super) fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntr
 /// frames.
 pub(super) fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
-    let [first, second] =
-        sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
+    let [first, second] = sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
     for bullet in &first {
         let same = second.iter().find(|b| b.name == bullet.name);
         let after = same.map_or("–".to_owned(), |b| b.words.clone());
         grid.add("", [bullet.name.clone(), bullet.words.clone(), after]);
     }
-    for bullet in second
-        .iter()
-        .filter(|b| first.iter().all(|a| a.name != b.name))
-    {
-        grid.add(
-            "",
-            [bullet.name.clone(), "–".to_owned(), bullet.words.clone()],
-        );
+    for bullet in second.iter().filter(|b| first.iter().all(|a| a.name != b.name)) {
+        grid.add("", [bullet.name.clone(), "–".to_owned(), bullet.words.clone()]);
     }
     grid
 }

@@ -30,10 +30,7 @@ impl Settings {
     /// are the same for both sides, because the words are compared.
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Settings {
         let [then, now] = sides.map(|side| given(&side.analysis.scene, number, units));
-        let mut settings = Settings {
-            lines: Vec::new(),
-            blocks: [Vec::new(), Vec::new()],
-        };
+        let mut settings = Settings { lines: Vec::new(), blocks: [Vec::new(), Vec::new()] };
         let words = |list: &FrameInputs, name: &str| {
             let found = list.iter().find(|g| g.0 == name);
             found.map_or("none".to_owned(), |g| g.1.clone())
@@ -64,10 +61,7 @@ impl Settings {
             return Vec::new();
         }
         let names = self.lines.iter().map(|l| l[0].clone()).collect();
-        vec![format!(
-            "otherwise: {}",
-            listed(&shortened(names, MAX_NAMED_DIFFERENCES))
-        )]
+        vec![format!("otherwise: {}", listed(&shortened(names, MAX_NAMED_DIFFERENCES)))]
     }
 
     pub fn grid(&self) -> Grid {
@@ -82,17 +76,9 @@ impl Settings {
 /// Returns the inputs of a frame, apart from its blocks, in the given units.
 fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
     let frame = &scene.frames[number];
-    let corners = if scene.corner_contacts {
-        "carry force"
-    } else {
-        "carry none"
-    };
+    let corners = if scene.corner_contacts { "carry force" } else { "carry none" };
     let mut given: FrameInputs = vec![
-        (
-            "gravity".into(),
-            vector(scene.gravity.x, scene.gravity.y, "m/s²"),
-            None,
-        ),
+        ("gravity".into(), vector(scene.gravity.x, scene.gravity.y, "m/s²"), None),
         ("safety kernel".into(), digits(scene.kernel), None),
         ("corners that touch".into(), corners.into(), None),
     ];
@@ -122,16 +108,8 @@ fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
     for hold in &frame.holds {
         let robot = &scene.robots[hold.robot.0];
         let held = line(&scene.blocks[hold.block.0].id);
-        let words = format!(
-            "holds {held} at {}, {}",
-            place(hold.at, units),
-            limits(robot.limits, units)
-        );
-        given.push((
-            format!("robot {}", line(&robot.id)),
-            words,
-            Some(hold.block.0),
-        ));
+        let words = format!("holds {held} at {}, {}", place(hold.at, units), limits(robot.limits, units));
+        given.push((format!("robot {}", line(&robot.id)), words, Some(hold.block.0)));
     }
     given
 }

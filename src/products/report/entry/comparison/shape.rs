@@ -37,17 +37,15 @@ impl Shapes {
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
-            let mut placed: Vec<usize> =
-                scene.frames[number].placed.iter().map(|id| id.0).collect();
+            let mut placed: Vec<usize> = scene.frames[number].placed.iter().map(|id| id.0).collect();
             placed.sort_unstable();
             let named = placed.into_iter().map(|i| (scene.blocks[i].id.clone(), i));
             named.collect()
         };
         // Keep the blocks in the order of the file, because sorting by name would put v10 before v2.
         let [then, now] = sides.map(blocks);
-        let [before, after] = [&then, &now].map(|list| -> BTreeMap<&str, usize> {
-            list.iter().map(|(id, i)| (id.as_str(), *i)).collect()
-        });
+        let [before, after] = [&then, &now]
+            .map(|list| -> BTreeMap<&str, usize> { list.iter().map(|(id, i)| (id.as_str(), *i)).collect() });
         let [was, is] = sides.map(|side| &side.analysis.scene);
         let max_coordinate = max_coordinate(is).max(max_coordinate(was));
         let mut shapes = Shapes::default();
@@ -75,19 +73,10 @@ impl Shapes {
 
     pub fn stated(&self) -> Vec<String> {
         let changed: Vec<String> = self.changed.iter().map(|c| c.0.clone()).collect();
-        let kinds = [
-            ("gone", &self.gone),
-            ("new", &self.new),
-            ("changed", &changed),
-        ];
+        let kinds = [("gone", &self.gone), ("new", &self.new), ("changed", &changed)];
         let described = kinds.into_iter().filter(|k| !k.1.is_empty());
         described
-            .map(|(how, names)| {
-                format!(
-                    "{how}: {}",
-                    listed(&shortened(names.clone(), MAX_NAMED_BLOCKS))
-                )
-            })
+            .map(|(how, names)| format!("{how}: {}", listed(&shortened(names.clone(), MAX_NAMED_BLOCKS))))
             .collect()
     }
 
@@ -117,9 +106,7 @@ impl Shapes {
 /// Returns the largest absolute coordinate of all corners of blocks, m.
 fn max_coordinate(scene: &Scene) -> f64 {
     let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
-    corners
-        .map(|p| p.x.abs().max(p.y.abs()))
-        .fold(0.0, f64::max)
+    corners.map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max)
 }
 
 /// Describes the differences of a block between two scenes. Returns an empty text if the blocks are equal.
@@ -131,12 +118,10 @@ fn differs(was: &Block, is: &Block, max_coordinate: f64, units: UnitsEntry) -> S
     let rings = |block: &Block| -> Vec<Vec<Point>> { block.body.polygon.rings().to_vec() };
     let (before, after) = (rings(was), rings(is));
     let same_shape = before.len() == after.len()
-        && before.iter().zip(&after).all(|(a, b)| {
-            a.len() == b.len()
-                && a.iter()
-                    .zip(b)
-                    .all(|(p, q)| (q - p - moved).norm() <= 2.0 * near)
-        });
+        && before
+            .iter()
+            .zip(&after)
+            .all(|(a, b)| a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (q - p - moved).norm() <= 2.0 * near));
     if !same_shape {
         how.push("another outline".to_owned());
     }
