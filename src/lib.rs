@@ -147,7 +147,7 @@ mod entry;
 #[doc(hidden)]
 pub mod internals;
 
-// Re-export the modules of each group, so that they also have a short path, such as `crate::scene` for
+// The short paths of the public modules, for users of the crate. Code of the crate names the folder:
 // `crate::mechanics::scene`.
 pub use mechanics::{analysis, scene, session};
 pub use pictures::{drawing, output};
@@ -158,21 +158,8 @@ pub use products::{figure, report, result};
 pub use sources::import;
 pub use sources::starter;
 
-#[cfg(feature = "cli")]
-use entry::cli;
-#[cfg(feature = "python")]
-use entry::python;
 #[cfg(feature = "wasm")]
 pub use entry::wasm;
-#[cfg(feature = "cli")]
-use mechanics::batch;
-use mechanics::statics::{assembly, effect, interface, resultant};
-use mechanics::{program, proof, solve};
-#[cfg(feature = "report")]
-use pictures::chart;
-#[cfg(feature = "report")]
-use products::study;
-use products::wording;
 
 /// The crate nalgebra, which defines the types of [`scene::Point`] and [`scene::Vector`]. Its version is part of this
 /// crate's interface: a different version of nalgebra comes only with a new version of this crate.

@@ -1,11 +1,11 @@
-//! The imports between the files of a folder form no cycle, not even through other files. Source files are read as text, without
-//! comments, strings and tests.
+//! The imports between the files of a folder form no cycle, not even through other files. Source files are read as
+//! text, without comments, strings and tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::source::{bare, collect, names_after, without_groups};
+use crate::source::{bare, collect, names_after};
 
 /// Folders whose files still import each other. The test fails when one of them no longer does, so that the list
 /// shrinks.
@@ -35,9 +35,7 @@ fn uses_within(root: &Path, folder: &Path) -> BTreeMap<String, BTreeSet<String>>
         // How many `super::` lead from the file to the folder's own module.
         let levels = below(file).iter().count() - usize::from(file.ends_with("mod.rs"));
         let mut used = names_after(code, &"super::".repeat(levels));
-        if let Some(path) = crate_path(root, folder) {
-            used.extend(names_after(code, &path));
-        }
+        used.extend(names_after(code, &crate_path(root, folder)));
         let used = used.into_iter();
         let used = used.filter(|name| names.contains(name) && *name != own);
         uses.entry(own.clone()).or_default().extend(used);
@@ -45,13 +43,10 @@ fn uses_within(root: &Path, folder: &Path) -> BTreeMap<String, BTreeSet<String>>
     uses
 }
 
-/// The path of a folder's module in code, such as `crate::scene::` for `src/mechanics/scene`. `None` for a folder
-/// that is only a group of modules.
-fn crate_path(root: &Path, folder: &Path) -> Option<String> {
-    let file = folder.strip_prefix(root).ok()?.join("mod.rs");
-    let file = file.to_string_lossy().replace('\\', "/");
-    let path = without_groups(&file)?.strip_suffix("/mod.rs")?.to_owned();
-    Some(format!("crate::{}::", path.replace('/', "::")))
+/// The path of a folder's module in code, such as `crate::mechanics::scene::` for `src/mechanics/scene`.
+fn crate_path(root: &Path, folder: &Path) -> String {
+    let folder = folder.strip_prefix(root).expect("below src").to_string_lossy().replace('\\', "/");
+    format!("crate::{}::", folder.replace('/', "::"))
 }
 
 /// Adds all folders below `folder` to `found`.

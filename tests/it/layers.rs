@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::source::{bare, collect, modules_used, names_after, names_crate, without_groups};
+use crate::source::{GROUPS, bare, collect, module_of, modules_used, names_after, names_crate};
 
 /// Which groups of modules a group may use besides itself. A module outside all groups counts as a group.
 const GROUP_RULES: &[(&str, &[&str])] = &[
@@ -24,7 +24,7 @@ const GROUP_RULES: &[(&str, &[&str])] = &[
 
 /// Modules that a module may not use although they are listed before it. A proof must not use the code that it
 /// checks.
-const FORBIDDEN: &[(&str, &[&str])] = &[("proof", &["program", "solve"])];
+const FORBIDDEN: &[(&str, &[&str])] = &[("mechanics/proof", &["mechanics/program", "mechanics/solve"])];
 
 /// Names that may be used everywhere: the documentation pages, and macros, which Rust puts at the crate root.
 const EVERYWHERE: &[&str] = &["doc", "assert_scene", "assert_scenes", "assert_figure"];
@@ -55,26 +55,15 @@ impl Layers {
     }
 }
 
-/// The modules of a group in their order; a nested group is replaced by its modules. For a module outside all groups,
-/// that module.
+/// The modules of a group in their order, with their paths; a nested group is replaced by its modules. For a module
+/// outside all groups, that module.
 fn members_of(root: &Path, group: &str) -> Vec<String> {
-    let path = root.join(group).join("mod.rs");
-    let is_group = crate::source::GROUPS.contains(&group);
-    let Some(text) = fs::read_to_string(&path).ok().filter(|_| is_group) else {
-        let name = group.rsplit('/').next().unwrap_or(group);
-        return vec![name.to_owned()];
-    };
-    let text = bare(&text);
-    let modules = text.lines().filter_map(|line| {
-        let name = line.trim().strip_suffix(';')?.split_once("mod ")?.1;
-        Some(name.to_owned())
-    });
-    modules
-        .flat_map(|name| match crate::source::GROUPS.contains(&name.as_str()) {
-            true => members_of(&root.join(group), &name),
-            false => vec![name],
-        })
-        .collect()
+    if !GROUPS.contains(&group) {
+        return vec![group.to_owned()];
+    }
+    let text = bare(&fs::read_to_string(root.join(group).join("mod.rs")).expect("a group has a mod.rs"));
+    let names = text.lines().filter_map(|line| Some(line.trim().strip_suffix(';')?.split_once("mod ")?.1));
+    names.flat_map(|name| members_of(root, &format!("{group}/{name}"))).collect()
 }
 
 /// The files in which a foreign crate may be named. A path that ends in a slash stands for all files below it.
@@ -82,76 +71,85 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
     (
         "serde",
         &[
-            "scene/format.rs",
-            "scene/format/",
-            "result/",
-            "drawing/style/format/value.rs",
-            "wasm/drawing.rs",
-            "wasm/figure_options.rs",
-            "wasm/option.rs",
+            "mechanics/scene/format.rs",
+            "mechanics/scene/format/",
+            "products/result/",
+            "pictures/drawing/style/format/value.rs",
+            "entry/wasm/drawing.rs",
+            "entry/wasm/figure_options.rs",
+            "entry/wasm/option.rs",
         ],
     ),
     (
         "serde_json",
         &[
-            "scene/format.rs",
-            "scene/format/",
-            "result/",
-            "drawing/style/format/value.rs",
-            "import/geojson.rs",
-            "import/compas.rs",
-            "import/contact_list.rs",
-            "import/degrees.rs",
-            "report/book.rs",
+            "mechanics/scene/format.rs",
+            "mechanics/scene/format/",
+            "products/result/",
+            "pictures/drawing/style/format/value.rs",
+            "sources/import/geojson.rs",
+            "sources/import/compas.rs",
+            "sources/import/contact_list.rs",
+            "sources/import/degrees.rs",
+            "products/report/book.rs",
         ],
     ),
-    ("toml", &["drawing/style/format/value.rs", "snapshot/setting.rs"]),
-    ("schemars", &["scene/format.rs", "scene/format/"]),
-    ("clarabel", &["solve/"]),
-    ("amd", &["solve/basis_factor.rs", "solve/normal/elimination_tree.rs"]),
+    ("toml", &["pictures/drawing/style/format/value.rs", "products/snapshot/setting.rs"]),
+    ("schemars", &["mechanics/scene/format.rs", "mechanics/scene/format/"]),
+    ("clarabel", &["mechanics/solve/"]),
+    ("amd", &["mechanics/solve/basis_factor.rs", "mechanics/solve/normal/elimination_tree.rs"]),
     (
         "resvg",
         &[
-            "output/tree.rs",
-            "output/png.rs",
-            "output/png/",
-            "output/pdf.rs",
-            "output/pdf/",
-            "output/svg.rs",
-            "output/svg/",
+            "pictures/output/tree.rs",
+            "pictures/output/png.rs",
+            "pictures/output/png/",
+            "pictures/output/pdf.rs",
+            "pictures/output/pdf/",
+            "pictures/output/svg.rs",
+            "pictures/output/svg/",
         ],
     ),
-    ("krilla", &["output/pdf.rs", "output/pdf/"]),
-    ("subsetter", &["output/svg/font.rs"]),
-    ("write_fonts", &["output/svg/font.rs"]),
-    ("base64", &["output/svg/font.rs", "snapshot/review.rs", "cli/snapshot/answer.rs"]),
-    ("png", &["output/png.rs", "output/png/", "output/animation.rs", "output/animation/", "snapshot/picture/"]),
-    ("gif", &["output/animation.rs", "output/animation/"]),
+    ("krilla", &["pictures/output/pdf.rs", "pictures/output/pdf/"]),
+    ("subsetter", &["pictures/output/svg/font.rs"]),
+    ("write_fonts", &["pictures/output/svg/font.rs"]),
+    ("base64", &["pictures/output/svg/font.rs", "products/snapshot/review.rs", "entry/cli/snapshot/answer.rs"]),
+    (
+        "png",
+        &[
+            "pictures/output/png.rs",
+            "pictures/output/png/",
+            "pictures/output/animation.rs",
+            "pictures/output/animation/",
+            "products/snapshot/picture/",
+        ],
+    ),
+    ("gif", &["pictures/output/animation.rs", "pictures/output/animation/"]),
     ("earcut", &["geometry/overlap.rs"]),
     ("robust", &["geometry/"]),
-    ("skrifa", &["drawing/text.rs"]),
+    ("skrifa", &["pictures/drawing/text.rs"]),
     ("web_time", &["clock.rs"]),
-    ("ariadne", &["cli/error.rs"]),
-    ("indicatif", &["cli/progress.rs"]),
-    ("anstream", &["cli/terminal.rs"]),
-    ("terminal_size", &["cli/terminal.rs"]),
-    ("unicode_width", &["cli/page.rs"]),
-    ("clap_complete", &["cli/completions.rs"]),
-    ("clap_mangen", &["cli/man.rs"]),
-    ("clap", &["cli/"]),
-    ("tempfile", &["output/file.rs"]),
-    ("signal_hook", &["cli/signal.rs"]),
-    ("plotters", &["chart/plot.rs", "chart/plot/"]),
-    ("maud", &["report/", "snapshot/review.rs"]),
-    ("pulldown_cmark", &["report/book.rs"]),
-    ("roxmltree", &["import/", "snapshot/element/tree.rs"]),
-    ("svgtypes", &["import/", "snapshot/element/shape.rs"]),
-    ("simplecss", &["import/"]),
-    ("pyo3", &["python/"]),
-    ("wasm_bindgen", &["wasm/"]),
-    ("js_sys", &["wasm/error.rs"]),
-    ("arrow_array", &["python/table.rs"]),
-    ("arrow_schema", &["python/table.rs"]),
+    ("ariadne", &["entry/cli/error.rs"]),
+    ("indicatif", &["entry/cli/progress.rs"]),
+    ("anstream", &["entry/cli/terminal.rs"]),
+    ("terminal_size", &["entry/cli/terminal.rs"]),
+    ("unicode_width", &["entry/cli/page.rs"]),
+    ("clap_complete", &["entry/cli/completions.rs"]),
+    ("clap_mangen", &["entry/cli/man.rs"]),
+    ("clap", &["entry/cli/"]),
+    ("tempfile", &["pictures/output/file.rs"]),
+    ("signal_hook", &["entry/cli/signal.rs"]),
+    ("plotters", &["pictures/chart/plot.rs", "pictures/chart/plot/"]),
+    ("maud", &["products/report/", "products/snapshot/review.rs"]),
+    ("pulldown_cmark", &["products/report/book.rs"]),
+    ("roxmltree", &["sources/import/", "products/snapshot/element/tree.rs"]),
+    ("svgtypes", &["sources/import/", "products/snapshot/element/shape.rs"]),
+    ("simplecss", &["sources/import/"]),
+    ("pyo3", &["entry/python/"]),
+    ("wasm_bindgen", &["entry/wasm/"]),
+    ("js_sys", &["entry/wasm/error.rs"]),
+    ("arrow_array", &["entry/python/table.rs"]),
+    ("arrow_schema", &["entry/python/table.rs"]),
 ];
 
 /// Foreign crates that may be named in one file only, which may be any of their listed files.
@@ -172,11 +170,8 @@ fn modules_use_only_allowed_modules_and_name_foreign_crates_only_in_listed_files
     for file in files {
         let path = file.strip_prefix(&root).expect("below src").to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&file).expect("source is UTF-8");
-        let Some(path) = without_groups(&path) else {
-            continue;
-        };
-        faults.extend(faults_of(&layers, path, &text));
-        sources.push((path.to_owned(), bare(&text)));
+        faults.extend(faults_of(&layers, &path, &text));
+        sources.push((path, bare(&text)));
     }
     for name in SINGLE {
         let users: Vec<&str> = sources.iter().filter(|s| names_crate(&s.1, name)).map(|s| s.0.as_str()).collect();
@@ -192,12 +187,13 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     // A visibility names the full path of its own module.
     let code = bare(text).replace("pub(in crate::", "pub(in ");
-    let own = path.split(['/', '.']).next().unwrap_or_default();
+    let own = module_of(path);
     let stem = path.rsplit('/').next().unwrap_or_default().trim_end_matches(".rs");
-    if EMPTY_NAMES.contains(&stem) || EMPTY_NAMES.contains(&own) {
+    if EMPTY_NAMES.contains(&stem) || path.split('/').any(|folder| EMPTY_NAMES.contains(&folder)) {
         faults.push(format!("{path}: the name does not say what the file contains"));
     }
-    if !matches!(own, "lib" | "main" | "internals") {
+    let is_root = matches!(path, "lib.rs" | "main.rs" | "internals.rs");
+    if let (Some(own), false) = (&own, is_root) {
         match layers.allowed.get(own) {
             None => faults.push(format!("{path}: {own} is not in a group's mod.rs")),
             Some(allowed) => {
@@ -209,14 +205,16 @@ fn faults_of(layers: &Layers, path: &str, text: &str) -> Vec<String> {
             }
         }
     }
-    // In the `mod.rs` of a top-level module, `super` is the crate root. In its other files, `super::super` is.
-    let climbs = code.matches("super::super::").count();
-    let depth = path.matches('/').count() + usize::from(!path.ends_with("mod.rs")) - 1.min(path.matches('/').count());
-    if climbs > 0 && depth < 2 {
+    // Where the path is, below the folder of its module. In the `mod.rs` of this folder, `super` leaves the module; in
+    // its other files, `super::super` does.
+    let within = own.as_deref().and_then(|own| path.strip_prefix(own)?.strip_prefix('/'));
+    let folders_within = within.map_or(0, |within| within.matches('/').count());
+    let is_mod = path.ends_with("mod.rs");
+    if code.contains("super::super::") && (folders_within == 0 || (folders_within == 1 && is_mod)) {
         faults.push(format!("{path}: super::super:: leaves the module"));
     }
     let (outside_tests, _) = code.split_once("#[cfg(test)]").unwrap_or((&code, ""));
-    if path.ends_with("/mod.rs") && path.matches('/').count() == 1 && outside_tests.contains("super::") {
+    if within == Some("mod.rs") && outside_tests.contains("super::") {
         faults.push(format!("{path}: super:: leaves the module"));
     }
     for (at, _) in code.match_indices("::*") {
@@ -252,29 +250,41 @@ fn a_module_may_use_earlier_modules_of_its_group_and_lower_groups() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let layers = Layers::from_source(&root);
     let may = |one: &str, other: &str| layers.allowed[one].contains(&other.to_owned());
-    assert!(may("analysis", "proof") && !may("proof", "analysis"));
-    assert!(may("program", "effect") && !may("effect", "program"));
-    assert!(!may("proof", "program") && !may("proof", "solve"));
-    assert!(may("figure", "drawing") && may("figure", "analysis"));
-    assert!(!may("drawing", "analysis") && !may("analysis", "drawing"));
-    assert!(may("cli", "report") && !may("report", "cli"));
-    assert!(may("python", "cli") && !may("cli", "python"));
+    assert!(may("mechanics/analysis", "mechanics/proof") && !may("mechanics/proof", "mechanics/analysis"));
+    assert!(
+        may("mechanics/program", "mechanics/statics/effect") && !may("mechanics/statics/effect", "mechanics/program")
+    );
+    assert!(!may("mechanics/proof", "mechanics/program") && !may("mechanics/proof", "mechanics/solve"));
+    assert!(may("products/figure", "pictures/drawing") && may("products/figure", "mechanics/analysis"));
+    assert!(!may("pictures/drawing", "mechanics/analysis") && !may("mechanics/analysis", "pictures/drawing"));
+    assert!(may("entry/cli", "products/report") && !may("products/report", "entry/cli"));
+    assert!(may("entry/python", "entry/cli") && !may("entry/cli", "entry/python"));
 }
 
 #[test]
 fn a_drawing_module_that_uses_the_mechanics_is_a_fault() {
-    let bad = "use crate::analysis::Analysis;\nfn f() {}\n";
-    assert_eq!(faults("drawing/arrow.rs", bad), ["drawing/arrow.rs: drawing may not use analysis"]);
-    assert_eq!(faults("figure/forces.rs", bad), Vec::<String>::new());
+    let bad = "use crate::mechanics::analysis::Analysis;\nfn f() {}\n";
+    assert_eq!(
+        faults("pictures/drawing/arrow.rs", bad),
+        ["pictures/drawing/arrow.rs: pictures/drawing may not use mechanics/analysis"]
+    );
+    assert_eq!(faults("products/figure/forces.rs", bad), Vec::<String>::new());
 }
 
 #[test]
 fn uses_in_braces_and_in_code_are_found() {
-    let group = "use crate::{geometry::{Point, Vector}, program::Columns};";
-    assert_eq!(modules_used(group), ["geometry", "program"]);
-    assert_eq!(faults("proof.rs", group), ["proof.rs: proof may not use program"]);
-    let call = "fn f() { let x = crate::solve::solve(1); }";
-    assert_eq!(faults("scene/frame.rs", call), ["scene/frame.rs: scene may not use solve"]);
+    let group = "use crate::{geometry::{Point, Vector}, mechanics::{program::Columns, statics::effect}};";
+    assert_eq!(modules_used(group), ["geometry", "mechanics/program", "mechanics/statics/effect"]);
+    let group = "use crate::{geometry::Point, mechanics::program::Columns};";
+    assert_eq!(
+        faults("mechanics/proof.rs", group),
+        ["mechanics/proof.rs: mechanics/proof may not use mechanics/program"]
+    );
+    let call = "fn f() { let x = crate::mechanics::solve::solve(1); }";
+    assert_eq!(
+        faults("mechanics/scene/frame.rs", call),
+        ["mechanics/scene/frame.rs: mechanics/scene may not use mechanics/solve"]
+    );
 }
 
 #[test]
@@ -287,9 +297,9 @@ fn a_foreign_crate_in_another_file_is_a_fault() {
         "use clarabel;",
     ];
     for source in sources {
-        assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
+        assert_eq!(faults("mechanics/analysis/mod.rs", source).len(), 1, "{source}");
     }
-    assert!(faults("output/png.rs", "use resvg::usvg;").is_empty());
+    assert!(faults("pictures/output/png.rs", "use resvg::usvg;").is_empty());
 }
 
 #[test]
@@ -297,33 +307,33 @@ fn a_clock_other_than_the_crates_own_is_a_fault() {
     let sources =
         ["use std::time::{Duration, Instant};", "fn f() { std::time::Instant::now(); }", "use web_time::Instant;"];
     for source in sources {
-        assert_eq!(faults("analysis/mod.rs", source).len(), 1, "{source}");
+        assert_eq!(faults("mechanics/analysis/mod.rs", source).len(), 1, "{source}");
     }
     let fine = "use crate::clock::Instant;\nuse std::time::Duration;";
-    assert_eq!(faults("analysis/mod.rs", fine), Vec::<String>::new());
+    assert_eq!(faults("mechanics/analysis/mod.rs", fine), Vec::<String>::new());
 }
 
 #[test]
 fn words_that_only_look_like_uses_are_no_faults() {
     let fine = r##"
-        //! Made by crate::analysis, unlike serde::Serialize.
-        /* crate::cli /* crate::figure */ clarabel::solve */
-        const A: &str = "crate::cli";
+        //! Made by crate::mechanics::analysis, unlike serde::Serialize.
+        /* crate::entry::cli /* crate::products::figure */ clarabel::solve */
+        const A: &str = "crate::entry::cli";
         const B: &str = r#"use "resvg::x""#;
         const C: char = '"';
         fn g<'a>(x: &'a str) -> &'a str { my_serde::f(x) }
-        use crate::scene::png::Thing;
+        use crate::mechanics::scene::png::Thing;
     "##;
-    assert_eq!(faults("interface/mod.rs", fine), Vec::<String>::new());
+    assert_eq!(faults("mechanics/statics/interface/mod.rs", fine), Vec::<String>::new());
 }
 
 #[test]
 fn globs_paths_above_the_module_and_empty_names_are_faults() {
-    assert_eq!(faults("scene/shape.rs", "use crate::geometry::*;").len(), 1);
-    assert_eq!(faults("scene/shape.rs", "use super::*;").len(), 1);
-    assert_eq!(faults("scene/shape.rs", "#[cfg(test)]\nmod tests { use super::*; }"), Vec::<String>::new());
-    assert_eq!(faults("scene/mod.rs", "use super::geometry::Point;").len(), 1);
-    assert_eq!(faults("scene/shape.rs", "use super::super::geometry::Point;").len(), 1);
-    assert_eq!(faults("scene/utils.rs", "").len(), 1);
+    assert_eq!(faults("mechanics/scene/shape.rs", "use crate::geometry::*;").len(), 1);
+    assert_eq!(faults("mechanics/scene/shape.rs", "use super::*;").len(), 1);
+    assert_eq!(faults("mechanics/scene/shape.rs", "#[cfg(test)]\nmod tests { use super::*; }"), Vec::<String>::new());
+    assert_eq!(faults("mechanics/scene/mod.rs", "use super::geometry::Point;").len(), 1);
+    assert_eq!(faults("mechanics/scene/shape.rs", "use super::super::geometry::Point;").len(), 1);
+    assert_eq!(faults("mechanics/scene/utils.rs", "").len(), 1);
     assert_eq!(faults("cellar/wine.rs", "").len(), 1);
 }

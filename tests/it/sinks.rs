@@ -7,7 +7,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::source::without_groups;
 use drystone::internals::study::{TOLERANCES, study};
 use drystone::internals::text::HIDDEN;
 use drystone::result::{Layout, Timing, to_json};
@@ -317,36 +316,36 @@ fn invisible_characters_are_made_visible() {
 /// For each kind of output, an expression that its writers contain, and the files that may contain it. A new file
 /// with such an expression must be added here.
 const WRITERS: &[(&str, &[&str])] = &[
-    ("io::stdout", &["cli/terminal.rs", "cli/mod.rs", "cli/batch/output.rs"]),
-    ("io::stderr", &["cli/terminal.rs", "cli/mod.rs", "cli/progress.rs"]),
-    ("anstream", &["cli/terminal.rs"]),
-    ("PreEscaped", &["report/accuracy.rs", "report/html/", "snapshot/review.rs"]),
+    ("io::stdout", &["entry/cli/terminal.rs", "entry/cli/mod.rs", "entry/cli/batch/output.rs"]),
+    ("io::stderr", &["entry/cli/terminal.rs", "entry/cli/mod.rs", "entry/cli/progress.rs"]),
+    ("anstream", &["entry/cli/terminal.rs"]),
+    ("PreEscaped", &["products/report/accuracy.rs", "products/report/html/", "products/snapshot/review.rs"]),
     (
         "\"<",
         &[
-            "output/svg.rs",
+            "pictures/output/svg.rs",
             // Inserts the name space into a finished chart.
-            "report/entry/part.rs",
+            "products/report/entry/part.rs",
             // Refuses a script that would close its own element; it writes nothing.
-            "cli/report/interactive.rs",
+            "entry/cli/report/interactive.rs",
             // Draws the bar of a margin in a table cell.
-            "report/print/table.rs",
-            "output/svg/",
-            "output/tree.rs",
-            "chart/",
-            "report/book.rs",
-            "report/accuracy.rs",
-            "report/markdown.rs",
-            "result/",
-            "snapshot/ci.rs",
+            "products/report/print/table.rs",
+            "pictures/output/svg/",
+            "pictures/output/tree.rs",
+            "pictures/chart/",
+            "products/report/book.rs",
+            "products/report/accuracy.rs",
+            "products/report/markdown.rs",
+            "products/result/",
+            "products/snapshot/ci.rs",
         ],
     ),
     ("fs::write", &[]),
     // The output of `batch` grows line by line, so that an interrupted run can be resumed.
-    ("File::create", &["cli/batch/output.rs", "cli/batch/resume.rs"]),
-    ("to_writer", &["result/", "scene/format.rs", "scene/format/"]),
-    (".literal(", &["cli/"]),
-    ("page.block(", &["cli/error.rs"]),
+    ("File::create", &["entry/cli/batch/output.rs", "entry/cli/batch/resume.rs"]),
+    ("to_writer", &["products/result/", "mechanics/scene/format.rs", "mechanics/scene/format/"]),
+    (".literal(", &["entry/cli/"]),
+    ("page.block(", &["entry/cli/error.rs"]),
 ];
 
 #[test]
@@ -360,10 +359,7 @@ fn only_the_listed_files_write_output() {
         // Tests and examples may write any output.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let path = file.strip_prefix(&root).expect("below").to_string_lossy().replace('\\', "/");
-        let Some(path) = without_groups(&path) else {
-            continue;
-        };
-        if path.ends_with("tests.rs") || path.starts_with("import/") {
+        if path.ends_with("tests.rs") || path.starts_with("sources/import/") {
             continue;
         }
         for line in code.lines().filter(|line| !line.trim_start().starts_with("//")) {

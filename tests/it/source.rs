@@ -18,24 +18,61 @@ pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// Folders of `src` that only group modules.
-pub(crate) const GROUPS: &[&str] = &["mechanics", "statics", "pictures", "sources", "products", "entry"];
+pub(crate) const GROUPS: &[&str] = &["mechanics", "mechanics/statics", "pictures", "sources", "products", "entry"];
 
-/// A path below `src` without its groups, as in module paths: `scene/frame.rs` for `mechanics/scene/frame.rs`. `None`
-/// for the `mod.rs` of a group.
-pub(crate) fn without_groups(path: &str) -> Option<&str> {
-    let mut rest = path;
-    while let Some((first, below)) = rest.split_once('/') {
-        if !GROUPS.contains(&first) {
-            break;
+/// The module to which a path below `src` belongs: `mechanics/scene` for `mechanics/scene/frame.rs`. `None` for the
+/// `mod.rs` of a group.
+pub(crate) fn module_of(path: &str) -> Option<String> {
+    let mut module = String::new();
+    for name in path.trim_end_matches("mod.rs").trim_end_matches(".rs").split('/').filter(|name| !name.is_empty()) {
+        if !module.is_empty() {
+            module.push('/');
         }
-        rest = below;
+        module.push_str(name);
+        if !GROUPS.contains(&module.as_str()) {
+            return Some(module);
+        }
     }
-    (rest != "mod.rs").then_some(rest)
+    None
 }
 
-/// The modules named in `crate::module` and `crate::{module::…, module::…}`.
+/// The modules that the code names in paths from the root of the crate, such as `crate::mechanics::scene::Scene`, also
+/// with braces: `crate::{geometry, mechanics::{scene, program}}`. A path that ends with a group gives this group.
 pub(crate) fn modules_used(code: &str) -> Vec<String> {
-    names_after(code, "crate::")
+    let mut paths = Vec::new();
+    for (at, prefix) in code.match_indices("crate::") {
+        if !ends_in_word(&code[..at]) && !code[..at].ends_with('$') {
+            spread(&code[at + prefix.len()..], "", &mut paths);
+        }
+    }
+    let mut modules: Vec<String> = paths.into_iter().map(|path| module_of(&path).unwrap_or(path)).collect();
+    modules.sort();
+    modules.dedup();
+    modules
+}
+
+/// Adds the paths at the beginning of the text, with slashes and below `above`: `{a::b, c}` gives `above/a/b` and
+/// `above/c`. Returns the text after them.
+fn spread<'t>(text: &'t str, above: &str, paths: &mut Vec<String>) -> &'t str {
+    let text = text.trim_start();
+    if let Some(mut rest) = text.strip_prefix('{') {
+        while !rest.starts_with('}') && !rest.is_empty() {
+            rest = spread(rest, above, paths).trim_start();
+            rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
+        }
+        return rest.strip_prefix('}').unwrap_or(rest);
+    }
+    let Some(word) = word_at(text) else {
+        return text.get(1..).unwrap_or_default();
+    };
+    let path = if above.is_empty() { word.clone() } else { format!("{above}/{word}") };
+    match text[word.len()..].strip_prefix("::") {
+        Some(rest) => spread(rest, &path, paths),
+        None => {
+            paths.push(path);
+            &text[word.len()..]
+        }
+    }
 }
 
 /// The first names of all paths that begin with `prefix`, also in braces: `prefix{a::b, c}` has `a` and `c`.

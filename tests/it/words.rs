@@ -4,25 +4,25 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use crate::source::{bare, collect, without_groups};
+use crate::source::{bare, collect, module_of};
 
 /// Modules whose types other crates use: those of the public interface, and those whose types it returns.
 const PUBLIC: &[&str] = &[
-    "scene",
+    "mechanics/scene",
     "geometry",
-    "interface",
-    "starter",
-    "import",
-    "analysis",
-    "wording",
-    "drawing",
-    "figure",
-    "output",
-    "result",
-    "report",
-    "batch",
-    "session",
-    "snapshot",
+    "mechanics/statics/interface",
+    "sources/starter",
+    "sources/import",
+    "mechanics/analysis",
+    "products/wording",
+    "pictures/drawing",
+    "products/figure",
+    "pictures/output",
+    "products/result",
+    "products/report",
+    "mechanics/batch",
+    "mechanics/session",
+    "products/snapshot",
 ];
 
 /// Only the name `Options` may occur in several modules, because it is always used together with the name of its
@@ -35,8 +35,8 @@ fn public_types_have_different_names() {
     collect(&root, &mut files);
     for file in files {
         let path = file.strip_prefix(&root).expect("below src").to_string_lossy().replace('\\', "/");
-        let module = without_groups(&path).and_then(|path| path.split_once('/'));
-        if module.is_some_and(|(module, _)| PUBLIC.contains(&module)) {
+        let module = module_of(&path);
+        if module.is_some_and(|module| PUBLIC.contains(&module.as_str())) {
             let text = fs::read_to_string(&file).expect("source is UTF-8");
             for line in bare(&text).lines() {
                 let public = line.trim_start().strip_prefix("pub ");

@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::source;
-use crate::cli::terminal::Terminal;
-use crate::output::file::Existing;
-use crate::report::accuracy::{csv, markdown, page, picture};
-use crate::result::accuracy_json;
-use crate::scene::Scene;
-use crate::study::{Study, TOLERANCES, study, summary};
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::source;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::scene::Scene;
+use crate::pictures::output::file::Existing;
+use crate::products::report::accuracy::{csv, markdown, page, picture};
+use crate::products::result::accuracy_json;
+use crate::products::study::{Study, TOLERANCES, study, summary};
 
 /// Measure the time and the errors of solution methods at several tolerances, and count their wrong verdicts
 #[derive(Debug, Args)]

@@ -6,8 +6,8 @@ use std::time::Duration;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::analysis::{Accuracy, Options};
 use crate::clock::Instant;
+use crate::mechanics::analysis::{Accuracy, Options};
 
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Args)]

@@ -2,9 +2,9 @@
 
 use clap::Args;
 
-use crate::analysis::{Options, typed_capacity};
-use crate::cli::error::CliError;
-use crate::scene::Scene;
+use crate::entry::cli::error::CliError;
+use crate::mechanics::analysis::{Options, typed_capacity};
+use crate::mechanics::scene::Scene;
 
 /// The block whose capacity is computed, and the ranges of `--for-all`: the block must be able to carry the forces for
 /// all values in these ranges.

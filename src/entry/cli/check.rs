@@ -5,22 +5,22 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::analysis::{Analysis, Options, Verdict};
-use crate::cli::analysis_args::AnalysisArgs;
-use crate::cli::capacity::CapacityArgs;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::margins::{MarginArgs, SensitivityMargin};
-use crate::cli::page::Page;
-use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::source::{self, FrameChoice, Source};
-use crate::cli::table::{self, Detail};
-use crate::cli::terminal::Terminal;
-use crate::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
-use crate::scene::Note;
-use crate::wording::number::letter;
-use crate::wording::sensitivity;
-use crate::wording::verdict::counted;
+use crate::entry::cli::analysis_args::AnalysisArgs;
+use crate::entry::cli::capacity::CapacityArgs;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::margins::{MarginArgs, SensitivityMargin};
+use crate::entry::cli::page::Page;
+use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::source::{self, FrameChoice, Source};
+use crate::entry::cli::table::{self, Detail};
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::analysis::{Analysis, Options, Verdict};
+use crate::mechanics::scene::Note;
+use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
+use crate::products::wording::number::letter;
+use crate::products::wording::sensitivity;
+use crate::products::wording::verdict::counted;
 
 /// Decide whether structures stand, show what fails, and prove the verdicts
 #[derive(Debug, Args)]

@@ -3,10 +3,10 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use crate::cli::CommandLine;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
+use crate::entry::cli::CommandLine;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
 
 /// Print the completion script for a shell
 ///

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use crate::cli::error::CliError;
-use crate::cli::picture::Format;
-use crate::output::file::{Existing, same, write_whole};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::picture::Format;
+use crate::pictures::output::file::{Existing, same, write_whole};
 
 /// The destination of pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,10 +8,10 @@ use std::ops::Range;
 
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::page::{Page, broken, seen};
-use crate::drawing::style;
-use crate::scene::{Code, Problem, SceneError};
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::page::{Page, broken, seen};
+use crate::mechanics::scene::{Code, Problem, SceneError};
+use crate::pictures::drawing::style;
 use crate::text::line;
 
 /// At most this many problems of one file are shown. If there are more, they usually have one cause, which is among

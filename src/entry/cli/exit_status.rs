@@ -1,9 +1,9 @@
 //! [`ExitStatus`]: the result of a command. The variants are ordered: the worst of several results decides the exit
 //! code.
 
-use crate::analysis::{Analysis, Verdict};
-use crate::scene::Scene;
-use crate::scene::format::Expectation;
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::format::Expectation;
 
 /// The result of a command. The greatest of several results is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::analysis::Analysis;
-use crate::cli::analysis_args::AnalysisArgs;
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::source::{self, FrameChoice};
-use crate::cli::terminal::Terminal;
-use crate::figure;
-use crate::output::file::Existing;
+use crate::entry::cli::analysis_args::AnalysisArgs;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::source::{self, FrameChoice};
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::output::file::Existing;
+use crate::products::figure;
 
 /// Write a frame as a DXF drawing in metres: structure, line of thrust or collapse
 ///

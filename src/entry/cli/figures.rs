@@ -6,18 +6,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::picture::Format;
-use crate::cli::style_args::StyleArgs;
-use crate::cli::terminal::Terminal;
-use crate::figure::{self, Plate};
-use crate::output::file::Existing;
-use crate::output::fonts::Fonts;
-use crate::output::format::Settings;
-use crate::output::png::{Compression, Size};
-use crate::output::svg::Words;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::style_args::StyleArgs;
+use crate::entry::cli::terminal::Terminal;
+use crate::pictures::output::file::Existing;
+use crate::pictures::output::fonts::Fonts;
+use crate::pictures::output::format::Settings;
+use crate::pictures::output::png::{Compression, Size};
+use crate::pictures::output::svg::Words;
+use crate::products::figure::{self, Plate};
 
 /// Draw the gallery: figures 1 to 9 of Vallat (2023), each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]

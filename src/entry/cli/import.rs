@@ -8,17 +8,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::page::Page;
-use crate::cli::source::FrameChoice;
-use crate::cli::terminal::Terminal;
-use crate::import::{self, Format, Imported, Options, Remark, Stone};
-use crate::output::file::Existing;
-use crate::result::import_json;
-use crate::scene::format::SceneFile;
-use crate::scene::{Note, NoteCode, Scene};
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::page::Page;
+use crate::entry::cli::source::FrameChoice;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::scene::format::SceneFile;
+use crate::mechanics::scene::{Note, NoteCode, Scene};
+use crate::pictures::output::file::Existing;
+use crate::products::result::import_json;
+use crate::sources::import::{self, Format, Imported, Options, Remark, Stone};
 use value::{FormatArg, ScaleArg, Unit, gravity, scale, stone};
 
 /// At most this many bodies whose corners were moved are listed; `--json` lists all.

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 
-use crate::cli::CommandLine;
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
-use crate::output::file::Existing;
+use crate::entry::cli::CommandLine;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::pictures::output::file::Existing;
 
 /// Write the manual pages into a folder, one for each command
 ///

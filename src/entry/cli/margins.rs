@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
-use crate::analysis::{MarginKind, MarginKinds, Options};
+use crate::mechanics::analysis::{MarginKind, MarginKinds, Options};
 
 /// Whether margins are computed, and which.
 #[derive(Clone, Debug, Args)]

@@ -4,10 +4,10 @@ use std::io::{self, Read};
 
 use clap::{Args, Subcommand};
 
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
-use crate::report::book;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::products::report::book;
 
 /// Draw the scenes in the chapters of an mdBook; mdbook runs this preprocessor itself
 ///

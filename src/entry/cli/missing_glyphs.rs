@@ -3,11 +3,11 @@
 
 use std::borrow::Cow;
 
-use crate::cli::page::Page;
-use crate::cli::source::Source;
-use crate::cli::terminal::Terminal;
-use crate::output::fonts::Fonts;
-use crate::scene::Scene;
+use crate::entry::cli::page::Page;
+use crate::entry::cli::source::Source;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::scene::Scene;
+use crate::pictures::output::fonts::Fonts;
 
 /// Prints a warning for each scene with characters that no font has.
 pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {

@@ -54,9 +54,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::{OutputArgs, Terminal};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::{OutputArgs, Terminal};
 
 const AFTER_LONG_HELP: &str = "\
 A verdict of 'stands' means that a balance of forces exists for rigid blocks at rest, laid dry (no cohesion). A balance \

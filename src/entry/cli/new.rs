@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
-use crate::output::file::Existing;
-use crate::starter::{Arch, Doorway, LatticePile, Tower, Wall};
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::pictures::output::file::Existing;
+use crate::sources::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 
 /// Write a scene to start from: a small example, or an arch, wall, tower, doorway or lattice with your dimensions
 #[derive(Debug, Args)]
@@ -168,8 +168,8 @@ impl New {
         let text = match &self.kind {
             Some(kind) => kind.text(),
             None => match self.example {
-                Example::Stands => crate::scene::starter().to_owned(),
-                Example::Falls => crate::scene::falling_starter().to_owned(),
+                Example::Stands => crate::mechanics::scene::starter().to_owned(),
+                Example::Falls => crate::mechanics::scene::falling_starter().to_owned(),
             },
         };
         match self.output.as_deref().filter(|path| *path != Path::new("-")) {

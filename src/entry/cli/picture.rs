@@ -6,16 +6,16 @@ use std::path::PathBuf;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
-use crate::cli::error::CliError;
-use crate::drawing::{Colour, Drawing};
-use crate::output::animation::Step;
-use crate::output::fonts::Fonts;
-pub(crate) use crate::output::format::Format;
-use crate::output::format::{Animate, FormatError, Settings};
-use crate::output::page_width;
-use crate::output::pdf;
-use crate::output::png::{self, Compression, PngError, Size};
-use crate::output::svg::{self, Words};
+use crate::entry::cli::error::CliError;
+use crate::pictures::drawing::{Colour, Drawing};
+use crate::pictures::output::animation::Step;
+use crate::pictures::output::fonts::Fonts;
+pub(crate) use crate::pictures::output::format::Format;
+use crate::pictures::output::format::{Animate, FormatError, Settings};
+use crate::pictures::output::page_width;
+use crate::pictures::output::pdf;
+use crate::pictures::output::png::{self, Compression, PngError, Size};
+use crate::pictures::output::svg::{self, Words};
 
 /// Format, size, background and text of a picture.
 #[derive(Clone, Debug, Args)]

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::analysis::trials;
+use crate::mechanics::analysis::trials;
 
 /// The bar appears after this time, so shorter work has no bar.
 const BAR_DELAY: Duration = Duration::from_millis(500);
@@ -147,11 +147,11 @@ mod tests {
         let paper = Paper::default();
         let target = ProgressDrawTarget::term_like(Box::new(paper.clone()));
         let progress = Progress::on(1, Duration::ZERO, target);
-        let scene = crate::scene::Scene::from_json(
+        let scene = crate::mechanics::scene::Scene::from_json(
             r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#,
         );
-        let options = crate::analysis::Options { margins: true, ..Default::default() };
-        crate::analysis::Analysis::with(scene.expect("valid"), &options);
+        let options = crate::mechanics::analysis::Options { margins: true, ..Default::default() };
+        crate::mechanics::analysis::Analysis::with(scene.expect("valid"), &options);
         thread::sleep(Duration::from_millis(300));
         drop(progress);
         let drawn = paper.text();

@@ -18,21 +18,21 @@ use choice::KindChoice;
 use output::{Rendered, all, summary, without_faults};
 use target::paths;
 
-use crate::analysis::{self, Analysis, Toward};
-use crate::cli::destination::{self, Destination};
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::missing_glyphs;
-use crate::cli::picture::{Format, or_split};
-use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::source::{self, Source};
-use crate::cli::terminal::Terminal;
-use crate::cli::watch;
-use crate::drawing::{Drawing, Theme};
-use crate::figure;
-use crate::output::animation;
-use crate::output::fonts::Fonts;
-use crate::scene::Scene;
+use crate::entry::cli::destination::{self, Destination};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::picture::{Format, or_split};
+use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::source::{self, Source};
+use crate::entry::cli::terminal::Terminal;
+use crate::entry::cli::watch;
+use crate::mechanics::analysis::{self, Analysis, Toward};
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::{Drawing, Theme};
+use crate::pictures::output::animation;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 
 /// A strip of more frames than this may be too large for a PNG.
 const MAX_PNG_FRAMES: usize = 50;

@@ -12,24 +12,24 @@ use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use content::{entry, make_figures_legible};
 use task::Task;
 
-use crate::analysis::{self, Analysis, MarginKind, MarginKinds};
-use crate::cli::analysis_args::AnalysisArgs;
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::missing_glyphs;
-use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::source::{self, Source};
-use crate::cli::style_args::StyleArgs;
-use crate::cli::terminal::Terminal;
-use crate::drawing::Theme;
-use crate::output::file::Existing;
-use crate::output::fonts::Fonts;
-use crate::report::entry::ReportOptions;
-use crate::report::page::{Form, Piece, Refused, Report as Page};
-use crate::result::Timing;
-use crate::study::{TOLERANCES, study};
-use crate::wording::number::counted;
+use crate::entry::cli::analysis_args::AnalysisArgs;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::source::{self, Source};
+use crate::entry::cli::style_args::StyleArgs;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
+use crate::pictures::drawing::Theme;
+use crate::pictures::output::file::Existing;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::report::entry::ReportOptions;
+use crate::products::report::page::{Form, Piece, Refused, Report as Page};
+use crate::products::result::Timing;
+use crate::products::study::{TOLERANCES, study};
+use crate::products::wording::number::counted;
 
 /// Write a report on scenes: verdicts with reasons, figures, forces, margins and proofs
 #[derive(Debug, Args)]

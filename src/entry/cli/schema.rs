@@ -2,10 +2,10 @@
 
 use clap::Args;
 
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
-use crate::result;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::products::result;
 
 /// Print the JSON Schema of scene files, or of results
 ///
@@ -20,7 +20,7 @@ pub(crate) struct Schema {
 
 impl Schema {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let text = if self.result { result::schema() } else { crate::scene::schema() };
+        let text = if self.result { result::schema() } else { crate::mechanics::scene::schema() };
         terminal.print_bytes(text.as_bytes()).map_err(|c| vec![c])?;
         Ok(ExitStatus::Done)
     }

@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::destination::{self, Destination};
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::picture::Picture;
-use crate::cli::style_args::StyleArgs;
-use crate::cli::terminal::Terminal;
-use crate::drawing::Theme;
-use crate::figure;
-use crate::output::file::Existing;
+use crate::entry::cli::destination::{self, Destination};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::picture::Picture;
+use crate::entry::cli::style_args::StyleArgs;
+use crate::entry::cli::terminal::Terminal;
+use crate::pictures::drawing::Theme;
+use crate::pictures::output::file::Existing;
+use crate::products::figure;
 
 /// Draw the built-in shapes of the triangular lattice, with their cells and origins
 #[derive(Debug, Args)]

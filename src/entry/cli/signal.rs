@@ -27,7 +27,7 @@ pub(crate) fn listen() {
                 continue;
             }
             // Keep the guard until the end, so that no thread creates another temporary file.
-            let nothing_new = crate::output::file::abandon();
+            let nothing_new = crate::pictures::output::file::abandon();
             let _ = emulate_default_handler(signal);
             drop(nothing_new);
         }

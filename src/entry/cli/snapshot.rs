@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::page::Page;
-use crate::cli::progress::{BarVisibility, Progress};
-use crate::cli::terminal::Terminal;
-use crate::output::file::{Existing, WriteError};
-use crate::snapshot::outcome::{Acceptance, folders};
-use crate::snapshot::store::{self, Access};
-use crate::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::page::Page;
+use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::terminal::Terminal;
+use crate::pictures::output::file::{Existing, WriteError};
+use crate::products::snapshot::outcome::{Acceptance, folders};
+use crate::products::snapshot::store::{self, Access};
+use crate::products::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
 
 /// Compare scenes and their pictures with stored references, and explain what changed
 ///

@@ -6,8 +6,8 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use crate::cli::error::CliError;
-use crate::scene::{Scene, isolate};
+use crate::entry::cli::error::CliError;
+use crate::mechanics::scene::{Scene, isolate};
 
 /// A scene and the path from which it was read.
 #[derive(Debug)]

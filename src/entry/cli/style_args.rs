@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::cli::error::CliError;
-use crate::drawing::Theme;
-use crate::drawing::style::format::Notation;
+use crate::entry::cli::error::CliError;
+use crate::pictures::drawing::Theme;
+use crate::pictures::drawing::style::format::Notation;
 
 /// The theme, and a style file that changes it.
 #[derive(Clone, Debug, Args)]

@@ -4,15 +4,15 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::analysis::{Analysis, Contact, EffectName, FrameAnalysis, Verdict};
-use crate::cli::page::{Page, broken, seen};
-use crate::result::Timing;
-use crate::scene::format::Expectation;
-use crate::scene::{Frame, Scene};
+use crate::entry::cli::page::{Page, broken, seen};
+use crate::mechanics::analysis::{Analysis, Contact, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::scene::format::Expectation;
+use crate::mechanics::scene::{Frame, Scene};
+use crate::products::result::Timing;
+use crate::products::wording::number::{amount, duration, letter, tenths};
+use crate::products::wording::verdict::plain;
+use crate::products::wording::{capacity, failure, margin, proof};
 use crate::text::heading;
-use crate::wording::number::{amount, duration, letter, tenths};
-use crate::wording::verdict::plain;
-use crate::wording::{capacity, failure, margin, proof};
 
 /// The words in the tables and in the lines below them, with their meanings.
 const MEANINGS: [[&str; 2]; 16] = [

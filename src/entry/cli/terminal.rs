@@ -11,8 +11,8 @@ use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 use terminal_size::{Height, Width};
 
-use crate::cli::error::CliError;
-use crate::cli::page::Page;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::page::Page;
 
 /// The options for messages and colours.
 #[derive(Clone, Copy, Debug, Args)]

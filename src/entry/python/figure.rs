@@ -6,16 +6,16 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 
 use super::{Ring, fault};
-use crate::analysis::Analysis;
-use crate::cli::missing_glyphs;
-use crate::cli::render::embedded;
-use crate::drawing::Theme;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::render::embedded;
 use crate::geometry::Polygon;
-use crate::output::file::{Existing, write_whole};
-use crate::output::fonts::Fonts;
-use crate::report::entry::{Entry, File, ReportOptions};
-use crate::report::page::{Form, Piece, Report};
-use crate::scene::Scene;
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::Theme;
+use crate::pictures::output::file::{Existing, write_whole};
+use crate::pictures::output::fonts::Fonts;
+use crate::products::report::entry::{Entry, File, ReportOptions};
+use crate::products::report::page::{Form, Piece, Report};
 
 /// Draws a figure of all frames, or only of frame number `frame`, counted from 0. Returns the bytes of the picture
 /// file. `words` are options of `render`, and the file extension `ending` selects the format.

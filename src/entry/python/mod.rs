@@ -17,13 +17,13 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-use crate::analysis::{self, Accuracy, MarginKind, MarginKinds, Verdict};
-use crate::cli;
 use crate::clock::Instant;
-use crate::drawing::Theme;
-use crate::result::{self, Layout, Timing};
-use crate::scene::format::{SceneFile, parsed};
-use crate::scene::{Scene, SceneError, isolate};
+use crate::entry::cli;
+use crate::mechanics::analysis::{self, Accuracy, MarginKind, MarginKinds, Verdict};
+use crate::mechanics::scene::format::{SceneFile, parsed};
+use crate::mechanics::scene::{Scene, SceneError, isolate};
+use crate::pictures::drawing::Theme;
+use crate::products::result::{self, Layout, Timing};
 
 /// The options of an analysis, read once and used for many scenes.
 #[pyclass(frozen, module = "drystone._drystone")]
@@ -362,14 +362,14 @@ fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
 /// Returns the JSON Schema of scene files.
 #[pyfunction]
 fn schema() -> String {
-    crate::scene::schema()
+    crate::mechanics::scene::schema()
 }
 
 /// Returns the names of the kinds of figures with panels, each with a line of help. The free-body diagram is not in
 /// this list.
 #[pyfunction]
 fn kinds() -> Vec<(&'static str, &'static str)> {
-    let all = crate::figure::Kind::ALL.into_iter();
+    let all = crate::products::figure::Kind::ALL.into_iter();
     all.map(|kind| (kind.name(), kind.help())).collect()
 }
 
@@ -388,13 +388,13 @@ fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
 #[pymodule]
 mod _drystone {
     #[pymodule_export]
-    use crate::python::figure::sketch;
+    use crate::entry::python::figure::sketch;
     #[pymodule_export]
-    use crate::python::session::Session;
+    use crate::entry::python::session::Session;
     #[pymodule_export]
-    use crate::python::table::{Table, summary};
+    use crate::entry::python::table::{Table, summary};
     #[pymodule_export]
-    use crate::python::{Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes};
+    use crate::entry::python::{Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes};
 
     /// The version of drystone.
     #[pymodule_export]

@@ -4,12 +4,12 @@
 use pyo3::prelude::*;
 
 use super::{Analysis, Options, Ring, fault, refused};
-use crate::analysis;
 use crate::geometry::Point;
-use crate::result;
-use crate::scene::Scene;
-use crate::scene::format::{BlockEntry, SceneFile, parsed};
-use crate::session::{self, SessionError};
+use crate::mechanics::analysis;
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::format::{BlockEntry, SceneFile, parsed};
+use crate::mechanics::session::{self, SessionError};
+use crate::products::result;
 
 /// A structure under construction; every step returns the verdict.
 #[pyclass(module = "drystone._drystone")]

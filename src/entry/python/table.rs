@@ -10,9 +10,9 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList};
 
-use crate::analysis::{Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce};
 use crate::geometry::Vector;
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// One column.
 enum Column {

@@ -3,9 +3,9 @@
 use super::Refusal;
 use super::figure_options::FigureOptions;
 use super::option::{self, deadline, scene};
-use crate::analysis::{self, Analysis};
-use crate::figure::{self, Kind};
-use crate::scene::{Scene, Sketch};
+use crate::mechanics::analysis::{self, Analysis};
+use crate::mechanics::scene::{Scene, Sketch};
+use crate::products::figure::{self, Kind};
 
 /// Draws a figure of a scene, and returns the SVG. With the option `broken`, draws the outlines of a scene that may be
 /// invalid, with its problems.

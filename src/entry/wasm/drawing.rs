@@ -3,9 +3,9 @@
 use serde::Deserialize;
 
 use super::Refusal;
-use crate::import::{Format, Options, STONES, Stone, import};
-use crate::result::imported_json;
-use crate::scene::format::SceneFile;
+use crate::mechanics::scene::format::SceneFile;
+use crate::products::result::imported_json;
+use crate::sources::import::{Format, Options, STONES, Stone, import};
 
 /// The options of an import. Their names are those of the fields of [`Options`] and of the keys of a scene file. In
 /// addition, `material` is the name of a stone. `frame` is counted from 1.

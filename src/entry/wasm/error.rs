@@ -2,9 +2,9 @@
 
 use wasm_bindgen::JsValue;
 
-use crate::import::DrawingProblems;
-use crate::result::{problem_list, remark_list};
-use crate::scene::SceneError;
+use crate::mechanics::scene::SceneError;
+use crate::products::result::{problem_list, remark_list};
+use crate::sources::import::DrawingProblems;
 
 /// Why the input was refused. JavaScript receives an `Error` with this message, whose property `problems` is the list
 /// of the problems.

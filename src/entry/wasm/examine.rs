@@ -2,8 +2,8 @@
 
 use super::Refusal;
 use super::option::CheckOptions;
-use crate::analysis::Analysis;
-use crate::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
+use crate::mechanics::analysis::Analysis;
+use crate::products::result::{Layout, Timing, to_json, to_json_of, to_json_with_blocks};
 
 /// Analyses a scene, and returns the JSON of `drystone check --json`, without times unless the options request them.
 pub(super) fn checked(scene: &str, options: &CheckOptions) -> Result<String, Refusal> {

@@ -4,12 +4,12 @@ use serde::Deserialize;
 
 use super::Refusal;
 use super::option::{FrameChoice, Level, SensitivityMargin};
-use crate::analysis::{MarginKind, Toward};
-use crate::drawing::style::format::Notation;
-use crate::drawing::{Colour, Drawing, Theme};
-use crate::figure::{self, ArrowScale, Corners, FREEBODY, Fill, ForceStyle, Kind, Normalisation};
-use crate::output::{page_width, svg};
-use crate::scene::BlockId;
+use crate::mechanics::analysis::{MarginKind, Toward};
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::style::format::Notation;
+use crate::pictures::drawing::{Colour, Drawing, Theme};
+use crate::pictures::output::{page_width, svg};
+use crate::products::figure::{self, ArrowScale, Corners, FREEBODY, Fill, ForceStyle, Kind, Normalisation};
 
 /// The least and the largest width in print, millimetres.
 const WIDTHS_MM: std::ops::RangeInclusive<f64> = 2.0..=5080.0;

@@ -21,9 +21,9 @@ use wasm_bindgen::prelude::wasm_bindgen;
 pub use error::Refusal;
 pub use session::Session;
 
-use crate::figure::{FREEBODY, FREEBODY_HELP, Kind};
-use crate::result::quoted;
-use crate::scene::Scene;
+use crate::mechanics::scene::Scene;
+use crate::products::figure::{FREEBODY, FREEBODY_HELP, Kind};
+use crate::products::result::quoted;
 
 /// Prepares the module, so that a panic becomes a JavaScript error with the same message.
 #[wasm_bindgen(start)]

@@ -5,10 +5,10 @@ use std::time::Duration;
 use serde::Deserialize;
 
 use super::Refusal;
-use crate::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, typed_capacity};
 use crate::clock::Instant;
-use crate::scene::format::parsed;
-use crate::scene::{Scene, SceneError};
+use crate::mechanics::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, typed_capacity};
+use crate::mechanics::scene::format::parsed;
+use crate::mechanics::scene::{Scene, SceneError};
 
 /// Reads options from JSON text. Without text, all options have their default values.
 pub(super) fn read<T: Default + for<'a> Deserialize<'a>>(text: Option<&str>) -> Result<T, Refusal> {

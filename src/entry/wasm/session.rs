@@ -5,8 +5,8 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::option::{self, CheckOptions};
 use super::{Refusal, draw, examine};
-use crate::analysis::Analysis;
-use crate::result::word;
+use crate::mechanics::analysis::Analysis;
+use crate::products::result::word;
 
 /// A scene that is changed often, for example while a block is dragged. It is analysed once for each change. The
 /// verdict, the result and the figures come from this analysis, unless a figure needs results that it lacks.

@@ -16,14 +16,14 @@ use super::key::{Key, key};
 use super::margin::{self, ComponentIntervals, Part};
 use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
-use crate::assembly::Assembly;
 use crate::clock::Instant;
-use crate::effect::wedging::{self, Wedging};
-use crate::effect::{self, EffectReport, FrameContext};
-use crate::interface::Interfaces;
-use crate::program::UnknownCounts;
-use crate::scene::{RobotId, Scene};
-use crate::solve::{DeadlineGuard, Effort};
+use crate::mechanics::program::UnknownCounts;
+use crate::mechanics::scene::{RobotId, Scene};
+use crate::mechanics::solve::{DeadlineGuard, Effort};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::wedging::{self, Wedging};
+use crate::mechanics::statics::effect::{self, EffectReport, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
 
 /// Fewer components than this are decided on one thread: starting several threads costs more than it saves.
 #[cfg(feature = "parallel")]

@@ -1,7 +1,7 @@
 //! Decides whether a component stands or falls. The two tables below list the routes to a verdict, for one component
 //! and for a whole frame. The routes are tried in the order of their numbers.
 //!
-//! A verdict needs a proof ([`crate::proof`]): forces that balance every body, or a motion that no admissible forces
+//! A verdict needs a proof ([`crate::mechanics::proof`]): forces that balance every body, or a motion that no admissible forces
 //! can stop. A route may save time, but it never decides without a proof. All routes for one component return a
 //! [`Decision`] or [`Findings`].
 //!
@@ -53,10 +53,10 @@ pub(super) use verdict_only::{
 pub(super) use wedging::only_by_wedging;
 
 use super::{Failure, Options, UndecidedReason, Verdict};
-use crate::assembly::Assembly;
-use crate::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
-use crate::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
-use crate::solve::{Amounts, Effort, SolverSettings, determinate};
+use crate::mechanics::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
+use crate::mechanics::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
+use crate::mechanics::solve::{Amounts, Effort, SolverSettings, determinate};
+use crate::mechanics::statics::assembly::Assembly;
 use programs::Decision;
 pub(super) use strategy::LimitDistance;
 pub use strategy::Method;

@@ -2,8 +2,8 @@
 
 use super::{Analysis, Margin, Sides, Toward};
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
-use crate::proof::Motion;
-use crate::scene::Scene;
+use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::Scene;
 
 /// How far gravity is rotated beyond the limit to find the mechanism there, degrees. In radians, this is also the step
 /// of the horizontal load, and the relative step of the load factor.

@@ -1,9 +1,9 @@
 //! The forces at the interfaces and robots of a frame, and the missing forces of a frame that falls.
 
 use crate::geometry::{Point, Vector};
-use crate::interface::Interface;
-use crate::resultant::Resultant;
-use crate::scene::{BlockId, BodyId, RobotId};
+use crate::mechanics::scene::{BlockId, BodyId, RobotId};
+use crate::mechanics::statics::interface::Interface;
+use crate::mechanics::statics::resultant::Resultant;
 
 /// An interface and the admissible forces that it transmits.
 #[derive(Clone, Debug)]

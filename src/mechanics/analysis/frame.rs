@@ -1,10 +1,10 @@
 //! Combines the proofs of the components of a frame, and adds the effect reports and notices of the whole frame.
 
 use super::{FrameAnalysis, Verdict};
-use crate::effect::sticking::AdhesionSearch;
-use crate::effect::{EffectName, FrameContext, mechanism, sticking};
-use crate::program::UnknownCounts;
-use crate::proof::Proof;
+use crate::mechanics::program::UnknownCounts;
+use crate::mechanics::proof::Proof;
+use crate::mechanics::statics::effect::sticking::AdhesionSearch;
+use crate::mechanics::statics::effect::{EffectName, FrameContext, mechanism, sticking};
 
 /// Returns the weaker of two proofs. If both are of the same kind, the result has the worse value of each error. If
 /// only one is a proof by a mechanism, the result is that proof.

@@ -11,8 +11,8 @@
 use super::analyse::{analyse, analyse_frames};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::geometry::Point;
-use crate::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
-use crate::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
+use crate::mechanics::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
+use crate::mechanics::statics::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
 
 /// The largest number of places that a message names.
 const MAX_NAMED_PLACES: usize = 3;

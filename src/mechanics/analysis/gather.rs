@@ -3,12 +3,12 @@
 use super::decide::{Findings, Method};
 use super::frame::weaker_proof;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
-use crate::assembly::Assembly;
-use crate::effect::{EffectReport, FrameContext};
 use crate::geometry::Vector;
-use crate::interface::Interface;
-use crate::resultant::{friction_used, from_point_forces};
-use crate::scene::Hold;
+use crate::mechanics::scene::Hold;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::{EffectReport, FrameContext};
+use crate::mechanics::statics::interface::Interface;
+use crate::mechanics::statics::resultant::{friction_used, from_point_forces};
 
 /// Creates the analysis of a frame with zero force at every contact and grip. The results of the components are added
 /// later.

@@ -1,7 +1,7 @@
 //! [`Key`]: recognises components that occur unchanged in several frames, so that each is decided only once.
 
-use crate::assembly::Assembly;
-use crate::scene::{BlockId, RobotId};
+use crate::mechanics::scene::{BlockId, RobotId};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Components of one scene with the same key have the same results. The key contains the blocks, each hold (robot,
 /// block, and the bits of the grip point's coordinates), and the bits of the component's length L.

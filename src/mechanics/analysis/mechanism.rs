@@ -14,9 +14,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::geometry::{Point, Vector, cross};
-use crate::proof::Motion;
-use crate::scene::{BlockId, BodyId, Scene};
-use crate::solve::extreme_ray::{self, Row};
+use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::solve::extreme_ray::{self, Row};
 
 /// A part with more blocks keeps the motion of its proof, because closing its contacts one by one would take too
 /// long.

@@ -29,15 +29,15 @@ use std::fmt;
 use std::sync::Arc;
 
 #[doc(inline)]
-pub use crate::effect::{EffectName, EffectReport};
+pub use crate::mechanics::proof::{Motion, Proof, ProofThreshold};
+use crate::mechanics::scene::{BlockId, Note, Scene};
+pub use crate::mechanics::solve::Slide;
 #[doc(inline)]
-pub use crate::interface::{ContactKind, Interface};
+pub use crate::mechanics::statics::effect::{EffectName, EffectReport};
 #[doc(inline)]
-pub use crate::proof::{Motion, Proof, ProofThreshold};
+pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 #[doc(inline)]
-pub use crate::resultant::Resultant;
-use crate::scene::{BlockId, Note, Scene};
-pub use crate::solve::Slide;
+pub use crate::mechanics::statics::resultant::Resultant;
 pub(crate) use capacity::capacity_of;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;
@@ -121,7 +121,7 @@ pub struct FrameAnalysis {
     /// if [`least_force`](FrameAnalysis::least_force) is true.
     pub total_force: f64,
     /// A lower bound on the total force of all forces that balance the frame, N, proved by a motion
-    /// ([`force_sum_lower_bound`](crate::proof::force_sum_lower_bound)). `None` if the frame does not stand or no bound
+    /// ([`force_sum_lower_bound`](crate::mechanics::proof::force_sum_lower_bound)). `None` if the frame does not stand or no bound
     /// was proved.
     pub force_bound: Option<f64>,
     /// Whether the total force is proved to be the least: it exceeds `force_bound` by at most a millionth. If not,

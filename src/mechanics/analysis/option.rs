@@ -6,8 +6,8 @@
 use super::capacity::CapacityRequest;
 use super::margin::{MarginKind, MarginKinds};
 use crate::clock::Instant;
-use crate::proof::ProofThreshold;
-use crate::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
+use crate::mechanics::proof::ProofThreshold;
+use crate::mechanics::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

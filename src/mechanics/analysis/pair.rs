@@ -6,7 +6,7 @@
 
 use super::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::geometry::Polygon;
-use crate::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
+use crate::mechanics::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
 
 /// Numbers that differ by at most this fraction are equal. For corners, the fraction is relative to the size of the
 /// outline.

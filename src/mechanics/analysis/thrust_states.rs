@@ -9,15 +9,15 @@
 use std::collections::BTreeSet;
 
 use super::{Analysis, Contact, FrameAnalysis, Options, Verdict};
-use crate::assembly::Assembly;
-use crate::effect::{self, FrameContext};
 use crate::geometry::{Vector, quarter_turn};
-use crate::interface::Interfaces;
-use crate::program::{Column, Force, Program, Scale, columns};
-use crate::proof::{self, ContactForces, Forces, GripForces, Proof};
-use crate::resultant::{friction_used, from_point_forces};
-use crate::scene::{BlockId, BodyId, Scene};
-use crate::solve::{Amounts, Conditioning, Effort, Status, dual};
+use crate::mechanics::program::{Column, Force, Program, Scale, columns};
+use crate::mechanics::proof::{self, ContactForces, Forces, GripForces, Proof};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::solve::{Amounts, Conditioning, Effort, Status, dual};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
+use crate::mechanics::statics::resultant::{friction_used, from_point_forces};
 
 /// The supports have different horizontal forces if loads and robots push with more than this fraction of the weight.
 /// The value is below the three digits with which a thrust is written.

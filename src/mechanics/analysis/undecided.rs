@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{FrameAnalysis, Verdict};
-use crate::proof::Proof;
+use crate::mechanics::proof::Proof;
 
 /// One reason why a frame is undecided; its `Display` describes it in a sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,8 +85,8 @@ impl FrameAnalysis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Analysis;
-    use crate::scene::Scene;
+    use crate::mechanics::analysis::Analysis;
+    use crate::mechanics::scene::Scene;
 
     #[test]
     fn reasons_make_one_sentence() {

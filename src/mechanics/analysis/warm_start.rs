@@ -9,12 +9,12 @@
 use super::analyse::{ResultCache, analyse_frame};
 use super::decide::Candidate;
 use super::{Analysis, Options, Verdict};
-use crate::assembly::Assembly;
-use crate::effect::{self, FrameContext};
-use crate::interface::{Interface, Interfaces};
-use crate::program::{Column, Force, Program, Scale};
-use crate::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
-use crate::solve::{Amounts, BoundedNnls, generators};
+use crate::mechanics::program::{Column, Force, Program, Scale};
+use crate::mechanics::scene::{BlockId, BodyId, Frame, RobotId, Scene, ToleranceSource};
+use crate::mechanics::solve::{Amounts, BoundedNnls, generators};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::{Interface, Interfaces};
 
 /// Without an active set to start from, a conic solver is faster than an active-set method for more bodies than this.
 const MAX_NEW_BODIES: usize = 40;

@@ -1,10 +1,10 @@
 //! [`Wedged`]: the proof that a frame stands only by wedging, that is, by a self-stress, in metres and newtons.
 
 use super::Motion;
-use crate::assembly::Assembly;
 use crate::geometry::Vector;
-use crate::program::Scale;
-use crate::solve::{self, SelfStress, Slide};
+use crate::mechanics::program::Scale;
+use crate::mechanics::solve::{self, SelfStress, Slide};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// The proof that a frame does not stand without a self-stress.
 ///

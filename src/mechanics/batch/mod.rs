@@ -5,7 +5,7 @@
 //! 3. `in_order` passes one answer for each record to its caller, in the order of the records. A record that could not
 //!    be read also gets an answer.
 //!
-//! This module only handles bytes. [`result`](crate::result) writes what an answer says about a scene.
+//! This module only handles bytes. [`result`](crate::products::result) writes what an answer says about a scene.
 
 mod queue;
 mod record;

@@ -7,9 +7,9 @@
 //! unknowns.
 
 use super::{ContactTerm, GripTerm, Program};
-use crate::effect::EffectName;
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::interface::ContactKind;
+use crate::mechanics::statics::effect::EffectName;
+use crate::mechanics::statics::interface::ContactKind;
 
 /// The force that a column represents.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,9 +30,9 @@ pub use pose::{
 pub use scale::Scale;
 pub use vallat::vallat_program;
 
-use crate::assembly::Assembly;
 use crate::geometry::{Point, Vector};
-use crate::interface::ContactKind;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::interface::ContactKind;
 
 /// The equilibrium of one component of an assembly, in numbers without units.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@
 //! large as those of large structures in newtons, half of the towers were reported as infeasible. The unit of length is
 //! therefore the median interface length, and forces are scaled so that the heaviest load is 300.
 
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Metres and newtons per unit of a program.
 #[derive(Clone, Copy, Debug, PartialEq)]

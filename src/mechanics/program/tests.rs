@@ -2,7 +2,7 @@
 //! a unit of force of 2 N.
 
 use super::*;
-use crate::effect::EffectName;
+use crate::mechanics::statics::effect::EffectName;
 
 mod pose;
 

@@ -12,10 +12,10 @@
 //! its load by τ.
 
 use super::Forces;
-use crate::assembly::{Assembly, AssemblyBody};
 use crate::geometry::{
     CompensatedSum, Point, Vec3, Vector, cross, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound,
 };
+use crate::mechanics::statics::assembly::{Assembly, AssemblyBody};
 
 /// An upper bound of the relative rounding error of a few sums and products.
 const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;

@@ -6,7 +6,7 @@
 //! robot with a limit may absorb more than δ per newton; the excess, limit · (speed − δ), is subtracted from P.
 
 use super::{Forces, Motion, NON_BINDING_RATIO, ROUNDING_TOL, moving_load, power_of_loads, worst_violation};
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 impl Forces {
     /// Returns the sum of the magnitudes of all forces, N: Σ (N1 + N2 + |T|) + Σ (|Fx| + |Fy| + |M|/L). `length` is L

@@ -26,10 +26,10 @@ pub use least::force_sum_lower_bound;
 
 use std::collections::HashMap;
 
-use crate::assembly::{Assembly, AssemblyBody, LoadVector};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::interface::ContactKind;
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::scene::{BlockId, Scene};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyBody, LoadVector};
+use crate::mechanics::statics::interface::ContactKind;
 
 /// The proof of a verdict: the largest errors of forces or of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 //! numbers are computed by hand.
 
 use super::*;
-use crate::assembly::{AssemblyContact, AssemblyGrip};
-use crate::scene::{BodyId, Limits, RobotId};
+use crate::mechanics::scene::{BodyId, Limits, RobotId};
+use crate::mechanics::statics::assembly::{AssemblyContact, AssemblyGrip};
 
 mod balance;
 mod least;

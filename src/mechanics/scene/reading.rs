@@ -148,8 +148,8 @@ pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::format;
-    use crate::scene::tree::{Node, NodeKind, Tree};
+    use crate::mechanics::scene::format;
+    use crate::mechanics::scene::tree::{Node, NodeKind, Tree};
 
     /// Reads a text with serde, which checks only the types of the values.
     fn by_types(text: &str) -> Option<SceneFile> {

@@ -110,7 +110,7 @@ impl<'t> Source<'t> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::path::Trail;
+    use crate::mechanics::scene::path::Trail;
 
     #[test]
     fn values_and_keys_are_found_at_their_place_in_the_text() {

@@ -320,7 +320,7 @@ impl<'t> Parser<'t> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::format::agrees;
+    use crate::mechanics::scene::format::agrees;
 
     #[test]
     fn the_same_texts_are_accepted_as_by_serde_json_with_the_same_values() {

@@ -1,6 +1,6 @@
 //! [`SessionError`]: why a session refused a step, such as placing a block.
 
-use crate::scene::SceneError;
+use crate::mechanics::scene::SceneError;
 use crate::text::line;
 
 /// Why a session could not start, or why it refused a step. A refused step does not change the session.

@@ -15,15 +15,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use error::SessionError;
 
-use crate::analysis::{
+use crate::geometry::{Cell, Point};
+use crate::mechanics::analysis::{
     Analysis, CapacityError, CapacityRequest, LoadCapacity, MarginKinds, Margins, Options, Source, Verdict, WarmStart,
     capacity_of, hinges_on_gaps,
 };
-use crate::geometry::{Cell, Point};
-use crate::interface::{Interfaces, LatticeEdges};
-use crate::scene::format::{BlockEntry, SceneFile};
-use crate::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
-use crate::solve::DeadlineGuard;
+use crate::mechanics::scene::format::{BlockEntry, SceneFile};
+use crate::mechanics::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
+use crate::mechanics::solve::DeadlineGuard;
+use crate::mechanics::statics::interface::{Interfaces, LatticeEdges};
 
 /// A structure under construction.
 ///

@@ -3,7 +3,7 @@
 
 use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::program::{Force, Program};
+use crate::mechanics::program::{Force, Program};
 
 /// The forces at all contacts and grips of a program, in program units.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! [`Answer`]: the result that a solver returns for a [`QuadraticProgram`].
 
-use crate::program::QuadraticProgram;
+use crate::mechanics::program::QuadraticProgram;
 
 /// How a solver ended: with an optimum, with a certificate that there is none, or without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,7 +15,7 @@ use super::{
     from_kinematic_answer, largest, least_squares_amounts, refine_balance, remainder, solve_once_within,
     solve_with_retry,
 };
-use crate::program::{Program, QuadraticProgram, columns, kinematic_dual};
+use crate::mechanics::program::{Program, QuadraticProgram, columns, kinematic_dual};
 
 /// The result of the program of least force.
 #[derive(Clone, Debug)]

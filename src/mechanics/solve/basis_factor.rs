@@ -13,7 +13,7 @@
 //! unit column. Reference: Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 6 (threshold partial
 //! pivoting).
 
-use crate::program::Column;
+use crate::mechanics::program::Column;
 
 /// The nonzero entries of a column as (position, value), with ascending positions.
 pub(super) type SparseColumn = Vec<(usize, f64)>;
@@ -217,7 +217,7 @@ pub(super) fn placed(column: &Column, position: &[usize]) -> SparseColumn {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::random_numbers::RandomNumbers;
+    use crate::mechanics::solve::random_numbers::RandomNumbers;
 
     const ROWS: usize = 30;
 

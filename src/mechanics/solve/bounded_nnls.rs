@@ -27,7 +27,7 @@ use search::{Entry, Search, State};
 
 use super::amounts::Amounts;
 use super::incremental_cholesky::IncrementalCholesky;
-use crate::program::{Column, Force, Program, columns};
+use crate::mechanics::program::{Column, Force, Program, columns};
 
 /// A column may enter the passive set if its gradient exceeds this fraction of |column|·|residual|.
 ///

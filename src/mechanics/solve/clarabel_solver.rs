@@ -17,7 +17,7 @@ use super::answer::{Answer, Status};
 use super::deadline::deadline;
 use super::settings::{Conditioning, SolverSettings};
 use crate::clock::Instant;
-use crate::program::QuadraticProgram;
+use crate::mechanics::program::QuadraticProgram;
 
 /// Solves a quadratic program of any size with clarabel. All numbers of the program must be finite.
 pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings, iterations: usize) -> Answer {

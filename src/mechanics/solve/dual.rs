@@ -13,7 +13,7 @@ use super::amounts::Effort;
 use super::answer::{Answer, Status};
 use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings};
 use super::solver::solve_within;
-use crate::program::{Column, QuadraticProgram, force_primal, kinematic_dual};
+use crate::mechanics::program::{Column, QuadraticProgram, force_primal, kinematic_dual};
 
 /// The solution of a linear program and of its kinematic dual.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@
 //! Matrix Computations, 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
 
 use super::residual_norm::largest;
-use crate::program::{Column, product};
+use crate::mechanics::program::{Column, product};
 
 /// The largest number of rows. Larger systems are solved by the sparse solver, because the work of dense elimination
 /// grows with the cube of the rows.

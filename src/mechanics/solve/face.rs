@@ -9,7 +9,7 @@ use super::answer::Status;
 use super::dual::{Dual, solve_with_retry};
 use super::exact;
 use super::settings::SolverSettings;
-use crate::program::{Column, Program, least_squares};
+use crate::mechanics::program::{Column, Program, least_squares};
 
 /// A face of the polyhedron of all balances (admissible forces that balance the loads). It is described by the columns
 /// whose amounts may vary on the face, and by the columns that are at their limits everywhere on the face. All other

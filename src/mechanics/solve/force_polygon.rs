@@ -23,7 +23,7 @@ use super::simplex::{Move, Simplex, Variable};
 use super::support::farthest_cost;
 use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::program::{Column, Force, Program, kinematic_dual};
+use crate::mechanics::program::{Column, Force, Program, kinematic_dual};
 
 /// All forces of a grip: a convex polygon, which may be unbounded on one side.
 #[derive(Clone, Debug)]

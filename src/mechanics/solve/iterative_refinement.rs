@@ -4,7 +4,7 @@
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solve_with_retry};
-use crate::program::{Column, Correction, least_norm, least_squares};
+use crate::mechanics::program::{Column, Correction, least_norm, least_squares};
 
 /// The largest number of rounds of [`refine_balance`]. Each round adds about nine correct digits, so two
 /// rounds reach the precision of f64.

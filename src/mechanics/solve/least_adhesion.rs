@@ -20,7 +20,7 @@ use super::{
     determinate, dual, from_kinematic_answer, largest, least_adhesion_levels, least_squares_amounts, refine_balance,
     solve_once, solve_static_form,
 };
-use crate::program::{Column, Program, adhesion_columns, kinematic_dual};
+use crate::mechanics::program::{Column, Program, adhesion_columns, kinematic_dual};
 
 /// The largest number of rounds of stage 3. The number of points rarely falls after the third round.
 const MAX_ROUNDS: usize = 4;

@@ -6,7 +6,7 @@
 
 use super::level::{WIDE_LOAD_RATIO, block_loads, lightest, refined_optimum, with_least_squares};
 use super::{Dual, Effort, Face, SolverSettings, Status, dual, largest};
-use crate::program::Column;
+use crate::mechanics::program::Column;
 
 /// If the least sum of adhesion is below this fraction of the largest load, the optimum is refined until forces of the
 /// size of this sum are accurate.

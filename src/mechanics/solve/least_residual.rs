@@ -19,7 +19,7 @@ use super::{
     Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder, solve_static_form,
     solve_with_retry,
 };
-use crate::program::{Column, Program, least_residual_dual};
+use crate::mechanics::program::{Column, Program, least_residual_dual};
 
 /// Forces and a motion. A proof may accept one of them: the forces if they balance the loads, otherwise the motion.
 #[derive(Clone, Debug)]

@@ -21,7 +21,7 @@ use super::{
     solve_with_retry,
 };
 use crate::geometry::CompensatedSum;
-use crate::program::{Column, QuadraticProgram};
+use crate::mechanics::program::{Column, QuadraticProgram};
 
 /// The optimum needs refinement by levels if the lightest load is below this fraction of the heaviest.
 pub(super) const WIDE_LOAD_RATIO: f64 = 1e-3;

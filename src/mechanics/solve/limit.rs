@@ -12,7 +12,7 @@ use super::reduced_columns::ReducedColumns;
 use super::{
     Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest, solve,
 };
-use crate::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
+use crate::mechanics::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
 
 /// The extreme value of a load factor or of a robot's limit.
 #[derive(Clone, Copy, Debug, PartialEq)]

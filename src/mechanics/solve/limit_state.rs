@@ -6,7 +6,7 @@
 use super::limit::{ScaledLoads, attempts, columns_in};
 use super::reduced_columns::ReducedColumns;
 use super::{Status, solve};
-use crate::program::{Column, Program, load_factor_dual};
+use crate::mechanics::program::{Column, Program, load_factor_dual};
 
 /// The optimum of the program of the largest load factor.
 #[derive(Clone, Debug)]

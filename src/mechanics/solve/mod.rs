@@ -2,7 +2,7 @@
 //! adhesion with which it would stand, and for its load limits.
 //!
 //! The results, such as [`Balance`] and [`LeastAdhesion`], are in program units. They are not verdicts: a verdict needs
-//! forces or a motion that [`crate::proof`] has checked. Of several optima, the optimum of least Σ force² is chosen by
+//! forces or a motion that [`crate::mechanics::proof`] has checked. Of several optima, the optimum of least Σ force² is chosen by
 //! default ([`Choice::Unique`]).
 //!
 //! | files | what they do |

@@ -16,7 +16,7 @@
 use super::solver::all_finite;
 use super::{Amounts, Conditioning, Effort, Status, solve_with_retry};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
-use crate::program::{Column, Correction, Force, Program, QuadraticProgram, columns, least_squares};
+use crate::mechanics::program::{Column, Correction, Force, Program, QuadraticProgram, columns, least_squares};
 
 /// The largest number of rounds. Each round adds about as many correct digits as the solver reaches.
 const MAX_ROUNDS: usize = 4;

@@ -6,7 +6,7 @@
 //! a third fewer rows.
 
 use super::Dual;
-use crate::program::{Column, Force};
+use crate::mechanics::program::{Column, Force};
 
 /// The columns that remain after redundant ones are omitted.
 pub(super) struct ReducedColumns {

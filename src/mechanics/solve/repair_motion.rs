@@ -9,7 +9,7 @@
 //! Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
-use crate::program::{Column, Force, Program, columns, least_change};
+use crate::mechanics::program::{Column, Force, Program, columns, least_change};
 
 /// The speed at which every contact is made to open, relative to the largest velocity (about 1).
 ///

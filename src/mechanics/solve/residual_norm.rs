@@ -1,6 +1,6 @@
 //! Computes the residual of forces: the part of the loads that the forces do not balance.
 
-use crate::program::Column;
+use crate::mechanics::program::Column;
 
 /// Returns the residual loads − Σ amount·column, one number for each row.
 pub(super) fn remainder(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {

@@ -12,7 +12,7 @@ use super::clarabel_solver::by_clarabel;
 use super::deadline::{deadline, is_late};
 use super::normal;
 use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria};
-use crate::program::QuadraticProgram;
+use crate::mechanics::program::QuadraticProgram;
 
 /// Solves a linear or quadratic program to the given tolerance.
 ///

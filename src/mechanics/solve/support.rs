@@ -11,7 +11,7 @@ use super::limit::{columns_in, rebalanced};
 use super::reduced_columns::ReducedColumns;
 use super::{Amounts, Conditioning, Face, Status, TOLERANCE, largest, solve};
 use crate::geometry::Vector;
-use crate::program::{Column, Force, Program, kinematic_dual};
+use crate::mechanics::program::{Column, Force, Program, kinematic_dual};
 
 /// The largest force of a grip in a direction.
 #[derive(Clone, Debug)]

@@ -14,7 +14,7 @@ use super::limit::{columns_in, rebalanced};
 use super::reduced_columns::ReducedColumns;
 use super::{Amounts, Conditioning, Effort, Face, Status, largest, solve_with_retry};
 use crate::geometry::{Vector, quarter_turn};
-use crate::program::{Column, Force, Program, least_residual_dual};
+use crate::mechanics::program::{Column, Force, Program, least_residual_dual};
 
 /// The optimum of the program of least residual, from which [`Tangent::estimate_residual`] estimates the residual of
 /// other programs.

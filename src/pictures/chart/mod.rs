@@ -251,7 +251,7 @@ pub(crate) fn round_step(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Face;
+    use crate::pictures::drawing::Face;
 
     #[test]
     fn every_value_is_counted_once_between_round_edges() {

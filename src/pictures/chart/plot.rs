@@ -12,7 +12,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, RGBColor, TextStyle, register_font};
 
 use super::{Bars, ChartError, LARGE_SIZE, SMALL_SIZE, round_step};
-use crate::drawing::Face;
+use crate::pictures::drawing::Face;
 use crate::text::xml;
 pub(super) use course::course;
 pub(super) use growth::growth;

@@ -166,7 +166,7 @@ fn accent(letter: &Letter, at: PagePoint, size: f64, ink: Colour) -> Option<Path
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Item;
+    use crate::pictures::drawing::Item;
 
     #[test]
     fn a_subscript_widens_a_symbol_and_a_superscript_is_above_the_subscript() {

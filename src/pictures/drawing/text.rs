@@ -269,7 +269,7 @@ mod tests {
     use skrifa::instance::{LocationRef, Size};
 
     use super::*;
-    use crate::drawing::advance;
+    use crate::pictures::drawing::advance;
 
     /// Returns the characters of a face with their widths in font units.
     fn characters(face: Face) -> Vec<(char, u16)> {

@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::drawing::{Face, text};
+use crate::pictures::drawing::{Face, text};
 
 /// The built-in fonts, and fonts that were added.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use super::pdf::{self, PdfError};
 use super::png::{self, Compression, PngError, Size};
 use super::svg::{self, OutlineError, Words};
 use super::tikz;
-use crate::drawing::Drawing;
+use crate::pictures::drawing::Drawing;
 
 /// A format in which a drawing is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Writes a [`Drawing`](crate::drawing::Drawing) in the format SVG, PNG, GIF, PDF or TikZ.
+//! Writes a [`Drawing`](crate::pictures::drawing::Drawing) in the format SVG, PNG, GIF, PDF or TikZ.
 //!
 //! PNG, GIF and PDF are made from the SVG with resvg, so all show the same picture. The same drawing gives the same
 //! bytes on every machine: files do not depend on the time, on paths or on installed fonts.

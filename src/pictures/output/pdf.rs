@@ -26,7 +26,7 @@ use painter::PdfPainter;
 
 use super::fonts::Fonts;
 use super::{MM_PER_INCH, PIXELS_PER_INCH, svg, tree};
-use crate::drawing::{Drawing, Face, PagePoint, PageRect};
+use crate::pictures::drawing::{Drawing, Face, PagePoint, PageRect};
 use crate::text::line;
 
 /// Why a PDF could not be written.

@@ -31,7 +31,7 @@ use outline::{number, steps};
 
 #[cfg(feature = "png")]
 use super::tree;
-use crate::drawing::{Drawing, Face, Group, Item, Join, PageRect, Path, Stroke};
+use crate::pictures::drawing::{Drawing, Face, Group, Item, Join, PageRect, Path, Stroke};
 use crate::text::xml;
 
 /// The error for text that could not be laid out, or for a font that could not be subset.

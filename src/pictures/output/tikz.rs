@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::{MM_PER_INCH, PIXELS_PER_INCH};
-use crate::drawing::{
+use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke, Text,
 };
 

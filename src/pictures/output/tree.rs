@@ -12,7 +12,7 @@ use resvg::tiny_skia::Transform;
 use resvg::usvg::{self, Group, Node, fontdb};
 
 use super::fonts::Fonts;
-use crate::drawing::Face;
+use crate::pictures::drawing::Face;
 
 /// Reads an SVG document as a tree of shapes and laid-out text.
 ///

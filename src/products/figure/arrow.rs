@@ -4,11 +4,11 @@
 //! Arrows too short to be visible are counted, but not drawn.
 
 use super::words::{counted, listed, quantity};
-use crate::drawing::Colour;
-use crate::drawing::arrow::{HEAD_LENGTH, head_size};
 use crate::geometry::{Point, Vector};
-use crate::scene::format::UnitsEntry;
-use crate::scene::{BodyId, RobotId};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{BodyId, RobotId};
+use crate::pictures::drawing::Colour;
+use crate::pictures::drawing::arrow::{HEAD_LENGTH, head_size};
 
 /// What a straight arrow shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -231,7 +231,7 @@ mod tests {
         let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;
         let marks = Marks {
             turns: vec![TurnArrow {
-                on: BodyId::Block(crate::scene::BlockId(0)),
+                on: BodyId::Block(crate::mechanics::scene::BlockId(0)),
                 at: Point::origin(),
                 torque,
                 arc: torque / 10.0,

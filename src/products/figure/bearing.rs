@@ -1,9 +1,9 @@
 //! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and the used
 //! fraction of its friction.
 
-use crate::analysis::{Contact, FrameAnalysis};
-use crate::interface::ContactKind;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::mechanics::statics::interface::ContactKind;
 
 /// Forces below this fraction of the largest force may be numerical noise of the solver, unless they exceed
 /// [`WEIGHT_TOL`] times the weight of the block.

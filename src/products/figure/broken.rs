@@ -7,10 +7,10 @@ use picture::{DISC_RADIUS, NumberedMark, disc, numbers, structure, view};
 
 use super::layout::MAX_MARGIN;
 use super::option::Options;
-use crate::drawing::text::{cut, wrap};
-use crate::drawing::{Camera, Drawing, Face, Group, PagePoint, PageRect, Text};
-use crate::interface::Interfaces;
-use crate::scene::{Problem, Sketch, Spot};
+use crate::mechanics::scene::{Problem, Sketch, Spot};
+use crate::mechanics::statics::interface::Interfaces;
+use crate::pictures::drawing::text::{cut, wrap};
+use crate::pictures::drawing::{Camera, Drawing, Face, Group, PagePoint, PageRect, Text};
 
 /// Largest number of problems that are marked and listed, and also of gaps. All others are only counted.
 const MAX_MARKED: usize = 30;

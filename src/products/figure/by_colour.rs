@@ -1,6 +1,6 @@
 //! [`ByColour`]: joins outlines of the same colour into one path, so that a file has only a few paths.
 
-use crate::drawing::{Colour, Item, Outline, Path, Stroke};
+use crate::pictures::drawing::{Colour, Item, Outline, Path, Stroke};
 
 /// Outlines joined by colour, in the order in which the colours were added.
 #[derive(Default)]

@@ -8,9 +8,9 @@ use std::fmt::Write as _;
 
 use super::displacement::Course;
 use super::{funicular, unit};
-use crate::analysis::{Analysis, Verdict};
 use crate::geometry::{Point, Polygon};
-use crate::scene::{Frame, Scene};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::{Frame, Scene};
 
 /// The layers with their AutoCAD colour numbers.
 const LAYERS: [(&str, i32); 7] = [

@@ -17,13 +17,13 @@ use super::legend::{self, Entry};
 use super::panel::{composed_with, cut_ground};
 use super::pen::{DISPLACED_OPACITY, Pen};
 use super::words::{quantity, round_below_in};
-use crate::analysis::CapacityShape;
-use crate::drawing::arrow::straight;
-use crate::drawing::placement::Ink;
-use crate::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
 use crate::geometry::{Bounds, Point};
-use crate::scene::Scene;
-use crate::wording;
+use crate::mechanics::analysis::CapacityShape;
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
+use crate::products::wording;
 use plan::{Plan, SmallPicture, falling};
 
 /// Opacity of the area of carried forces.
@@ -319,7 +319,7 @@ fn small_ground(pen: &Pen<'_>, shown: PageRect, place: &impl Fn(Point) -> PagePo
     ground
 }
 
-fn edge_colour(theme: &Theme) -> crate::drawing::Colour {
+fn edge_colour(theme: &Theme) -> crate::pictures::drawing::Colour {
     theme.safe.mixed(theme.ink, 0.15)
 }
 

@@ -2,8 +2,8 @@
 
 use super::verdict::word;
 use super::words::letter;
-use crate::analysis::{Analysis, Verdict};
-use crate::wording::verdict::reasons;
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::products::wording::verdict::reasons;
 
 /// Returns the caption of a figure: the title, followed by the verdict and its reasons for every frame.
 ///

@@ -1,6 +1,6 @@
 //! Finds the block that the user names in an option of a figure, such as `--block`.
 
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::scene::{BlockId, Scene};
 use crate::text::{self, nearest};
 
 /// Largest number of blocks that a message lists.

@@ -4,10 +4,10 @@ use super::displacement::rigid_bodies;
 use super::joint::{Joint, joints};
 use super::largest;
 use super::words::{counted, listed};
-use crate::analysis::{Analysis, Motion, Verdict};
-use crate::drawing::text::NO_BREAK;
-use crate::scene::BodyId;
-use crate::wording::failure::{by_amount, missing_phrase};
+use crate::mechanics::analysis::{Analysis, Motion, Verdict};
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::text::NO_BREAK;
+use crate::products::wording::failure::{by_amount, missing_phrase};
 
 /// Largest number of rigid bodies that are described one by one.
 const MAX_DESCRIBED_BODIES: usize = 3;

@@ -16,11 +16,11 @@ use super::mark;
 use super::panel::composed;
 use super::pen::Pen;
 use super::words::{listed, quantity};
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::arrow::straight;
-use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Vector};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 
 /// The radius of the ring that marks a change, in unit lengths, with its least and largest allowed radius in pixels.
 const RING_RADIUS: (f64, f64, f64) = (0.16, 4.0, 9.0);

@@ -19,9 +19,9 @@ use super::pen::Pen;
 use super::unit::unit;
 use super::verdict;
 use super::view;
-use crate::analysis::{Analysis, MarginKind};
-use crate::drawing::Group;
 use crate::geometry::{Bounds, Point};
+use crate::mechanics::analysis::{Analysis, MarginKind};
+use crate::pictures::drawing::Group;
 
 /// The name of a kind of figure, and its requirements. Every kind has a name, a help text and a title.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,7 +39,7 @@ pub(crate) struct About {
     /// Whether the analysis has to compute how a margin changes with corners, weights, friction and loads.
     pub needs_sensitivity: bool,
     /// Whether each falling part is shown with one elementary mechanism
-    /// ([`Analysis::elementary`](crate::analysis::Analysis::elementary)), and an animation shows several steps of its
+    /// ([`Analysis::elementary`](crate::mechanics::analysis::Analysis::elementary)), and an animation shows several steps of its
     /// motion.
     pub needs_elementary_mechanisms: bool,
     /// Whether the arrows of all panels have one scale, independent of the options.

@@ -8,8 +8,8 @@ use super::displacement::{self, Course, Displacement};
 use super::fill::{FillScale, Fills};
 use super::option::Options;
 use super::view;
-use crate::analysis::{Analysis, ThrustStates};
 use crate::geometry::{Bounds, Point, Vector};
+use crate::mechanics::analysis::{Analysis, ThrustStates};
 
 /// In frames with more blocks than this, shapes of one colour are drawn as one path without tooltips. Thousands of
 /// elements would make a file slow to open.

@@ -3,9 +3,9 @@
 use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
 use super::context::FigureContext;
 use super::words::{force, quantity};
-use crate::analysis::Motion;
-use crate::scene::{Block, BodyId, Scene};
-pub(crate) use crate::wording::failure::{named, pair};
+use crate::mechanics::analysis::Motion;
+use crate::mechanics::scene::{Block, BodyId, Scene};
+pub(crate) use crate::products::wording::failure::{named, pair};
 
 /// Returns the weight of a block and the value that its colour shows, in words. `place` is the index of the block among
 /// the placed blocks of the frame.
@@ -35,7 +35,7 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
 pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
     let scene = &context.analysis.scene;
     let named = |id: BodyId| named(scene, id);
-    let robot = |id: crate::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
+    let robot = |id: crate::mechanics::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
     let (on, amount) = (named(arrow.on), force(arrow.force, context.analysis.scene.units));
     let torque = quantity(arrow.force.norm() * context.unit, context.analysis.scene.units.torque());
     match arrow.kind {

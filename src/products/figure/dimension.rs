@@ -3,9 +3,9 @@
 
 use super::context::FigureContext;
 use super::words::quantity;
-use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
 use crate::geometry::Bounds;
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, Path, Stroke, Text, text};
 
 /// Height of the space below a picture for the dimension of its width, pixels.
 pub(crate) const SPACE_BELOW: f64 = 26.0;

@@ -18,9 +18,9 @@ mod rigid;
 
 use super::arrow::Marks;
 use super::joint::joints;
-use crate::analysis::{Analysis, Motion, Verdict};
 use crate::geometry::{Bounds, Point};
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{Analysis, Motion, Verdict};
+use crate::mechanics::scene::{BodyId, Scene};
 use clearance::Clearance;
 use group::connected_groups;
 pub(crate) use group::{moving, rigid_bodies};

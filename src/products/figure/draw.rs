@@ -6,8 +6,8 @@ use super::kind::Kind;
 use super::layout::Layout;
 use super::option::Options;
 use super::strip::{self, strip};
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::Drawing;
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::pictures::drawing::Drawing;
 
 /// Time between two pictures of an animated motion, seconds.
 const MOTION_FRAME_SECONDS: f64 = 0.1;

@@ -8,10 +8,10 @@
 
 use super::option::Fill;
 use super::words::quantity;
-use crate::analysis::{Analysis, FrameAnalysis};
-use crate::drawing::{Colour, PLASMA, Theme};
-use crate::scene::format::UnitsEntry;
-use crate::scene::{BlockId, BodyId, Frame, Scene};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
+use crate::pictures::drawing::{Colour, PLASMA, Theme};
 
 /// The quantity that colours show, and its value at the end of the colour scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,7 +194,7 @@ fn largest(
     scene: &Scene,
     frame: &Frame,
     frame_analysis: &FrameAnalysis,
-    amount: impl Fn(&crate::analysis::Contact) -> f64,
+    amount: impl Fn(&crate::mechanics::analysis::Contact) -> f64,
 ) -> Vec<f64> {
     let mut most = vec![0.0_f64; scene.blocks.len()];
     for contact in &frame_analysis.contacts {

@@ -27,11 +27,11 @@ use super::option::Options;
 use super::panel::{composed_with, robot_limits};
 use super::pen::Pen;
 use super::unit::{LOAD_SHAFT, longest_load, unit};
-use crate::analysis::{Analysis, FrameAnalysis, Verdict};
-use crate::drawing::placement::Ink;
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 
 /// The width of the band of the largest force in unit lengths, with its least and largest allowed width in pixels.
 const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);

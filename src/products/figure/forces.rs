@@ -9,8 +9,8 @@ use super::mark;
 use super::panel;
 use super::pen::Pen;
 use super::verdict;
-use crate::drawing::Group;
 use crate::geometry::Bounds;
+use crate::pictures::drawing::Group;
 
 /// The figure of forces. The options decide whether each panel has its own scale of arrows.
 pub(crate) const FORCES: Forces = Forces {

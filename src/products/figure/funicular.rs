@@ -15,9 +15,9 @@
 //! point. The line of thrust therefore has no gaps.
 
 use super::bearing::{self, bearings};
-use crate::analysis::FrameAnalysis;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
-use crate::scene::{AppliedForce, Block, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
+use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::scene::{AppliedForce, Block, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
 /// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
 /// accuracy of about 1e-9, so rounding errors are far smaller.

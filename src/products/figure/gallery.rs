@@ -7,9 +7,9 @@ use super::plate::Panel;
 use super::ring::ring;
 use super::shapes::shapes;
 use super::{Kind, draw};
-use crate::analysis::Analysis;
-use crate::drawing::{Drawing, Theme};
-use crate::scene::Scene;
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::{Drawing, Theme};
 
 /// A figure of the gallery.
 #[derive(Clone, Debug)]
@@ -135,7 +135,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         Subject::Freebody(text, block) => {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
-            let id = crate::scene::BlockId(id.expect("the built-in scene has this block"));
+            let id = crate::mechanics::scene::BlockId(id.expect("the built-in scene has this block"));
             // The figures of the thesis name every unknown.
             let options = Options { corners: Corners::All, ..options };
             let drawing = freebody(&Analysis::new(&scene), 0, id, &options);

@@ -4,9 +4,9 @@
 //! In a mechanism that proves a fall, a contact opens at least with μ times its sliding speed. A contact that opens
 //! with exactly this speed slips with friction. A contact that opens faster is free.
 
-use crate::analysis::{Analysis, Contact, FrameAnalysis, Motion};
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, BodyId};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Motion};
+use crate::mechanics::scene::{BlockId, BodyId};
 
 /// Relative speeds below this fraction of the largest relative speed count as zero. The tolerance is larger than that
 /// of forces, because the solver computes motions less accurately.
@@ -126,7 +126,7 @@ fn velocity(analysis: &Analysis, motions: &[Option<Motion>], body: BodyId, at: P
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::mechanics::scene::Scene;
 
     fn joints_of(text: &str) -> (Scene, Vec<Joint>) {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));

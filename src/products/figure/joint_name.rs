@@ -1,9 +1,9 @@
 //! [`joint_name`]: names a joint by its two bodies, and by its side if the same bodies have several joints.
 
 use super::description;
-use crate::analysis::{Contact, FrameAnalysis};
 use crate::geometry::{Bounds, Point};
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::{BodyId, Scene};
 
 /// Returns the names of the two bodies of a joint, such as `beam and the ground`. If the bodies have several joints,
 /// the side of the joint follows: `beam and the ground (left)`.

@@ -13,9 +13,9 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL_UTILISATION, percent, quantity};
-use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point};
+use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.

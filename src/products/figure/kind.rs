@@ -14,11 +14,11 @@ use super::polygon::ForcePolygon;
 use super::sensitivity::CornerEffects;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
-use crate::analysis::{self, Analysis, MarginKinds};
+use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::analysis::{CapacityRequest, Sensitivity};
+use crate::mechanics::analysis::{CapacityRequest, Sensitivity};
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::scene::Scene;
+use crate::mechanics::scene::Scene;
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -153,19 +153,19 @@ impl Kind {
     }
 
     /// True if the figure needs margins. The analysis computes them only on request
-    /// ([`analysis::Options::margins`](crate::analysis::Options::margins)).
+    /// ([`analysis::Options::margins`](crate::mechanics::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
         self.content().about().needs_margins
     }
 
     /// True if the figure needs the forces that a block can carry. The analysis computes them only on request
-    /// ([`analysis::Options::capacity`](crate::analysis::Options::capacity)).
+    /// ([`analysis::Options::capacity`](crate::mechanics::analysis::Options::capacity)).
     pub fn needs_capacity(self) -> bool {
         self.content().about().needs_capacity
     }
 
     /// True if the figure needs the derivatives of a margin. The analysis computes them only on request
-    /// ([`analysis::Options::sensitivity`](crate::analysis::Options::sensitivity)).
+    /// ([`analysis::Options::sensitivity`](crate::mechanics::analysis::Options::sensitivity)).
     pub fn needs_sensitivity(self) -> bool {
         self.content().about().needs_sensitivity
     }

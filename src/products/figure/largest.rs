@@ -4,9 +4,9 @@ use super::joint_name::joint_name;
 use super::label::{Callout, EQUAL_FORCE_TOL};
 use super::pen::Pen;
 use super::words::quantity;
-use crate::analysis::{Contact, FrameAnalysis};
-use crate::drawing::Colour;
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::Colour;
 
 /// Forces that differ from the largest by at most this fraction count as equally large.
 const SIMILAR_TOL: f64 = 1e-3;

@@ -2,7 +2,7 @@
 
 use super::context::FigureContext;
 use super::dimension;
-use crate::drawing::{Face, text};
+use crate::pictures::drawing::{Face, text};
 
 /// Largest margin around a figure, pixels.
 pub(crate) const MAX_MARGIN: f64 = 36.0;

@@ -5,10 +5,10 @@ use super::bearing::{Bearing, bearings};
 use super::context::FigureContext;
 use super::joint_name::joint_name;
 use super::words::{FULL_UTILISATION, listed, percent};
-use crate::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
-use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
-use crate::interface::ContactKind;
-use crate::scene::{RobotId, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
+use crate::mechanics::scene::{RobotId, Scene};
+use crate::mechanics::statics::interface::ContactKind;
+use crate::pictures::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// A resultant acts at the edge if its distance from an end of the joint is at most this fraction of the joint's
 /// length.

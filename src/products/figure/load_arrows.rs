@@ -6,9 +6,9 @@ use super::mark;
 use super::option::Options;
 use super::pen::CENTROID_RADIUS;
 use super::unit::{LOAD_SHAFT, longest_load, unit};
-use crate::analysis::Analysis;
-use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::Point;
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::drawing::arrow::HEAD_WIDTH;
 
 /// Distance from the circle around the tail of a weight to the tip of a load that acts there. The distance is measured
 /// from the centre of the circle, as a multiple of its radius. It is above 1 because small figures draw larger circles.
@@ -118,10 +118,10 @@ fn covers(missing: &ForceArrow, load: &ForceArrow) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Colour;
-    use crate::figure::Head;
     use crate::geometry::Vector;
-    use crate::scene::{BlockId, BodyId};
+    use crate::mechanics::scene::{BlockId, BodyId};
+    use crate::pictures::drawing::Colour;
+    use crate::products::figure::Head;
 
     fn arrow(kind: ArrowKind, at: [f64; 2], vector: [f64; 2]) -> ForceArrow {
         ForceArrow {

@@ -21,9 +21,9 @@ use super::legend::{self, Entry};
 use super::mechanism;
 use super::panel::composed;
 use super::pen::Pen;
-use crate::analysis::{Analysis, FrameAnalysis, Toward, Verdict};
-use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Toward, Verdict};
+use crate::pictures::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 
 /// The figure of a margin.
 pub(crate) struct CollapseMargin;

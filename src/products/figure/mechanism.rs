@@ -3,7 +3,7 @@
 //!
 //! Blocks move along their velocities in finite rigid motions, so they keep their shapes. The amplitude is chosen for
 //! visibility, but blocks do not visibly overlap. For each part that falls one elementary mechanism is drawn
-//! ([`Analysis::elementary`](crate::analysis::Analysis::elementary)). In the motion that proves a fall, a sliding
+//! ([`Analysis::elementary`](crate::mechanics::analysis::Analysis::elementary)). In the motion that proves a fall, a sliding
 //! block also lifts, by μ per metre of sliding. If possible, the block is drawn sliding along its joint; otherwise
 //! the legend states that it lifts. If the scene only allows contact forces in a safe part of each interface (the key
 //! `kernel`), a block turns about an end of this safe part. Its corner is then drawn inside the neighbouring block.
@@ -24,11 +24,11 @@ use super::panel::composed;
 use super::pen::{DISPLACED_OPACITY, MIN_READABLE_UNIT_LENGTH, Pen};
 use super::verdict;
 use super::words::quantity;
-use crate::analysis::{Analysis, FrameAnalysis, MarginKind, Motion, Verdict};
-use crate::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::geometry::Bounds;
-use crate::scene::BlockId;
-use crate::wording;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Motion, Verdict};
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::products::wording;
 
 /// Returns a box around all displaced blocks in their displaced positions, metres; `None` if no block is displaced.
 pub(crate) fn reach(analysis: &Analysis, displaced: &[Option<Displacement>]) -> Option<Bounds> {

@@ -1,7 +1,7 @@
 //! Draws the results of an analysis as figures.
 //!
-//! The figures convert the numbers of an [`Analysis`](crate::analysis::Analysis) to shapes of a
-//! [`Drawing`](crate::drawing::Drawing). No verdict depends on computations in this folder. The [`Kind`] of a figure
+//! The figures convert the numbers of an [`Analysis`](crate::mechanics::analysis::Analysis) to shapes of a
+//! [`Drawing`](crate::pictures::drawing::Drawing). No verdict depends on computations in this folder. The [`Kind`] of a figure
 //! determines its content; each kind is in a separate file.
 
 mod parallel_arrows;

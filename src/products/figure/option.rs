@@ -1,8 +1,8 @@
 //! [`Options`]: the options of a figure, such as its colours, its scale of arrows and its size.
 
-use crate::analysis::Toward;
-use crate::drawing::Theme;
-use crate::scene::BlockId;
+use crate::mechanics::analysis::Toward;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::Theme;
 
 /// Whether the force of an interface is drawn as one arrow or as components.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

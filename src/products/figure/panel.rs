@@ -8,10 +8,10 @@ use super::limit;
 use super::pen::{MIN_READABLE_UNIT_LENGTH, Pen};
 use super::unit::unit;
 use super::view;
-use crate::analysis::RobotForce;
-use crate::drawing::placement::Ink;
-use crate::drawing::{Group, Item};
 use crate::geometry::{Bounds, Point};
+use crate::mechanics::analysis::RobotForce;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Group, Item};
 
 /// Draws the picture of a frame with the arrows of its forces. `view` is the shown part of the scene in metres; ground
 /// outside it is cut off.

@@ -16,8 +16,8 @@ mod place;
 
 use self::place::BoxGrid;
 use super::arrow::{ForceArrow, Marks};
-use crate::drawing::arrow::{HEAD_WIDTH, head_size};
 use crate::geometry::{Bounds, Vector};
+use crate::pictures::drawing::arrow::{HEAD_WIDTH, head_size};
 
 /// Arrows whose directions differ by less than this, rad (7°), count as parallel, because they would cover each other
 /// over most of their lengths. Arrows at a larger angle cross, and a reader can distinguish them.
@@ -196,15 +196,15 @@ fn parts(arrow: &ForceArrow) -> [(f64, f64, f64); 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Analysis;
-    use crate::figure::{Options, marks};
-    use crate::scene::Scene;
+    use crate::mechanics::analysis::Analysis;
+    use crate::mechanics::scene::Scene;
+    use crate::products::figure::{Options, marks};
 
     fn spread(text: &str) -> Vec<ForceArrow> {
         let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
         let analysis = Analysis::new(&scene);
         let options = Options::default();
-        let largest = crate::figure::mark::largest(&analysis, 0, &options);
+        let largest = crate::products::figure::mark::largest(&analysis, 0, &options);
         let mut marks = marks(&analysis, 0, &options, largest);
         let before = marks.clone();
         separate_parallel_arrows(&mut marks);

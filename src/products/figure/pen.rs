@@ -11,9 +11,9 @@ use super::by_colour::ByColour;
 use super::context::{FigureContext, MANY_BLOCKS};
 use super::description;
 use super::displacement::Displacement;
-use crate::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::{Bounds, Lattice, Point};
-use crate::scene::{BlockId, Body, Rgb};
+use crate::mechanics::scene::{BlockId, Body, Rgb};
+use crate::pictures::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 
 /// Radius of the ring at the tail of a weight, as a multiple of its shaft's width.
 pub(crate) const CENTROID_RADIUS: f64 = 1.25;

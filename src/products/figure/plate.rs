@@ -5,8 +5,8 @@ use super::forces::FORCES;
 use super::layout::Layout;
 use super::option::Options;
 use super::strip::{Strip, page};
-use crate::analysis::Analysis;
-use crate::drawing::Drawing;
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::drawing::Drawing;
 
 /// A panel of a plate.
 #[derive(Clone, Copy, Debug)]

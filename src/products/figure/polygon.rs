@@ -23,12 +23,12 @@ use super::unit::unit;
 use super::verdict;
 use super::view;
 use super::words::{letter, listed, quantity, round_below, round_below_in};
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::arrow::straight;
-use crate::drawing::placement::Ink;
-use crate::drawing::{Group, Item, Outline, Path, Stroke};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::scene::{BodyId, Unit};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::{BodyId, Unit};
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Group, Item, Outline, Path, Stroke};
 use symbol::{JOIN_SYMBOL, join_stroke, join_symbol, missing, missing_symbol};
 
 /// Largest width and height of the polygon, as a fraction of the larger side of the structure.

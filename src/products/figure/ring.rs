@@ -3,8 +3,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::drawing::arrow::straight;
-use crate::drawing::{
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Segment, Stroke, Text, Theme,
 };
 

@@ -17,16 +17,16 @@ use super::legend::{self, Entry};
 use super::panel::composed_with;
 use super::pen::Pen;
 use super::words::{counted, round_below};
-use crate::analysis::MarginKind;
-use crate::drawing::arrow::straight;
-use crate::drawing::placement::Ink;
-use crate::drawing::{
+use crate::geometry::Bounds;
+use crate::mechanics::analysis::MarginKind;
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{
     Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
-use crate::geometry::Bounds;
-use crate::scene::Scene;
-use crate::wording::number::digits;
-use crate::wording::sensitivity::{end_name, length, name, value, without};
+use crate::products::wording::number::digits;
+use crate::products::wording::sensitivity::{end_name, length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
 
 /// Radius of the disc around the number of a change without an arrow, as a multiple of the font size.

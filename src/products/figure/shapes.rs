@@ -3,9 +3,9 @@
 
 use super::layout::MAX_MARGIN;
 use super::pen::seams;
-use crate::drawing::{Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme};
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
-use crate::scene::{Body, shape};
+use crate::mechanics::scene::{Body, shape};
+use crate::pictures::drawing::{Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme};
 
 /// Length of the side of a lattice cell, pixels.
 const UNIT_LENGTH: f64 = 46.0;

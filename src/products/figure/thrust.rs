@@ -25,9 +25,9 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
 use super::words::quantity;
-use crate::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
-use crate::drawing::Group;
 use crate::geometry::Bounds;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
+use crate::pictures::drawing::Group;
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;

@@ -1,6 +1,6 @@
 //! [`lines`]: breaks the title of a figure into lines that fit the width of its page.
 
-use crate::drawing::{Face, Theme, text};
+use crate::pictures::drawing::{Face, Theme, text};
 
 /// If a title has more lines than this, a smaller font size is used.
 const MAX_FULL_SIZE_LINES: usize = 3;

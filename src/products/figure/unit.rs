@@ -2,7 +2,7 @@
 
 use super::view;
 use crate::geometry::Bounds;
-use crate::scene::{Block, BlockId, Scene};
+use crate::mechanics::scene::{Block, BlockId, Scene};
 
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
 const UNEVEN_RATIO: f64 = 3.0;

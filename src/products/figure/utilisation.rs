@@ -19,11 +19,11 @@ use super::panel::composed;
 use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL_UTILISATION, counted, percent, quantity};
-use crate::analysis::{Contact, FrameAnalysis, Verdict};
-use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::Bounds;
-use crate::interface::ContactKind;
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::mechanics::statics::interface::ContactKind;
+use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use symbol::{SYMBOL_WIDTH, full_symbol, idle_symbol, smooth_symbol};
 
 /// The width of the line of an interface in unit lengths, with the least and the largest value of this width in pixels.

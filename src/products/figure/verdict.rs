@@ -1,9 +1,9 @@
 //! Draws the symbol of a verdict: a disc with a tick, a cross or a question mark, so that the verdict is clear without
-//! colours. Its text comes from [`wording`](crate::wording).
+//! colours. Its text comes from [`wording`](crate::products::wording).
 
-use crate::analysis::{FrameAnalysis, Verdict};
-use crate::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
-pub(crate) use crate::wording::verdict::{plain as word, reason};
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
+pub(crate) use crate::products::wording::verdict::{plain as word, reason};
 
 /// Returns the colour of the symbol of a verdict.
 pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
@@ -53,8 +53,8 @@ pub(crate) fn mark_in(colour: Colour, verdict: Verdict, centre: PagePoint, r: f6
         Verdict::Undecided => {
             let mut hook = Outline::line([at(-0.3, -0.26)]);
             hook.segments.extend([
-                crate::drawing::Segment::Curve(at(-0.28, -0.72), at(0.42, -0.68), at(0.3, -0.2)),
-                crate::drawing::Segment::Curve(at(0.24, 0.0), at(0.0, 0.0), at(0.0, 0.22)),
+                crate::pictures::drawing::Segment::Curve(at(-0.28, -0.72), at(0.42, -0.68), at(0.3, -0.2)),
+                crate::pictures::drawing::Segment::Curve(at(0.24, 0.0), at(0.0, 0.0), at(0.0, 0.22)),
             ]);
             group
                 .with(Path::stroked(hook, pen()))

@@ -1,9 +1,9 @@
 //! [`shown`]: computes the part of the scene that the panel of each frame shows. Ground far from the blocks is cut off.
 
 use super::arrow::Marks;
-use crate::drawing::arrow::HEAD_WIDTH;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::scene::{BlockId, Frame, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Scene};
+use crate::pictures::drawing::arrow::HEAD_WIDTH;
 
 /// The width of ground shown beyond the blocks, as a fraction of the structure's diagonal; at least one unit length is
 /// shown.

@@ -1,6 +1,6 @@
-//! Re-exports the functions of [`wording`](crate::wording) with which figures format numbers and lists.
+//! Re-exports the functions of [`wording`](crate::products::wording) with which figures format numbers and lists.
 
-pub use crate::wording::number::quantity;
-pub(crate) use crate::wording::number::{
+pub use crate::products::wording::number::quantity;
+pub(crate) use crate::products::wording::number::{
     FULL_UTILISATION, counted, degrees, force, letter, listed, percent, round_below, round_below_in,
 };

@@ -3,7 +3,7 @@
 //! All forms come from one [`Study`]. No form states a date, and all except the Markdown table state the version of
 //! drystone. [`result::accuracy_json`] writes the same study as JSON.
 //!
-//! [`result::accuracy_json`]: crate::result::accuracy_json
+//! [`result::accuracy_json`]: crate::products::result::accuracy_json
 
 mod picture;
 
@@ -13,12 +13,12 @@ use std::fmt::Write as _;
 
 use maud::{DOCTYPE, PreEscaped, html};
 
-use crate::analysis::{Accuracy, Verdict};
-use crate::chart::{ChartError, Point, Scatter, Series, scatter};
-use crate::result::word;
-use crate::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::mechanics::analysis::{Accuracy, Verdict};
+use crate::pictures::chart::{ChartError, Point, Scatter, Series, scatter};
+use crate::products::result::word;
+use crate::products::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::products::wording::verdict::plain;
 use crate::text;
-use crate::wording::verdict::plain;
 
 /// Relative errors below this value are drawn at this value and written as 0. They are rounding errors, because the
 /// unit roundoff of f64 is 1.1e-16.

@@ -20,11 +20,11 @@ use std::path::{Path, PathBuf};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag};
 use serde_json::Value;
 
-use crate::analysis::Analysis;
-use crate::drawing::{Drawing, Theme};
-use crate::figure::{self, Kind};
-use crate::output::svg;
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::{BlockId, Scene};
+use crate::pictures::drawing::{Drawing, Theme};
+use crate::pictures::output::svg;
+use crate::products::figure::{self, Kind};
 use crate::text;
 
 /// Code blocks whose opening fence is followed by this word contain a scene, and are replaced by its figure.

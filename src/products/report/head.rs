@@ -2,10 +2,10 @@
 //! that the writers share.
 
 use super::entry::Row;
-use crate::analysis::Verdict;
-use crate::output::pdf::PdfError;
-use crate::output::svg::OutlineError;
-use crate::scene::Problem;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::scene::Problem;
+use crate::pictures::output::pdf::PdfError;
+use crate::pictures::output::svg::OutlineError;
 use crate::text;
 
 /// A file to write: its name, with `/` between folders, and its content.

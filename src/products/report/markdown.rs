@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::entry::{Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetPart, TableCell, overview};
 use super::head::{Head, OutputFile, ReportError, sign, slug};
-use crate::output::svg::{self, Options, Words};
+use crate::pictures::output::svg::{self, Options, Words};
+use crate::products::wording::verdict::plain;
 use crate::text::{self, markdown, markdown_cell};
-use crate::wording::verdict::plain;
 
 /// The number of characters of a bar.
 const BAR_CHARACTERS: usize = 24;

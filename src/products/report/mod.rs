@@ -2,7 +2,7 @@
 //! and accuracy studies (`accuracy`).
 //!
 //! For `page`, the module `entry` collects the text, numbers and drawings of one scene. The modules `html`, `markdown`
-//! and `print` write them as HTML, Markdown and PDF. The module [`result`](crate::result) writes results as JSON for
+//! and `print` write them as HTML, Markdown and PDF. The module [`result`](crate::products::result) writes results as JSON for
 //! programs.
 
 #[cfg(feature = "report")]

@@ -9,9 +9,9 @@ pub use super::head::{OutputFile, Refused, ReportError};
 use super::entry::{Entry, Row};
 use super::head::Head;
 use super::{html, markdown, print};
-use crate::analysis::Verdict;
-use crate::result::{Counts, Layout, refusal, report_json};
-use crate::wording::number::counted;
+use crate::mechanics::analysis::Verdict;
+use crate::products::result::{Counts, Layout, refusal, report_json};
+use crate::products::wording::number::counted;
 
 /// The form of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +91,7 @@ fn json(entry: &Entry) -> String {
     match entry.results.as_slice() {
         [one] => one.clone(),
         several => {
-            let stated = entry.changes.iter().map(|words| crate::result::quoted(words));
+            let stated = entry.changes.iter().map(|words| crate::products::result::quoted(words));
             let stated: Vec<String> = stated.collect();
             format!("{{\"changes\":[{}],\"scenes\":[{}]}}", stated.join(","), several.join(","))
         }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Number, word};
-use crate::study::{Case, Mark, Study};
+use crate::products::study::{Case, Mark, Study};
 use crate::text::json;
 
 #[derive(Serialize)]

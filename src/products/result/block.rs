@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{Number, Pair, place};
 use crate::geometry::Point;
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::scene::{BlockId, Scene};
 
 #[derive(Serialize)]
 pub(super) struct Block<'a> {

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{Motion, Number, Pair, arrow, place};
-use crate::analysis::{CapacityEdge, CapacityVertex, LoadCapacity as Found};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{CapacityEdge, CapacityVertex, LoadCapacity as Found};
+use crate::mechanics::scene::Scene;
 use crate::text;
 
 /// Writes a load capacity as one line of JSON: the value of the key `capacity` in the result of a frame.
@@ -58,7 +58,8 @@ struct InterfaceForces {
 
 impl<'a> Capacity<'a> {
     pub(super) fn new(scene: &'a Scene, capacity: &Found) -> Capacity<'a> {
-        let motions = |list: &[crate::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
+        let motions =
+            |list: &[crate::mechanics::analysis::Motion]| list.iter().map(|m| Motion::new(scene, m)).collect();
         let edge = |edge: &CapacityEdge| Edge {
             from: edge.ends[0],
             to: edge.ends[1],

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::named::Named;
 use super::{Motion, Number};
-use crate::analysis::{Exclusion, Interval, Intervals};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Exclusion, Interval, Intervals};
+use crate::mechanics::scene::Scene;
 
 /// The motions that exclude all values of a parameter. `None` if its interval is not empty; the key is then left out.
 type Reasons<'a> = Option<Vec<Reason<'a>>>;

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::{Number, Pair, arrow, place};
-use crate::analysis::{Contact, Failure, Motion as Moved, RobotForce};
-use crate::interface::ContactKind;
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Contact, Failure, Motion as Moved, RobotForce};
+use crate::mechanics::scene::Scene;
+use crate::mechanics::statics::interface::ContactKind;
 
 #[derive(Serialize)]
 pub(super) struct Interface<'a> {

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::import::Imported;
-use crate::scene::format::Lines;
+use crate::mechanics::scene::format::Lines;
+use crate::sources::import::Imported;
 use crate::text;
 
 /// Writes the log of an import as one JSON object that ends with a line feed. It states how the drawing was

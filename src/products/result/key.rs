@@ -6,7 +6,7 @@
 use serde_json::{Value, json};
 
 pub use super::value_type::Type;
-use crate::scene::Code;
+use crate::mechanics::scene::Code;
 
 /// A key of a result.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@ use std::fmt;
 use serde_json::Value;
 
 use super::{Layout, Result, Timing, to_json, word};
-use crate::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::text;
 use name::{NAMES, Name};
 

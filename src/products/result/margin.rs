@@ -15,8 +15,10 @@ use serde::Serialize;
 use super::excluded::Excluded;
 use super::named::Named;
 use super::{Motion, Number};
-use crate::analysis::{End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{
+    End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
+};
+use crate::mechanics::scene::Scene;
 use crate::text;
 
 /// Writes the margins of a frame as one line of JSON: the value of the key `margins` in the result of the frame.

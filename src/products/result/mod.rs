@@ -56,12 +56,12 @@ use sensitivity::Sensitivity;
 use solve::Solve;
 use wedging::Wedging;
 
-use crate::analysis::{Analysis, EffectName, FrameAnalysis};
 use crate::geometry::{Point, Vector};
-use crate::scene::format::Lines;
-use crate::scene::{BlockId, Scene, ToleranceSource};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis};
+use crate::mechanics::scene::format::Lines;
+use crate::mechanics::scene::{BlockId, Scene, ToleranceSource};
+pub use crate::products::wording::verdict::word;
 use crate::text;
-pub use crate::wording::verdict::word;
 
 /// Whether a result contains solving times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::scene::Note;
+use crate::mechanics::scene::Note;
 
 #[derive(Serialize)]
 pub(super) struct Entry<'a> {

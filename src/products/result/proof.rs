@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Number;
-use crate::analysis::Proof;
+use crate::mechanics::analysis::Proof;
 
 #[derive(Serialize)]
 #[serde(untagged)]

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::{Layout, Origin};
+use crate::mechanics::scene::Problem;
+use crate::mechanics::scene::format::Lines;
 #[cfg(feature = "wasm")]
-use crate::import::Remark;
-use crate::scene::Problem;
-use crate::scene::format::Lines;
+use crate::sources::import::Remark;
 use crate::text;
 
 #[derive(Serialize)]

@@ -6,11 +6,11 @@
 use serde::Serialize;
 
 use super::{Number, Pair, arrow, place};
-use crate::analysis::{
+use crate::geometry::Vector;
+use crate::mechanics::analysis::{
     CornerMoves, CornerSlope, EndSensitivity, FrameAnalysis, NoSensitivity, Sensitivity as Found, Slope,
 };
-use crate::geometry::Vector;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::scene::{BodyId, Scene};
 
 #[derive(Serialize)]
 pub(super) struct Sensitivity<'a> {

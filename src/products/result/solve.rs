@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Number, Timing};
-use crate::analysis::{SolveReport, Stages};
+use crate::mechanics::analysis::{SolveReport, Stages};
 
 #[derive(Serialize)]
 pub(super) struct Solve {

@@ -1,13 +1,13 @@
 //! Tests that the JSON output follows its documented format exactly.
 
 use super::*;
-use crate::analysis::{
+use crate::geometry::{Polygon, Tolerance as Closeness};
+use crate::mechanics::analysis::{
     Contact, EffectName, EffectReport, Failure, Motion as Moved, Proof, Resultant as Sum, RobotForce, SolveReport,
     UndecidedReason, Verdict,
 };
-use crate::geometry::{Polygon, Tolerance as Closeness};
-use crate::interface::ContactKind;
-use crate::scene::{Block, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
+use crate::mechanics::scene::{Block, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
+use crate::mechanics::statics::interface::ContactKind;
 
 fn scene() -> Scene {
     let corners = vec![Point::new(0.0, 0.0), Point::new(3.0, 0.0), Point::new(0.0, 2.0)];
@@ -78,7 +78,7 @@ fn frame() -> FrameAnalysis {
         total_sticking: 4.125,
         weight: 24.0,
         contacts: vec![Contact {
-            interface: crate::interface::Interface {
+            interface: crate::mechanics::statics::interface::Interface {
                 bodies: [a, ground],
                 kind: ContactKind::Edge,
                 ends: [Point::new(0.0, 0.0), Point::new(3.0, -0.0)],
@@ -108,13 +108,13 @@ fn frame() -> FrameAnalysis {
         effects: vec![EffectReport { effect: EffectName::Friction, simulated: true, why: "two".into(), unknowns: 8 }],
         proof: Proof::Mechanism { power: 0.25, worst_violation: 1e-12 },
         solve: SolveReport {
-            method: crate::analysis::Method::LeastForce,
+            method: crate::mechanics::analysis::Method::LeastForce,
             iterations: 9,
             programs: 2,
             groups: 1,
             reused: 0,
             seconds: 0.0004,
-            stages: crate::analysis::Stages::default(),
+            stages: crate::mechanics::analysis::Stages::default(),
         },
         notices: vec![],
     }

@@ -6,8 +6,8 @@
 use serde::Serialize;
 
 use super::{Number, Pair, arrow, place};
-use crate::analysis::{FrameAnalysis, Motion, RuledOut, Slide, Wedged};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{FrameAnalysis, Motion, RuledOut, Slide, Wedged};
+use crate::mechanics::scene::Scene;
 
 #[derive(Serialize)]
 pub(super) struct Wedging<'a> {

@@ -22,7 +22,7 @@ use super::outcome::{Acceptance, CheckOutcome, Snapshot, folders};
 use super::reference::parts;
 use super::setting::{self, Settings};
 use super::store::{self, Access};
-use crate::drawing::Drawing;
+use crate::pictures::drawing::Drawing;
 
 /// The folder for the references of figures, relative to the crate.
 const FIGURE_FOLDER: &str = "tests/snapshots";

@@ -21,12 +21,12 @@ use super::picture::{Difference, Picture, Subject};
 use super::reference::Part;
 use super::setting::Settings;
 use super::store;
-use crate::analysis::Analysis;
-use crate::drawing::{Drawing, Theme};
-use crate::figure::{self, Options};
-use crate::output::png;
-use crate::output::svg;
-use crate::scene::{SceneError, isolate};
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::{SceneError, isolate};
+use crate::pictures::drawing::{Drawing, Theme};
+use crate::pictures::output::png;
+use crate::pictures::output::svg;
+use crate::products::figure::{self, Options};
 
 /// Compares scenes with their references, in parallel. Calls `done` with the name of each scene after it is compared.
 pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {

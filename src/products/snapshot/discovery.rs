@@ -11,7 +11,7 @@ use super::filter::Filter;
 use super::reference::{Part, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::scene::{Scene, SceneError, isolate};
+use crate::mechanics::scene::{Scene, SceneError, isolate};
 
 /// An error in the input of a check.
 #[derive(Debug, thiserror::Error)]

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::scene::{Code, Scene, isolate};
+use crate::mechanics::scene::{Code, Scene, isolate};
 
 /// True if a file counts as a scene or as a damaged scene.
 ///

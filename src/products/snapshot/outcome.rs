@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::discovery::shown;
 use super::layer::Layer;
 use super::store;
-use crate::output::file::WriteError;
-use crate::scene::{Problem, SceneError};
+use crate::mechanics::scene::{Problem, SceneError};
+use crate::pictures::output::file::WriteError;
 
 /// Largest number of changes of one file that a message lists. All further changes are only counted.
 const MAX_LISTED_CHANGES: usize = 12;

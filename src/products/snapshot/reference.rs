@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::layer::Layer;
 use super::setting::Settings;
-use crate::figure::Kind;
+use crate::products::figure::Kind;
 
 /// A reference file of a snapshot, and the options that produce it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,9 +9,9 @@ use toml::de::{DeTable, DeValue};
 use super::fact::DIGITS;
 use super::layer::Layer;
 use super::picture::PixelTolerance;
-use crate::drawing::Theme;
-use crate::figure::Kind;
-use crate::output::png::MAX_SIDE;
+use crate::pictures::drawing::Theme;
+use crate::pictures::output::png::MAX_SIDE;
+use crate::products::figure::Kind;
 
 /// The name of the settings file.
 pub const SETTINGS_FILE: &str = "drystone-snapshots.toml";

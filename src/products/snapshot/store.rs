@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::output::file::{Existing, WriteError, write_whole};
+use crate::pictures::output::file::{Existing, WriteError, write_whole};
 
 /// True if the program runs in continuous integration, where nobody can review a new reference: the environment
 /// variable `CI` has a value other than `false`, `no`, `0` or the empty text.

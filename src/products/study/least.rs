@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 use super::double::Double;
 use super::optimum::{OPTIMALITY_TOL, Optimum, add, entries, product};
 use super::skyline::Skyline;
-use crate::program::{Column, Force, Program, least_squares};
-use crate::solve::{Conditioning, Status, solve};
+use crate::mechanics::program::{Column, Force, Program, least_squares};
+use crate::mechanics::solve::{Conditioning, Status, solve};
 
 /// The number of the contact or grip at which a force acts: contacts come first, then grips.
 type Place = usize;

@@ -3,9 +3,9 @@
 
 use super::Task;
 use super::outcome::Outcome;
-use crate::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
-use crate::program::{Column, Program, Scale, adhesion_columns, columns, force_primal, vallat_program};
-use crate::solve::{
+use crate::mechanics::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
+use crate::mechanics::program::{Column, Program, Scale, adhesion_columns, columns, force_primal, vallat_program};
+use crate::mechanics::solve::{
     Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, least_adhesion_in, solve,
 };
 

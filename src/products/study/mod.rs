@@ -18,19 +18,19 @@ pub use outcome::Outcome;
 pub use reference::Reference;
 pub use summary::{Summary, summary};
 
-use crate::analysis::Verdict;
 use crate::clock::Instant;
-use crate::effect::{self, FrameContext};
-use crate::interface::Interfaces;
-use crate::program::{Program, Scale};
-use crate::proof::Proof;
-use crate::scene::{Frame, Scene};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::Proof;
+use crate::mechanics::scene::{Frame, Scene};
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
 
 /// The solver tolerances of the study.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
 
 /// The default tolerance of an analysis.
-pub const DEFAULT_TOLERANCE: f64 = crate::solve::TOLERANCE;
+pub const DEFAULT_TOLERANCE: f64 = crate::mechanics::solve::TOLERANCE;
 
 /// If a falling frame would need at most this much adhesion to stand, relative to the heaviest load, the verdict
 /// `stable` of a method is not counted as wrong. This is within the documented tolerance of the proofs.

@@ -15,8 +15,8 @@
 
 use super::double::Double;
 use super::skyline::Skyline;
-use crate::program::{Column, Force};
-use crate::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
+use crate::mechanics::program::{Column, Force};
+use crate::mechanics::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
 
 /// A certified optimum.
 pub(super) struct Optimum {

@@ -1,8 +1,8 @@
 //! [`Outcome`]: the result of a solution method for a whole frame.
 
-use crate::analysis::Verdict;
-use crate::program::Scale;
-use crate::solve::{Amounts, Effort};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::Scale;
+use crate::mechanics::solve::{Amounts, Effort};
 
 /// The result of a method for a whole frame or for an independent part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,9 +14,9 @@
 use super::double::Double;
 use super::least::largest_of_unique;
 use super::optimum::{OPTIMALITY_TOL, entries, optimum, power, product};
-use crate::analysis::Verdict;
-use crate::program::{Column, Program, adhesion_columns, columns};
-use crate::solve::{Conditioning, Effort, Status, dual};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::{Column, Program, adhesion_columns, columns};
+use crate::mechanics::solve::{Conditioning, Effort, Status, dual};
 
 /// Largest relative gap of a certificate whose value counts as known to twelve digits.
 const MAX_GAP: f64 = 1e-12;

@@ -1,8 +1,8 @@
 //! [`Summary`]: the errors, times and wrong verdicts of one method at one tolerance, over all frames of a study.
 
 use super::{Mark, Method, Run, Study};
-use crate::analysis::Accuracy;
-use crate::solve::TOLERANCE;
+use crate::mechanics::analysis::Accuracy;
+use crate::mechanics::solve::TOLERANCE;
 
 /// The results of one method at one tolerance over all frames.
 #[derive(Clone, Copy, Debug, PartialEq)]

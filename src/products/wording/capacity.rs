@@ -1,8 +1,8 @@
 //! Describes in words which forces can act on a block without a collapse.
 
 use super::number::{digits, quantity};
-use crate::analysis::{CapacityShape, LoadCapacity, Verdict};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{CapacityShape, LoadCapacity, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::text;
 
 /// Describes a load capacity in words: where the force acts, and how large it may be in each direction. `verdict` is

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::number::{self, NO_BREAK, digits, listed, place, quantity};
-use crate::analysis::{Failure, FrameAnalysis};
-use crate::scene::{BlockId, BodyId, Scene, Unit};
+use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::scene::{BlockId, BodyId, Scene, Unit};
 
 /// Largest number of unsupported blocks that are named. All further blocks are only counted.
 const MAX_LISTED_BLOCKS: usize = 6;

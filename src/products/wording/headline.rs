@@ -2,7 +2,7 @@
 
 use super::margin::{Parameter, StatedMargin, confirmed};
 use super::number::{three_down, three_up};
-use crate::analysis::{End, Interval, Verdict};
+use crate::mechanics::analysis::{End, Interval, Verdict};
 
 /// Describes a margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33
 /// of its load`. `loads` is the number of loads of the frame.
@@ -117,7 +117,7 @@ fn falls(margin: &StatedMargin<'_>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wording::margin::Position;
+    use crate::products::wording::margin::Position;
 
     /// An undecided interval is unknown. It must not be described as an interval without end.
     #[test]

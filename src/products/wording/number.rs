@@ -1,8 +1,8 @@
 //! Formats numbers with units and directions.
 
 use crate::geometry::{Point, Vector};
-use crate::scene::Unit;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::Unit;
+use crate::mechanics::scene::format::UnitsEntry;
 
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';

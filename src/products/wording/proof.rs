@@ -1,7 +1,7 @@
 //! Describes the proof of a verdict in words and numbers.
 
 use super::number::{digits, rough};
-use crate::analysis::Proof;
+use crate::mechanics::analysis::Proof;
 
 /// Describes a proof in a few words, for one line of a table: `forces balance to 3e-12`.
 pub fn short(proof: Proof) -> String {

@@ -2,9 +2,11 @@
 
 use super::failure::{named, pair};
 use super::number::{amount, digits, round_below_in, three};
-use crate::analysis::{CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope};
 use crate::geometry::Vector;
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::analysis::{
+    CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope,
+};
+use crate::mechanics::scene::{BlockId, Scene};
 
 /// The largest distance by which a corner or a load is moved, as a fraction of the median length of the interfaces.
 const LENGTH_STEP_SHARE: f64 = 1.0 / 50.0;
@@ -141,7 +143,7 @@ fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, 
             words: format!(
                 "moving corner {} of {}{with} by {} {}",
                 corner.corner + 1,
-                named(scene, crate::scene::BodyId::Block(corner.block)),
+                named(scene, crate::mechanics::scene::BodyId::Block(corner.block)),
                 length(scene, step),
                 toward(direction)
             ),
@@ -161,7 +163,7 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
     for (block, slope) in &end.weights {
         let amount = WEIGHT_STEP_SHARE * scene.blocks[block.0].weight;
         if let Some((side, rate)) = best_side(*slope, outward) {
-            let name = named(scene, crate::scene::BodyId::Block(*block));
+            let name = named(scene, crate::mechanics::scene::BodyId::Block(*block));
             let how = if side > 0.0 { "heavier" } else { "lighter" };
             let words = format!("making {name} 10 % {how}");
             add(Target::Weight(*block), words, amount, rate);
@@ -189,7 +191,7 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
             let block = scene.loads[*load].block;
             let words = format!(
                 "moving the load on {} by {} {}",
-                named(scene, crate::scene::BodyId::Block(block)),
+                named(scene, crate::mechanics::scene::BodyId::Block(block)),
                 length(scene, step),
                 toward(direction)
             );

@@ -2,9 +2,9 @@
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
 use super::number::{listed, quantity};
-use crate::analysis::{FrameAnalysis, Verdict};
-use crate::scene::Scene;
-use crate::scene::Unit;
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::Unit;
 
 /// Largest number of failures that a sentence names. All further failures are only counted.
 const MAX_FAILURES_IN_SENTENCE: usize = 4;

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use super::Options;
 use super::draft::Remark;
-use crate::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
+use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Pair, SceneFile};
 
 /// Coordinates perpendicular to the plane count as equal if they differ by less than this share of the largest
 /// coordinate. The thicknesses of the blocks are compared with the same share of the largest thickness.

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::Options;
 use super::draft::Remark;
-use crate::scene::format::{BlockEntry, ContactEntry, SceneFile};
+use crate::mechanics::scene::format::{BlockEntry, ContactEntry, SceneFile};
 
 /// Directions with a magnitude above this, in radians, are refused, because they are most likely degrees.
 const MAX_DIRECTION: f64 = 7.0;

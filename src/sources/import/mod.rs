@@ -38,8 +38,8 @@ mod wkt;
 pub use draft::Remark;
 pub use stone::{STONES, Stone};
 
-use crate::scene::Scene;
-use crate::scene::format::SceneFile;
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::format::SceneFile;
 use draft::{Draft, PartGeometry, Role};
 use naming::Naming;
 use outline::Outlines;
@@ -214,7 +214,7 @@ fn complete(read: Result<(SceneFile, Vec<String>), Vec<Remark>>) -> Result<Impor
     let refused = |problems: Vec<Remark>| DrawingProblems { problems, remarks: Vec::new() };
     let (scene, notes) = read.map_err(refused)?;
     if let Err(problems) = Scene::from_json(&scene.to_json()) {
-        let remark = |p: &crate::scene::Problem| Remark {
+        let remark = |p: &crate::mechanics::scene::Problem| Remark {
             element: p.path.clone(),
             message: p.message.clone(),
             help: p.help.clone(),

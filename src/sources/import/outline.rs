@@ -6,7 +6,7 @@ use super::subpath::Subpath;
 use super::{Remark, limit};
 use crate::geometry::snap::{Corner, Rings, polygon};
 use crate::geometry::{Bounds, Point, Polygon, PolygonError};
-use crate::scene::Problem;
+use crate::mechanics::scene::Problem;
 
 /// The largest coordinate in metres; scene files have the same limit.
 const MAX_COORDINATE: f64 = 1e12;

@@ -6,7 +6,7 @@ use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use crate::geometry::{Bounds, Point, Polygon};
-use crate::scene::format::{BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile};
+use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile};
 
 /// The step to which coordinates are rounded, as a fraction of the size of the drawing. The contact tolerance of a
 /// scene is about a thousand times larger, so rounding does not separate bodies that touch.

@@ -1,7 +1,7 @@
 //! [`Arch`]: a round arch.
 
 use super::{STONE_DENSITY, block, floor, rounded};
-use crate::scene::format::{Pair, SceneFile};
+use crate::mechanics::scene::format::{Pair, SceneFile};
 
 /// A semicircular arch of equal voussoirs on level ground.
 ///

@@ -1,7 +1,7 @@
 //! [`LatticePile`]: a pile of triangles on the triangular lattice.
 
 use super::STONE_DENSITY;
-use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile};
+use crate::mechanics::scene::format::{BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GroundEntry, SceneFile};
 
 /// A pile of triangular cells that point up and down alternately. Each row has one upward triangle fewer than the row
 /// below.

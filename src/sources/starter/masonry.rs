@@ -1,7 +1,7 @@
 //! [`Wall`], [`Tower`] and [`Doorway`]: structures of blocks with horizontal joints.
 
 use super::{STONE_DENSITY, block, floor, rectangle, rounded};
-use crate::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
+use crate::mechanics::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
 
 /// A wall in running bond. Every second course has half bricks at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ pub use arch::Arch;
 pub use lattice::LatticePile;
 pub use masonry::{Doorway, Tower, Wall};
 
-use crate::scene::format::{BlockEntry, GroundEntry, Pair};
+use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Pair};
 
 /// Coordinates are rounded to this many significant digits of the smallest length of the structure. The numbers are
 /// short, and the rounding error is far smaller than any block.

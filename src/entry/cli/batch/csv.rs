@@ -1,11 +1,11 @@
 //! Writes the answers of a batch as CSV: one row for each frame, and one row for each scene that is not valid. The
 //! columns are the same in every run.
 
-use crate::analysis::{Analysis, FrameAnalysis};
-use crate::result::Origin;
-use crate::scene::Problem;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::scene::Problem;
+use crate::products::result::Origin;
+use crate::products::wording::verdict::word;
 use crate::text;
-use crate::wording::verdict::word;
 
 /// The first row: the names of the columns. Forces are in newtons. `friction_used` is the largest used fraction of the
 /// available friction at any contact, and `limit_used` the largest used fraction of the limits of any robot.
@@ -15,7 +15,7 @@ pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,la
 pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
     let scene = &analysis.scene;
     let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
-    let row = |(number, (answer, frame)): (usize, (&FrameAnalysis, &crate::scene::Frame))| {
+    let row = |(number, (answer, frame)): (usize, (&FrameAnalysis, &crate::mechanics::scene::Frame))| {
         let [start, title] = [place(origin), cell(&frame.title)];
         let name = cell(&scene.title);
         let verdict = word(answer.verdict);

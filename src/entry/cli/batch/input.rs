@@ -5,9 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::batch::{Input, Record};
-use crate::cli::error::CliError;
-use crate::result::Origin;
+use crate::entry::cli::error::CliError;
+use crate::mechanics::batch::{Input, Record};
+use crate::products::result::Origin;
 
 /// The inputs of a batch.
 #[derive(Debug)]

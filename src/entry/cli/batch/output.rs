@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use super::resume::{self, ResumeFile, Settings};
 use super::{Form, csv};
-use crate::batch::Records;
-use crate::cli::destination;
-use crate::cli::error::CliError;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::mechanics::batch::Records;
 
 /// Lines are collected in memory until they have this many bytes, and then written.
 const BUFFER_BYTES: usize = 1 << 16;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use crate::analysis::Verdict;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
 use crate::clock::Instant;
-use crate::wording::verdict::counted;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::analysis::Verdict;
+use crate::products::wording::verdict::counted;
 
 /// The default interval between two reports on a terminal.
 const REPORT_INTERVAL: Duration = Duration::from_secs(2);

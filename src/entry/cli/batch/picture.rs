@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::analysis::Analysis;
-use crate::cli::destination;
-use crate::cli::error::CliError;
-use crate::cli::missing_glyphs;
-use crate::cli::picture::{Format, Picture};
-use crate::figure;
-use crate::output::file::Existing;
-use crate::output::fonts::Fonts;
-use crate::result::PictureOutcome;
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::picture::{Format, Picture};
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::output::file::Existing;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
+use crate::products::result::PictureOutcome;
 
 /// The options for pictures, and their folder.
 pub(super) struct PictureOutput {

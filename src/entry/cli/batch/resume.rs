@@ -13,9 +13,9 @@ use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::input;
-use crate::batch::{Record, Records};
-use crate::cli::error::CliError;
-use crate::result::Origin;
+use crate::entry::cli::error::CliError;
+use crate::mechanics::batch::{Record, Records};
+use crate::products::result::Origin;
 use crate::text;
 
 /// The suffix that is added to the path of an output.

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use crate::import::{STONES, Stone};
+use crate::sources::import::{STONES, Stone};
 
 /// The format of a drawing.
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::choice::{ArrowScale, Arrows, Fill, KindChoice, Normalise};
-use crate::cli::analysis_args::AnalysisArgs;
-use crate::cli::capacity::CapacityArgs;
-use crate::cli::margins::SensitivityMargin;
-use crate::cli::picture::Picture;
-use crate::cli::source::FrameChoice;
-use crate::cli::style_args::StyleArgs;
+use crate::entry::cli::analysis_args::AnalysisArgs;
+use crate::entry::cli::capacity::CapacityArgs;
+use crate::entry::cli::margins::SensitivityMargin;
+use crate::entry::cli::picture::Picture;
+use crate::entry::cli::source::FrameChoice;
+use crate::entry::cli::style_args::StyleArgs;
 
 /// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
 #[derive(Debug, Args)]

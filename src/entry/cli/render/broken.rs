@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 
 use super::Render;
 use super::target::paths;
-use crate::cli::destination::{self, Destination};
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::picture::Format;
-use crate::cli::source::{isolated, name};
-use crate::cli::terminal::Terminal;
-use crate::figure;
-use crate::output::file::Existing;
-use crate::output::fonts::Fonts;
-use crate::scene::Sketch;
+use crate::entry::cli::destination::{self, Destination};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::{isolated, name};
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::scene::Sketch;
+use crate::pictures::output::file::Existing;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 
 impl Render {
     /// Draws and writes the outlines of all scenes, and then returns their problems as errors.

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
-use crate::figure;
+use crate::products::figure;
 
 /// The value of `--kind`: a kind of figure with panels, or the free-body diagram of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,16 +4,16 @@
 use clap::Parser;
 
 use super::{ANIMATION_WIDTH, Render};
-use crate::analysis::{Analysis, Options};
-use crate::cli::error::CliError;
-use crate::cli::missing_glyphs;
-use crate::cli::picture::Format;
-use crate::cli::source::Source;
-use crate::drawing::Drawing;
-use crate::figure;
-use crate::output::animation;
-use crate::output::fonts::Fonts;
-use crate::scene::Sketch;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::Source;
+use crate::mechanics::analysis::{Analysis, Options};
+use crate::mechanics::scene::Sketch;
+use crate::pictures::drawing::Drawing;
+use crate::pictures::output::animation;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 
 /// A command line that consists of the options of `render` only.
 #[derive(Debug, Parser)]

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use super::Render;
 use super::target::part_path;
-use crate::analysis::{Analysis, Verdict};
-use crate::cli::destination::{self, Destination};
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::terminal::Terminal;
-use crate::figure;
-use crate::output::file::Existing;
-use crate::wording::verdict::{counted, plain};
+use crate::entry::cli::destination::{self, Destination};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::terminal::Terminal;
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::pictures::output::file::Existing;
+use crate::products::figure;
+use crate::products::wording::verdict::{counted, plain};
 
 /// A figure, with the exit status and a summary of its scene.
 pub(super) struct Rendered {

@@ -2,15 +2,15 @@
 
 use super::choice::KindChoice;
 use super::{Render, Rendered, summary};
-use crate::analysis::{self, Analysis};
-use crate::cli::destination::Destination;
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::missing_glyphs;
-use crate::cli::picture::Format;
-use crate::cli::source::Source;
-use crate::figure;
-use crate::output::fonts::Fonts;
+use crate::entry::cli::destination::Destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::Source;
+use crate::mechanics::analysis::{self, Analysis};
+use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 use std::sync::Arc;
 
 impl Render {

@@ -3,10 +3,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::cli::destination::Destination;
-use crate::cli::error::CliError;
-use crate::cli::picture::Format;
-use crate::cli::source::{name, stem};
+use crate::entry::cli::destination::Destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::{name, stem};
 
 /// Returns the path of one part of a figure: `name-a.svg` for the figure `name.svg` and the part `a`.
 pub(super) fn part_path(path: &Path, part: &str) -> PathBuf {

@@ -1,10 +1,10 @@
 //! [`entry`]: the content of a report on one scene, or on two scenes that are compared.
 
-use crate::analysis::Analysis;
-use crate::cli::missing_glyphs;
-use crate::cli::source::Source;
-use crate::output::fonts::Fonts;
-use crate::report::entry::{Entry, File, ReportOptions, Side, compared};
+use crate::entry::cli::missing_glyphs;
+use crate::entry::cli::source::Source;
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::output::fonts::Fonts;
+use crate::products::report::entry::{Entry, File, ReportOptions, Side, compared};
 
 /// Returns the report entry of one scene, or of two scenes that are compared. Returns `None` if there is no scene.
 pub(super) fn entry(read: &[(Source, String)], analyses: &[Analysis], report_options: &ReportOptions) -> Option<Entry> {

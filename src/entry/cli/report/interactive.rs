@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::cli::error::CliError;
+use crate::entry::cli::error::CliError;
 
 /// The name of the script file that `examples/playground/build.sh` makes.
 const NAME: &str = "interactive.js";

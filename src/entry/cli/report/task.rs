@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Report;
-use crate::cli::error::CliError;
+use crate::entry::cli::error::CliError;
 
 /// One scene of a report, or two scenes that the report compares.
 pub(super) enum Task {

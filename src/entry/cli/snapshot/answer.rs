@@ -6,12 +6,12 @@ use std::io::{self, BufRead};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::cli::error::CliError;
-use crate::cli::exit_status::ExitStatus;
-use crate::cli::page::Page;
-use crate::cli::terminal::Terminal;
-use crate::snapshot::outcome::{Acceptance, CheckOutcome, Snapshot};
-use crate::snapshot::store::{self, Access};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::page::Page;
+use crate::entry::cli::terminal::Terminal;
+use crate::products::snapshot::outcome::{Acceptance, CheckOutcome, Snapshot};
+use crate::products::snapshot::store::{self, Access};
 
 /// The way in which a terminal shows pictures within its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

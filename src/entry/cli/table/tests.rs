@@ -2,8 +2,8 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
-use crate::analysis::Options;
-use crate::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
+use crate::mechanics::analysis::Options;
+use crate::mechanics::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
 fn assert_fits(name: &str, analysis: &Analysis) {
     for width in [40, 50, 60, 70, 79, 80, 100] {

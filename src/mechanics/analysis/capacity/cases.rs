@@ -20,8 +20,8 @@
 use super::refine;
 use super::region::{SAME_DIRECTION, bounded_polygon, clipped, corners, opposite, set_edges, sides, square};
 use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
-use crate::assembly::Assembly;
 use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// The longest piece into which an arc of tilts is divided, degrees.
 const MAX_ARC_DEGREES: f64 = 1.0;

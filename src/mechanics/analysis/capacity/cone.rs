@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::probe::{Farthest, Probe};
 use super::refine::{Sample, refine, sample, size};
 use crate::geometry::Vector;
-use crate::solve::{Amounts, ForcePolygon};
+use crate::mechanics::solve::{Amounts, ForcePolygon};
 
 /// The samples of a set, and the unit directions in which it is unbounded.
 pub(super) struct SampledSet {

@@ -2,8 +2,8 @@
 
 use super::region;
 use crate::geometry::{Point, Vector};
-use crate::proof::{Motion, Proof};
-use crate::scene::{BlockId, RobotId};
+use crate::mechanics::proof::{Motion, Proof};
+use crate::mechanics::scene::{BlockId, RobotId};
 
 /// All forces that may act on a block at a point, in addition to its present loads, such that the frame stands.
 ///

@@ -3,7 +3,7 @@
 //!
 //! Equilibrium is linear in the forces, so these forces (Fx, Fy) form a convex set. The set is a polygon, which may be
 //! unbounded or empty. It consists of the forces that a robot without limits could exert at the point of the block
-//! ([`probe`]). A simplex method walks from corner to corner ([`force_polygon`](crate::solve::force_polygon)). This
+//! ([`probe`]). A simplex method walks from corner to corner ([`force_polygon`](crate::mechanics::solve::force_polygon)). This
 //! method gives contact forces that prove each corner, and for each edge a motion that excludes every farther force.
 //!
 //! Where a proof is missing, one linear program computes the farthest force of the set in a given direction, with
@@ -24,13 +24,13 @@ mod typed;
 
 use super::decide::{LimitDistance, ProofCache, decide_verdict};
 use super::{Analysis, FrameAnalysis, Options, Verdict};
-use crate::assembly::Assembly;
-use crate::effect::{self, FrameContext};
 use crate::geometry::{Point, Vector};
-use crate::interface::Interfaces;
-use crate::proof::Motion;
-use crate::scene::{Block, BlockId, Scene};
-use crate::solve::{DeadlineGuard, is_late};
+use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::{Block, BlockId, Scene};
+use crate::mechanics::solve::{DeadlineGuard, is_late};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
 pub use load_capacity::{CapacityEdge, CapacityShape, CapacityVertex, LoadCapacity, VertexForce};
 use probe::Probe;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};

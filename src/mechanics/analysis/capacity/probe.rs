@@ -1,13 +1,13 @@
 //! [`Probe`]: a component with an unlimited force at one point of a block. A linear program finds which forces can act
 //! at this point.
 
-use crate::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
-use crate::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 use crate::geometry::{Point, Vector};
-use crate::program::{Program, Scale};
-use crate::proof::{Forces, Motion, Proof, check_forces, net_power};
-use crate::scene::{Limits, RobotId};
-use crate::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
+use crate::mechanics::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::{Forces, Motion, Proof, check_forces, net_power};
+use crate::mechanics::scene::{Limits, RobotId};
+use crate::mechanics::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
 
 /// A motion is proved under a force that lies this far beyond the limit, relative to the size of the force. The power
 /// along the motion is linear in the force, so the proof holds up to the line on which the power is 0.

@@ -4,7 +4,7 @@ use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross, in_half_plane};
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
 
 /// Unbounded sets are cut off at this multiple of their size.
 const RAY_LENGTH_PER_SIZE: f64 = 1e4;

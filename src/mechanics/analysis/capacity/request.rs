@@ -1,7 +1,7 @@
 //! [`CapacityRequest`]: the block, the point and the ranges of uncertain quantities for which a capacity is computed.
 
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, Frame, Hold, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Hold, Scene};
 
 /// The block, the point and the ranges of uncertain quantities for which a [`LoadCapacity`](super::LoadCapacity) is
 /// computed.
@@ -208,7 +208,7 @@ impl Scene {
     /// Returns a copy of the scene with one more load: a force, N, at a point of a block.
     pub(in crate::mechanics::analysis) fn with_force(&self, block: BlockId, at: Point, force: Vector) -> Scene {
         let mut scene = self.clone();
-        scene.loads.push(crate::scene::Load { block, at, force, torque: 0.0, at_centroid: false });
+        scene.loads.push(crate::mechanics::scene::Load { block, at, force, torque: 0.0, at_centroid: false });
         scene
     }
 }

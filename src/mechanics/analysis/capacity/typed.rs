@@ -3,7 +3,7 @@
 
 use super::request::{CapacityRequest, Cases, ForceAt};
 use crate::geometry::Point;
-use crate::scene::{Scene, Unit};
+use crate::mechanics::scene::{Scene, Unit};
 use crate::text::{line, nearest};
 
 /// Parses the values of two options: `--capacity` (`BLOCK`, `BLOCK@x,y` or `BLOCK@x,y..x,y`, in the scene's unit of

@@ -1,13 +1,13 @@
 //! Route 0: proves a verdict from forces or a motion that were computed elsewhere, without solving a program.
 
 use super::Component;
-use crate::analysis::{Options, Verdict};
-use crate::assembly::Assembly;
 use crate::geometry::Vector;
-use crate::program::Scale;
-use crate::proof::{Motion, Proof};
-use crate::scene::BlockId;
-use crate::solve::Amounts;
+use crate::mechanics::analysis::{Options, Verdict};
+use crate::mechanics::program::Scale;
+use crate::mechanics::proof::{Motion, Proof};
+use crate::mechanics::scene::BlockId;
+use crate::mechanics::solve::Amounts;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Tries to prove a verdict on a whole assembly from given forces and velocities.
 pub(in crate::mechanics::analysis) struct Candidate<'a> {

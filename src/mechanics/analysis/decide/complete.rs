@@ -7,9 +7,9 @@ use super::parallel_joints::LeastForce;
 use super::programs::Decision;
 use super::rebalance::RebalanceOutcome;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
-use crate::analysis::Verdict;
-use crate::program::Program;
-use crate::solve::{Choice, balance_in, is_late, least_adhesion_in};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Choice, balance_in, is_late, least_adhesion_in};
 
 impl Component<'_> {
     /// Adds forces of least sum (stable) or failures (unstable) to a decision. Returns the decision unchanged if only

@@ -1,11 +1,11 @@
 //! Converts the missing adhesion of a component to failures: the places where force is missing, in metres and newtons.
 
 use super::Component;
-use crate::analysis::Failure;
-use crate::assembly::{Assembly, AssemblyContact, AssemblyGrip, load_about};
 use crate::geometry::{Point, Vector};
-use crate::proof::{Forces, gross_load};
-use crate::solve::Amounts;
+use crate::mechanics::analysis::Failure;
+use crate::mechanics::proof::{Forces, gross_load};
+use crate::mechanics::solve::Amounts;
+use crate::mechanics::statics::assembly::{Assembly, AssemblyContact, AssemblyGrip, load_about};
 
 /// A failure is listed if it exceeds this fraction of the load of the lighter of its two bodies.
 const MIN_SHARE_OF_LOAD: f64 = 1e-6;

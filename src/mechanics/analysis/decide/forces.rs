@@ -3,8 +3,8 @@
 
 use super::Component;
 use crate::geometry::Vector;
-use crate::proof::{self, ContactForces, Forces, GripForces, Motion, Proof, gross_load};
-use crate::solve::{Amounts, is_late};
+use crate::mechanics::proof::{self, ContactForces, Forces, GripForces, Motion, Proof, gross_load};
+use crate::mechanics::solve::{Amounts, is_late};
 
 /// The reference for rounding noise. A force that is small relative to it is set to 0.
 #[derive(Clone, Copy)]
@@ -167,11 +167,11 @@ impl Component<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Options;
-    use crate::effect::{self, FrameContext};
-    use crate::interface::Interfaces;
-    use crate::program::{Program, Scale};
-    use crate::scene::Scene;
+    use crate::mechanics::analysis::Options;
+    use crate::mechanics::program::{Program, Scale};
+    use crate::mechanics::scene::Scene;
+    use crate::mechanics::statics::effect::{self, FrameContext};
+    use crate::mechanics::statics::interface::Interfaces;
 
     /// A block of 2 N on the ground needs no robot: 2 N suffice. If the robot presses with 2 N, the sum is 6 N.
     #[test]

@@ -2,11 +2,11 @@
 
 use super::Component;
 use super::verdict_only::{VERDICT_ONLY, decide_without_non_binding_limits};
-use crate::analysis::Verdict;
-use crate::assembly::Assembly;
-use crate::program::Program;
-use crate::proof::{Forces, Motion, Proof};
-use crate::solve::{Amounts, Effort};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::{Forces, Motion, Proof};
+use crate::mechanics::solve::{Amounts, Effort};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Converts `amounts`, the forces of a linear program, to newtons. Returns them with the proof that they balance every
 /// body; `None` if this proof fails.
@@ -64,7 +64,7 @@ pub(in crate::mechanics::analysis) fn proved_exact_motion(
 /// A motion violates contacts only by rounding if the violation is at most this; the fastest point has speed 1. Forces
 /// of a thousand times the loads could then change a limit by at most 1e-10 of the loads. Long chains of blocks have a
 /// rounding of 1e-14, so with a tenth of this value more motions would need a correction. With ten times this value,
-/// errors as large as the openings that [`repair_motion`](crate::solve::repair_motion) adds would count as rounding.
+/// errors as large as the openings that [`repair_motion`](crate::mechanics::solve::repair_motion) adds would count as rounding.
 const MAX_ROUNDING: f64 = 1e-13;
 
 fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {

@@ -3,11 +3,11 @@
 
 use super::Component;
 use super::strategy::LARGE_PROGRAM_BLOCKS;
-use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::Vector;
-use crate::program::Program;
-use crate::proof::{self, Motion, Proof, fastest};
-use crate::solve::{Effort, repair_motion};
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::{self, Motion, Proof, fastest};
+use crate::mechanics::solve::{Effort, repair_motion};
+use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 
 /// A motion must prove that forces cannot balance the loads, even if the sum of the forces is this many times the sum
 /// of all loads. The thrust of a flat arch is several times its weight, so with a tenth of this value a thrust could

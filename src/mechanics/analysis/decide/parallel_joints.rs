@@ -3,9 +3,9 @@
 
 use super::Component;
 use super::strategy::Strategy;
-use crate::program::Program;
-use crate::proof::Proof;
-use crate::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::Proof;
+use crate::mechanics::solve::{Amounts, Choice, Effort, SolverSettings, rebalance_absolute};
 
 /// Forces that balance every body, with their proof and a lower bound for the sum of any balancing forces.
 pub(super) struct LeastForce {

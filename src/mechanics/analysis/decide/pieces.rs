@@ -6,11 +6,11 @@
 
 use super::Component;
 use super::motion::to_speed_one;
-use crate::assembly::{Assembly, DisjointSets};
 use crate::geometry::{Vector, quarter_turn};
-use crate::program::Program;
-use crate::proof::{Motion, Proof};
-use crate::solve::{Effort, repair_motion};
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::{Motion, Proof};
+use crate::mechanics::solve::{Effort, repair_motion};
+use crate::mechanics::statics::assembly::{Assembly, DisjointSets};
 
 /// Bodies whose velocities differ by at most this much move as one; the fastest point has speed 1. The same difference
 /// is solver error in one structure and motion in another, so the coarser value, which gives fewer pieces, is tried

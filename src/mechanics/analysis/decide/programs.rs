@@ -9,10 +9,10 @@ use super::parallel_joints::LeastForce;
 use super::rebalance::RebalanceOutcome;
 use super::strategy::{Attempt, Strategy};
 use super::{Component, Method};
-use crate::analysis::{UndecidedReason, Verdict};
-use crate::program::Program;
-use crate::proof::{Motion, Proof};
-use crate::solve::{Amounts, Effort, LeastAdhesion, is_late};
+use crate::mechanics::analysis::{UndecidedReason, Verdict};
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::{Motion, Proof};
+use crate::mechanics::solve::{Amounts, Effort, LeastAdhesion, is_late};
 
 /// A verdict with its proof. `amounts` and `adhesion` are in program units; the mechanism and the bound are in metres
 /// and newtons.
@@ -226,11 +226,11 @@ impl Decision {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Options;
-    use crate::effect::{self, FrameContext};
-    use crate::interface::Interfaces;
-    use crate::program::Scale;
-    use crate::scene::{BlockId, Scene};
+    use crate::mechanics::analysis::Options;
+    use crate::mechanics::program::Scale;
+    use crate::mechanics::scene::{BlockId, Scene};
+    use crate::mechanics::statics::effect::{self, FrameContext};
+    use crate::mechanics::statics::interface::Interfaces;
 
     /// A proved motion that does little work is not a verdict, because forces that no program has computed may
     /// balance.

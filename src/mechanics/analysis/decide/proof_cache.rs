@@ -6,9 +6,9 @@
 //! motions are proved again for each new component.
 
 use super::Component;
-use crate::assembly::Assembly;
 use crate::geometry::Point;
-use crate::proof::{self, ContactForces, Forces, Motion};
+use crate::mechanics::proof::{self, ContactForces, Forces, Motion};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// The largest number of sets of forces in the cache, and the largest number of motions. A search alternates between
 /// few values, and each entry that is tried costs the check of a proof.

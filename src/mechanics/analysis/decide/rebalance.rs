@@ -17,12 +17,12 @@
 
 use super::forces::ProvedForces;
 use super::{Component, LimitDistance};
-use crate::analysis::Verdict;
-use crate::assembly::Substructure;
 use crate::geometry::Vector;
-use crate::program::{Program, Scale};
-use crate::proof::{self, Motion, Proof};
-use crate::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::{self, Motion, Proof};
+use crate::mechanics::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
+use crate::mechanics::statics::assembly::Substructure;
 
 /// The largest number of rounds of correction. Each round gains as many accurate digits as one solution has; eight
 /// rounds cover weights from 1e-30 to 1e30.

@@ -3,11 +3,11 @@
 
 use super::programs::Decision;
 use super::{Component, LimitDistance, ProofCache};
-use crate::analysis::{Options, Verdict};
-use crate::assembly::Assembly;
-use crate::program::Program;
-use crate::proof::{Forces, Motion};
-use crate::solve::{Amounts, Effort, is_late};
+use crate::mechanics::analysis::{Options, Verdict};
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::{Forces, Motion};
+use crate::mechanics::solve::{Amounts, Effort, is_late};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Returns the verdict of a component, and its mechanism if it falls.
 ///

@@ -2,12 +2,12 @@
 //! are unstressed at first.
 
 use super::{Component, Findings};
-use crate::analysis::{Options, Wedged};
-use crate::assembly::Assembly;
-use crate::effect::wedging::Wedging;
-use crate::program::Program;
-use crate::scene::Scene;
-use crate::solve::{SelfStress, SelfStressCheck, check_self_stress};
+use crate::mechanics::analysis::{Options, Wedged};
+use crate::mechanics::program::Program;
+use crate::mechanics::scene::Scene;
+use crate::mechanics::solve::{SelfStress, SelfStressCheck, check_self_stress};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::wedging::Wedging;
 
 /// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
 /// the proof. The answer is `None` if some components are undecided and none is proved to stand only by wedging.

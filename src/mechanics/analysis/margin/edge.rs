@@ -8,9 +8,9 @@
 use super::exclusion::Exclusion;
 use super::interval::{End, Interval};
 use super::trial::{Setting, Trial};
-use crate::analysis::Verdict;
-use crate::analysis::decide::LimitDistance;
-use crate::proof::Motion;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::LimitDistance;
+use crate::mechanics::proof::Motion;
 
 /// The side of the threshold on which the component stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

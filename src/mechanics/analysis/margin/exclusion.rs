@@ -3,7 +3,7 @@
 //! If a frame stands at no value of a parameter, a few exclusions cover all values: one exclusion of all values, two
 //! exclusions if two components stand only at different values, or arcs of tilts.
 
-use crate::proof::Motion;
+use crate::mechanics::proof::Motion;
 
 /// The values of a parameter at which a frame falls by one motion. An end is `None` if the range is unbounded there.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,9 +9,9 @@
 use super::interval::{End, Interval, RobotIntervals};
 use super::line::Line;
 use super::trial::{LimitChange, Setting, Trial};
-use crate::analysis::Verdict;
-use crate::program::Scale;
-use crate::solve::{Limit, least_grip_limit};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::Scale;
+use crate::mechanics::solve::{Limit, least_grip_limit};
 
 /// The least number of limits that are tried as a group. The three limits of two robots are found sooner one by one.
 const MIN_GROUP: usize = 8;

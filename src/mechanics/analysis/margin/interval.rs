@@ -6,8 +6,8 @@
 use std::cmp::Ordering;
 
 use super::exclusion::Exclusion;
-use crate::proof::Motion;
-use crate::scene::RobotId;
+use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::RobotId;
 
 /// The values of one parameter at which a frame stands. Both ends belong to the interval.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,9 +10,9 @@ mod nearest;
 
 use super::interval::End;
 use super::trial::{Setting, Trial};
-use crate::analysis::Verdict;
-use crate::analysis::decide::LimitDistance;
-use crate::proof::{Motion, Proof};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::LimitDistance;
+use crate::mechanics::proof::{Motion, Proof};
 
 /// A parameter, and how a component changes with it.
 pub(super) struct Line<'a> {

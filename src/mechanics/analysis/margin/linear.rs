@@ -7,9 +7,9 @@
 use super::interval::{End, Interval};
 use super::line::Line;
 use super::trial::{Setting, Trial};
-use crate::analysis::Verdict;
-use crate::program::Program;
-use crate::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
 
 /// A value at which the component stands.
 struct Start {

@@ -3,8 +3,8 @@
 
 use super::interval::{End, Interval, Intervals};
 use super::kind::{MarginKind, MarginKinds};
-use crate::proof::Motion;
-use crate::scene::RobotId;
+use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::RobotId;
 
 /// One margin: the limit of stability of a frame in one direction.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,8 @@ use super::exclusion::{Exclusion, fewest_arcs};
 use super::interval::Interval;
 use super::tilt::{MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted};
 use super::trial::Trial;
-use crate::analysis::Verdict;
-use crate::analysis::decide::LimitDistance;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::LimitDistance;
 
 /// If a step of the search enlarges the excluded range by less than this, relative to the tilt, the search looks ahead
 /// by [`LOOKAHEAD_FACTOR`] times this gain. If the mechanism changes slightly from step to step, the gain can shrink

@@ -3,8 +3,8 @@
 
 use super::edge::{Side, Threshold};
 use super::trial::{Setting, Trial};
-use crate::analysis::Verdict;
-use crate::solve::Tangent;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::solve::Tangent;
 
 /// The largest number of steps for one threshold, including steps that do not go to a root.
 const MAX_STEPS: usize = 24;

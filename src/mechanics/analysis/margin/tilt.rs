@@ -10,9 +10,9 @@ use super::interval::{End, Interval};
 use super::line::Line;
 use super::linear::linear;
 use super::trial::{Setting, Trial};
-use crate::analysis::Verdict;
-use crate::analysis::decide::LimitDistance;
-use crate::proof::Motion;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::LimitDistance;
+use crate::mechanics::proof::Motion;
 
 /// The smallest distance from an end at which verdicts are computed, relative to the tilt.
 const MIN_OFFSET: f64 = 1e-6;

@@ -5,17 +5,17 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::analysis::Verdict;
-use crate::analysis::decide::{
+use crate::geometry::quarter_turn;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::{
     LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, least_force_error, proved_motion,
     verdict_from_cache,
 };
-use crate::assembly::{Assembly, LoadVector};
-use crate::geometry::quarter_turn;
-use crate::program::{Program, Scale};
-use crate::proof::{ContactForces, Forces, GripForces, Motion, net_power};
-use crate::scene::{Limits, RobotId};
-use crate::solve::{ExtremeValue, Tangent};
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::{ContactForces, Forces, GripForces, Motion, net_power};
+use crate::mechanics::scene::{Limits, RobotId};
+use crate::mechanics::solve::{ExtremeValue, Tangent};
+use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 
 /// The number of evaluations of changed components in this process: verdicts and programs of least residual.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);

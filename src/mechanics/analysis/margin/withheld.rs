@@ -2,7 +2,7 @@
 //! where the frame stands.
 
 use super::{End, Interval, Intervals};
-use crate::scene::RobotId;
+use crate::mechanics::scene::RobotId;
 
 impl Intervals {
     /// Returns a sentence for each withheld margin, with the reason. `robot` returns the name of a robot.
@@ -59,7 +59,7 @@ impl Intervals {
 mod tests {
     use super::super::{MarginKinds, Margins, RobotIntervals};
     use super::*;
-    use crate::analysis::Margin;
+    use crate::mechanics::analysis::Margin;
 
     #[test]
     fn margins_without_a_confirmed_verdict_are_withheld_with_a_reason() {

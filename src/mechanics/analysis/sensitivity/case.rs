@@ -1,11 +1,11 @@
 //! [`Case`]: a component exactly at an end of the interval in which it stands, where it begins to fall.
 
-use crate::analysis::margin::MarginKind;
-use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::{cross, quarter_turn, sin_cos_degrees};
-use crate::program::{Program, Scale};
-use crate::proof::Motion;
-use crate::solve::{LimitState, limit_state};
+use crate::mechanics::analysis::margin::MarginKind;
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::Motion;
+use crate::mechanics::solve::{LimitState, limit_state};
+use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 
 /// One component at one end of the interval of a parameter.
 pub(super) struct Case<'a> {

@@ -8,10 +8,10 @@
 
 use super::elimination::Elimination;
 use super::joints::{Corner, Finder, Guide, InterfaceCorners};
-use crate::assembly::DisjointSets;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::interface::{ContactKind, Interface};
-use crate::scene::{BodyId, Frame, Scene};
+use crate::mechanics::scene::{BodyId, Frame, Scene};
+use crate::mechanics::statics::assembly::DisjointSets;
+use crate::mechanics::statics::interface::{ContactKind, Interface};
 
 /// Two directions count as parallel if the sine of the angle between them is at most this.
 const PARALLEL_TOL: f64 = 1e-3;

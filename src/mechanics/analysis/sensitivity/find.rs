@@ -6,10 +6,10 @@ use super::rates::Rates;
 use super::slope::{Branch, Slope};
 use super::state::EndState;
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
-use crate::analysis::margin::{End, Interval, Intervals, MarginKind};
-use crate::assembly::Assembly;
-use crate::effect::FrameContext;
-use crate::scene::BodyId;
+use crate::mechanics::analysis::margin::{End, Interval, Intervals, MarginKind};
+use crate::mechanics::scene::BodyId;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::FrameContext;
 
 /// A component of a frame, and its own interval of the parameter if that is known.
 pub(in crate::mechanics::analysis) struct Part<'a> {
@@ -103,14 +103,15 @@ impl Search<'_> {
         &self,
         part: &'m Part,
         value: f64,
-        mechanism: &'m [crate::proof::Motion],
+        mechanism: &'m [crate::mechanics::proof::Motion],
         outward: f64,
-    ) -> Option<&'m [crate::proof::Motion]> {
+    ) -> Option<&'m [crate::mechanics::proof::Motion]> {
         let own = match part.interval {
             Some(interval) if outward > 0.0 => interval.high(),
             Some(interval) => interval.low(),
             None => {
-                let moves = |m: &crate::proof::Motion| part.component.bodies.iter().any(|b| b.block == m.block);
+                let moves =
+                    |m: &crate::mechanics::proof::Motion| part.component.bodies.iter().any(|b| b.block == m.block);
                 return mechanism.iter().any(moves).then_some(mechanism);
             }
         };

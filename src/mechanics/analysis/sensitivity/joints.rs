@@ -1,9 +1,9 @@
 //! [`Finder`]: finds the corners of bodies at the ends of joints, and the corners that lie on edges of other bodies.
 
-use crate::assembly::DisjointSets;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::interface::{ContactKind, Interface};
-use crate::scene::{BodyId, Frame, Scene};
+use crate::mechanics::scene::{BodyId, Frame, Scene};
+use crate::mechanics::statics::assembly::DisjointSets;
+use crate::mechanics::statics::interface::{ContactKind, Interface};
 
 /// A corner counts as the end of a contact if its distance from this end is at most this multiple of the admissible
 /// gap. The corner and the end may each be wrong by one gap.

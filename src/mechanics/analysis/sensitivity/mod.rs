@@ -31,7 +31,7 @@ mod find;
 use super::margin::MarginKind;
 use super::{Analysis, Options};
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 pub(super) use find::{Part, find};
 pub use slope::Slope;
 

@@ -1,7 +1,7 @@
 //! [`State`]: the forces and the mechanism of a component at an end of an interval, where it begins to fall.
 
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::proof::ContactForces;
+use crate::mechanics::proof::ContactForces;
 
 /// The rigid motion of a body: the velocity at `origin`, and the angular velocity.
 #[derive(Clone, Copy, Debug)]

@@ -6,10 +6,10 @@
 
 use super::corners::Corners;
 use super::motion::{RigidMotion, State};
-use crate::assembly::{Assembly, AssemblyContact};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::proof::ContactForces;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::proof::ContactForces;
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
 
 /// The derivatives of the value at an end, for one state.
 pub(super) struct Rates {

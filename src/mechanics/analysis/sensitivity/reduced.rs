@@ -6,12 +6,12 @@
 use super::case::{Case, load_at};
 use super::motion::{RigidMotion, State};
 use super::unknown::{Source, Unknown, groups, unknowns};
-use crate::analysis::margin::MarginKind;
-use crate::assembly::{Assembly, LoadVector};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::program::Program;
-use crate::proof::ContactForces;
-use crate::solve::LimitState;
+use crate::mechanics::analysis::margin::MarginKind;
+use crate::mechanics::program::Program;
+use crate::mechanics::proof::ContactForces;
+use crate::mechanics::solve::LimitState;
+use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 
 /// The equilibrium equations of the groups.
 pub(super) struct Reduced {

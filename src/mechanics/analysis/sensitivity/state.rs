@@ -17,7 +17,7 @@ use super::elimination::Elimination;
 use super::motion::State;
 use super::reduced::Reduced;
 use super::unknown::Unknown;
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Forces or velocities below this fraction of the largest count as 0.
 const ZERO_TOL: f64 = 1e-7;

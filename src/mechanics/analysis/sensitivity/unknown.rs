@@ -1,9 +1,9 @@
 //! [`Unknown`]: the unknown forces of contacts and robots at the limit of stability, and the groups of bodies that
 //! these forces hold together.
 
-use crate::assembly::{Assembly, DisjointSets};
-use crate::program::{Force, Program};
-use crate::solve::LimitState;
+use crate::mechanics::program::{Force, Program};
+use crate::mechanics::solve::LimitState;
+use crate::mechanics::statics::assembly::{Assembly, DisjointSets};
 
 /// A force is basic if the ratio of its amount to the largest amount is larger than this. This ratio must also be
 /// larger than the power of one unit of the force along the mechanism, relative to the largest velocity.

@@ -1,7 +1,7 @@
 //! Tests of proofs by a motion: its power, its violation of contacts and grips, and their rounding errors.
 
 use super::*;
-use crate::scene::format::BlockEntry;
+use crate::mechanics::scene::format::BlockEntry;
 
 /// Returns the power and the violation of a motion.
 fn driven(assembly: &Assembly, motions: &[Motion]) -> [f64; 2] {

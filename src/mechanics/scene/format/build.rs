@@ -9,7 +9,7 @@ use super::{
     HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile, ShapeEntry, StepEntry,
     UnitsEntry,
 };
-use crate::scene::{NoteCode, Scene, SceneError};
+use crate::mechanics::scene::{NoteCode, Scene, SceneError};
 
 /// Declares methods that set a key whose value is text.
 macro_rules! words {

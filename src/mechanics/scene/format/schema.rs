@@ -20,7 +20,7 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
-    use crate::scene::reading::KEYS;
+    use crate::mechanics::scene::reading::KEYS;
 
     #[test]
     fn the_schema_is_made_from_the_types() {

@@ -1,6 +1,6 @@
 //! Messages about invalid numbers and colours.
 
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::format::UnitsEntry;
 
 use super::{Code, Wording, digits, new_wording, shortened};
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{Code, Wording, digits, new_wording, pair, point};
 use crate::geometry::Point;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::format::UnitsEntry;
 
 /// A side of an outline or of a hole, given by the indices of its two corners.
 pub(in crate::mechanics::scene) struct Side {

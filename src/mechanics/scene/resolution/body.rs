@@ -2,13 +2,13 @@
 
 use super::Resolution;
 use crate::geometry::{Point, Vector};
-use crate::scene::finding::Findings;
-use crate::scene::format::{self, Pair};
-use crate::scene::number::{MAX_MAGNITUDE, at_least_zero, is_sane};
-use crate::scene::outline::{self, Outline};
-use crate::scene::path::Trail;
-use crate::scene::problem;
-use crate::scene::{Block, Body, Ground, Rgb};
+use crate::mechanics::scene::finding::Findings;
+use crate::mechanics::scene::format::{self, Pair};
+use crate::mechanics::scene::number::{MAX_MAGNITUDE, at_least_zero, is_sane};
+use crate::mechanics::scene::outline::{self, Outline};
+use crate::mechanics::scene::path::Trail;
+use crate::mechanics::scene::problem;
+use crate::mechanics::scene::{Block, Body, Ground, Rgb};
 
 /// The keys that blocks and ground share.
 pub(super) struct BodyEntry<'f> {

@@ -2,12 +2,12 @@
 
 use super::Resolution;
 use crate::geometry::{Bounds, Point, Polygon, Vector, convex_hull, quarter_turn, sin_cos_degrees};
-use crate::scene::finding::Findings;
-use crate::scene::name::Names;
-use crate::scene::number::{at_least_zero, is_sane};
-use crate::scene::path::Trail;
-use crate::scene::problem;
-use crate::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
+use crate::mechanics::scene::finding::Findings;
+use crate::mechanics::scene::name::Names;
+use crate::mechanics::scene::number::{at_least_zero, is_sane};
+use crate::mechanics::scene::path::Trail;
+use crate::mechanics::scene::problem;
+use crate::mechanics::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
 
 /// The radius of a schematic disc, and half the width of a schematic support, as a fraction of the diagonal of the
 /// rectangle around all centres and contacts.

@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use super::body::colour;
 use super::{MaterialValues, Resolution};
 use crate::geometry::LatticeKind;
-use crate::scene::finding::Findings;
-use crate::scene::format::SceneFile;
-use crate::scene::number::at_least_zero;
-use crate::scene::outline::Outline;
-use crate::scene::path::Trail;
-use crate::scene::{problem, shape};
+use crate::mechanics::scene::finding::Findings;
+use crate::mechanics::scene::format::SceneFile;
+use crate::mechanics::scene::number::at_least_zero;
+use crate::mechanics::scene::outline::Outline;
+use crate::mechanics::scene::path::Trail;
+use crate::mechanics::scene::{problem, shape};
 
 impl Resolution<'_> {
     /// Returns the outlines of the file's shapes, followed by those of the built-in shapes. An outline is `None` if it

@@ -2,12 +2,12 @@
 
 use super::Resolution;
 use crate::geometry::{Point, Vector};
-use crate::scene::finding::Findings;
-use crate::scene::format::LimitsEntry;
-use crate::scene::name::Names;
-use crate::scene::number::{at_least_zero, is_amount, is_sane};
-use crate::scene::path::Trail;
-use crate::scene::{BlockId, Grip, Limits, Load, Robot};
+use crate::mechanics::scene::finding::Findings;
+use crate::mechanics::scene::format::LimitsEntry;
+use crate::mechanics::scene::name::Names;
+use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
+use crate::mechanics::scene::path::Trail;
+use crate::mechanics::scene::{BlockId, Grip, Limits, Load, Robot};
 
 impl Resolution<'_> {
     pub(super) fn robots(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Robot> {

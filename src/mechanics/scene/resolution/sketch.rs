@@ -3,10 +3,10 @@
 use super::Resolution;
 use super::body::BodyEntry;
 use crate::geometry::{Cell, CellShape, Point, Vector, sin_cos_degrees};
-use crate::scene::finding::{Findings, UnreadParts};
-use crate::scene::format::{CellEntry, CellHalf, SceneFile};
-use crate::scene::number::MAX_MAGNITUDE;
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::scene::finding::{Findings, UnreadParts};
+use crate::mechanics::scene::format::{CellEntry, CellHalf, SceneFile};
+use crate::mechanics::scene::number::MAX_MAGNITUDE;
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// A body of the scene file, at its position in the scene. Healing does not change it.
 #[derive(Clone, Debug)]

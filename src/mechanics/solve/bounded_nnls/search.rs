@@ -2,7 +2,7 @@
 //! number of times this set may still change.
 
 use super::{BoundedNnls, MAX_PIVOTS_PER_COLUMN};
-use crate::program::Column;
+use crate::mechanics::program::Column;
 
 /// The state of one call of [`BoundedNnls::find`].
 pub(super) struct Search<'a> {

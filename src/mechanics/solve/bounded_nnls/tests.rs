@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::Vector;
-use crate::interface::ContactKind;
-use crate::program::{ContactTerm, GripTerm, Scale};
+use crate::mechanics::program::{ContactTerm, GripTerm, Scale};
+use crate::mechanics::statics::interface::ContactKind;
 
 /// A block 2 wide and 1 high, pressed down by 10 at a distance `x` from its middle, and pushed by `push` at its
 /// centre. The friction coefficient of the ground is 0.5.

@@ -2,7 +2,7 @@
 //! to the ground. The function [`joints`] lists all joints from the ground outwards.
 
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::program::{ContactTerm, Program};
+use crate::mechanics::program::{ContactTerm, Program};
 
 /// A contact whose two points are closer together than this, relative to the median interface length, cannot resist a
 /// moment.

@@ -19,7 +19,7 @@ mod tests;
 use super::adhesion_result::LeastAdhesion;
 use super::amounts::{Amounts, Effort};
 use crate::geometry::{Vector, cross};
-use crate::program::Program;
+use crate::mechanics::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};
 
 /// A missing force up to this fraction of the contact's forces counts as rounding: the contact does not fail.

@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::geometry::quarter_turn;
-use crate::interface::ContactKind;
-use crate::program::ContactTerm;
-use crate::program::{Scale, adhesion_columns, columns};
-use crate::solve::Conditioning;
-use crate::solve::least_adhesion::by_programs;
-use crate::solve::random_numbers::RandomNumbers;
+use crate::mechanics::program::ContactTerm;
+use crate::mechanics::program::{Scale, adhesion_columns, columns};
+use crate::mechanics::solve::Conditioning;
+use crate::mechanics::solve::least_adhesion::by_programs;
+use crate::mechanics::solve::random_numbers::RandomNumbers;
+use crate::mechanics::statics::interface::ContactKind;
 
 /// Blocks that each touch one earlier block or the ground, in any direction and with any load.
 fn branches(blocks: usize, numbers: &mut RandomNumbers) -> Program {

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::program::QuadraticProgram;
+use crate::mechanics::program::QuadraticProgram;
 
 /// The largest number of columns in a block. A contact has three columns at each of its two application points.
 pub(super) const MAX_BLOCK_COLUMNS: usize = 6;

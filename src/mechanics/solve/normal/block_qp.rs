@@ -21,9 +21,9 @@ use super::column_groups::ColumnGroups;
 use super::dense::{dot, max_norm};
 use super::iterate::{REGULARIZATION, STEP_TO_BOUNDARY, shorten_step};
 use crate::clock::Instant;
-use crate::program::QuadraticProgram;
-use crate::solve::answer::{Answer, Status};
-use crate::solve::settings::StoppingCriteria;
+use crate::mechanics::program::QuadraticProgram;
+use crate::mechanics::solve::answer::{Answer, Status};
+use crate::mechanics::solve::settings::StoppingCriteria;
 
 /// The duality gap is reduced to this fraction of the tolerance, if that can be reached.
 ///

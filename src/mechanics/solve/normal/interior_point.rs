@@ -23,7 +23,7 @@ use super::newton::Newton;
 use super::residuals::{Optimality, Residuals, Termination};
 use super::slack_trend::SlackTrend;
 use crate::clock::Instant;
-use crate::solve::settings::{CrossoverTolerance, StoppingCriteria};
+use crate::mechanics::solve::settings::{CrossoverTolerance, StoppingCriteria};
 
 /// The optimum, a certificate, or the last iterate.
 pub(super) struct Solution {

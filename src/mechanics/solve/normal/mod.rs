@@ -40,7 +40,7 @@ mod tests;
 
 use super::answer::{Answer, Status};
 use super::settings::StoppingCriteria;
-use crate::program::QuadraticProgram;
+use crate::mechanics::program::QuadraticProgram;
 use cholesky::Cholesky;
 use column_groups::ColumnGroups;
 use interior_point::Solution;

@@ -3,8 +3,8 @@
 
 use super::*;
 use crate::clock::Instant;
-use crate::solve::random_numbers::RandomNumbers;
-use crate::solve::{Conditioning, TOLERANCE};
+use crate::mechanics::solve::random_numbers::RandomNumbers;
+use crate::mechanics::solve::{Conditioning, TOLERANCE};
 
 mod factor;
 
@@ -118,7 +118,7 @@ fn an_optimum_of_either_form_meets_its_conditions_and_has_the_cost_of_clarabel()
             assert!(answer.s[k] >= 0.0 && answer.z[k] >= 0.0);
             assert!(answer.s[k] * answer.z[k] < 1e-5, "complementarity of {k}");
         }
-        let other = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
+        let other = crate::mechanics::solve::solve(&problem, TOLERANCE, Conditioning::Full);
         let (ours, theirs) = (product(&problem.linear, &answer.x), product(&problem.linear, &other.x));
         assert!((ours - theirs).abs() < 1e-6 * theirs.abs().max(1.0), "{ours} and {theirs}");
 
@@ -246,7 +246,7 @@ fn the_least_norm_velocities_and_amounts_are_those_of_clarabel() {
     smallest.bound.truncate(unknowns);
     for problem in [shortest, smallest] {
         let ours = solved(&problem);
-        let theirs = crate::solve::solve(&problem, TOLERANCE, Conditioning::Full);
+        let theirs = crate::mechanics::solve::solve(&problem, TOLERANCE, Conditioning::Full);
         assert_eq!((ours.status, theirs.status), (Status::Solved, Status::Solved));
         for (a, b) in ours.x.iter().zip(&theirs.x).chain(ours.z.iter().zip(&theirs.z)) {
             assert!((a - b).abs() < 1e-4, "{a} and {b}");
@@ -309,7 +309,7 @@ fn least_squares_with_floors_meet_their_conditions_and_have_the_cost_of_clarabel
         assert!(floors > 20, "{floors} amounts at their floors");
         // Floors far below all amounts give the same result as floors at −100. With these, clarabel converges.
         problem.bound[unknowns..].iter_mut().for_each(|floor| *floor = floor.min(100.0));
-        let theirs = crate::solve::by_clarabel(&problem, Conditioning::Full.into(), 100);
+        let theirs = crate::mechanics::solve::by_clarabel(&problem, Conditioning::Full.into(), 100);
         assert_eq!(theirs.status, Status::Solved);
         let cost = |x: &[f64]| 0.5 * product(x, &squares(x));
         let off = cost(&ours.x) - cost(&theirs.x);

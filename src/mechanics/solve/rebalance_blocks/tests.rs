@@ -1,8 +1,8 @@
 //! Tests of the corrections of forces that leave single blocks unbalanced.
 
 use super::*;
-use crate::interface::ContactKind;
-use crate::program::{ContactTerm, Scale};
+use crate::mechanics::program::{ContactTerm, Scale};
+use crate::mechanics::statics::interface::ContactKind;
 
 /// A tower of blocks with these weights. Each block is 1 wide and 1 high.
 fn tower(weights: &[f64], friction: f64) -> Program {

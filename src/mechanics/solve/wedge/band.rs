@@ -4,7 +4,7 @@
 //! and McKee 1969). The bandwidth is then about the number of matrix rows of one layer of blocks. Reference: Golub
 //! and Van Loan, Matrix Computations, section 4.3.
 
-use crate::program::Program;
+use crate::mechanics::program::Program;
 
 /// A pivot with a smaller absolute value is replaced by this value. The unknown of that row is then arbitrary; the
 /// later check of the balance decides whether the solution is usable.
@@ -118,7 +118,7 @@ pub(super) fn order(program: &Program) -> (Vec<usize>, usize) {
     // Build the graph whose edges connect blocks that touch.
     let mut neighbours = vec![Vec::new(); program.blocks];
     let pairs = || {
-        let pair = |c: &crate::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
+        let pair = |c: &crate::mechanics::program::ContactTerm| Some((c.on.0, c.from.as_ref()?.0));
         program.contacts.iter().filter_map(pair)
     };
     for (a, b) in pairs() {

@@ -18,8 +18,8 @@ use super::certificate::proves_infeasible;
 use super::node::{Node, RuledOut};
 use super::relaxation::VariableLayout;
 use super::spring::Springs;
-use crate::program::Program;
-use crate::solve::{Conditioning, Status, TOLERANCE, solve};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// The largest number of explored nodes. After that, the search ends undecided.
 const MAX_NODES: usize = 1500;

@@ -4,8 +4,8 @@
 //! satisfy Aᵀz = 0 only approximately. They are corrected until every x up to [`MAX_DISPLACEMENT`] is ruled out.
 //! Reference: Boyd and Vandenberghe, Convex Optimization, 2004, §5.8 (theorems of alternatives).
 
-use crate::program::{Program, QuadraticProgram};
-use crate::solve::{Conditioning, Status, TOLERANCE, solve};
+use crate::mechanics::program::{Program, QuadraticProgram};
+use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Displacements and forces up to this multiple of the sum of all loads are ruled out.
 ///

@@ -8,8 +8,8 @@
 
 use super::rest::normal_sums;
 use super::spring::{Pattern, Rest, Slide, Springs};
-use crate::program::QuadraticProgram;
-use crate::solve::{Conditioning, Status, TOLERANCE, solve};
+use crate::mechanics::program::QuadraticProgram;
+use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// The largest number of fixed-point iterations. Each halves the stiffness of the springs to the ground.
 const MAX_ITERATIONS: usize = 60;

@@ -18,7 +18,7 @@ mod rest;
 mod spring;
 
 use super::{Conditioning, Effort, Status, dual};
-use crate::program::{Column, Force, Program, columns};
+use crate::mechanics::program::{Column, Force, Program, columns};
 use branch_and_bound::{SearchOutcome, search};
 use spring::Springs;
 

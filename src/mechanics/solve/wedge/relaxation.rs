@@ -8,7 +8,7 @@
 
 use super::node::{Branch, Node};
 use super::spring::{Slide, Springs};
-use crate::program::{Column, QuadraticProgram};
+use crate::mechanics::program::{Column, QuadraticProgram};
 
 /// The weight of ½|unknowns|² in the objective, multiplied by Σ |load|. This term makes the optimum unique and finite.
 ///

@@ -5,7 +5,7 @@
 //! chapter 12).
 
 use super::spring::{Pattern, Rest, Slide, Springs};
-use crate::program::Column;
+use crate::mechanics::program::Column;
 
 /// The largest residual of a block as a fraction of its own load: the tolerance of a verdict (τ in `doc::numerics`).
 const BALANCE_TOL: f64 = 1e-7;

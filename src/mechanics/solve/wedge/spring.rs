@@ -9,7 +9,7 @@
 //! Invariant: every [`Rest`] obeys the law and balances every block relative to that block's own load.
 
 use super::band::{Band, order};
-use crate::program::{Column, Force, Program, adhesion_columns, columns};
+use crate::mechanics::program::{Column, Force, Program, adhesion_columns, columns};
 
 /// Openings and slips below this fraction of the terms of which they are the sum count as rounding.
 const ROUNDING_TOL: f64 = 1e-13;
@@ -115,7 +115,7 @@ impl<'a> Springs<'a> {
             contacts: program
                 .contacts
                 .iter()
-                .map(|c| crate::program::ContactTerm { friction: 0.0, ..c.clone() })
+                .map(|c| crate::mechanics::program::ContactTerm { friction: 0.0, ..c.clone() })
                 .collect(),
             grips: Vec::new(),
             ..program.clone()

@@ -78,8 +78,8 @@ impl AssemblyContact {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interface::ContactKind;
-    use crate::scene::{BlockId, BodyId};
+    use crate::mechanics::scene::{BlockId, BodyId};
+    use crate::mechanics::statics::interface::ContactKind;
 
     fn body(number: usize, at: [f64; 2], force: [f64; 2], moment: f64) -> AssemblyBody {
         AssemblyBody {

@@ -1,7 +1,7 @@
 //! [`Assembly`]: one frame of a scene as free bodies, contacts and grips, in metres and newtons.
 //!
 //! An assembly has bodies with load vectors, contacts with application points, and grips with limits. It does not
-//! contain files, steps or materials. The effects of [`crate::effect`] build it. [`Assembly::components`] splits it
+//! contain files, steps or materials. The effects of [`crate::mechanics::statics::effect`] build it. [`Assembly::components`] splits it
 //! into components that cannot influence each other. The `with_…` functions return changed assemblies, from which
 //! margins are computed.
 //!
@@ -19,8 +19,8 @@ pub use substructure::Substructure;
 use std::sync::Arc;
 
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::interface::{ContactKind, Interface};
-use crate::scene::{BlockId, BodyId, Frame, Limits, RobotId, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Frame, Limits, RobotId, Scene};
+use crate::mechanics::statics::interface::{ContactKind, Interface};
 
 /// One frame of a scene, or a component of it, as a system of rigid bodies.
 #[derive(Clone, Debug)]

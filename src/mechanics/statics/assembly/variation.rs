@@ -3,7 +3,7 @@
 
 use super::Assembly;
 use crate::geometry::Vector;
-use crate::scene::Limits;
+use crate::mechanics::scene::Limits;
 
 impl Assembly {
     /// Sets the friction coefficient of every contact to `mu`.
@@ -18,7 +18,7 @@ impl Assembly {
     /// ends.
     pub fn with_kernel(mut self, kernel: f64) -> Assembly {
         for contact in &mut self.contacts {
-            contact.points = crate::interface::application_points(contact.ends, kernel);
+            contact.points = crate::mechanics::statics::interface::application_points(contact.ends, kernel);
         }
         self
     }

@@ -3,9 +3,9 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.1–2.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::{Assembly, AssemblyContact};
-use crate::interface::{ContactKind, Interface};
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
+use crate::mechanics::statics::interface::{ContactKind, Interface};
 
 /// Normal forces between edges that touch. Applies if two bodies touch; contributes one contact without friction per
 /// edge interface.

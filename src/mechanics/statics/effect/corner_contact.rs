@@ -3,8 +3,8 @@
 //! [Vallat23](crate::doc::references) §3 omits them as unreliable.
 
 use super::{Applicability, Effect, EffectName, FrameContext, contact};
-use crate::assembly::Assembly;
-use crate::interface::ContactKind;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::interface::ContactKind;
 
 /// Forces at corners. Applies if the scene requests them and a corner touches another body, or if the scene lists its
 /// contacts. Contributes one contact with friction and with one application point for each corner or listed contact.

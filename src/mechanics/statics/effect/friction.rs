@@ -4,7 +4,7 @@
 //! the full friction in one direction. Source: [Vallat23](crate::doc::references) §2.0.3.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Friction at interfaces. Applies if μ > 0 at some interface; contributes the coefficient of each contact.
 pub(super) struct Friction;

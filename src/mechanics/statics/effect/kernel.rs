@@ -4,8 +4,8 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.10.
 
 use super::{Applicability, Effect, EffectName, FrameContext};
-use crate::assembly::Assembly;
-use crate::interface::application_points;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::interface::application_points;
 
 /// The safety kernel. Applies if it is above 0 and there is an interface; moves the application points of all contacts.
 pub(super) struct Kernel;

@@ -1,7 +1,7 @@
 //! Loads: forces and torques on blocks in addition to their weight. The effect adds no unknowns to the linear program.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::{Assembly, load_about};
+use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// The loads that the scene lists. Applies if one of them acts on a placed block; adds the loads to the load vectors of
 /// the bodies.

@@ -25,9 +25,9 @@ mod weight;
 
 use std::fmt;
 
-use crate::assembly::Assembly;
-use crate::interface::Interface;
-use crate::scene::{Frame, Scene};
+use crate::mechanics::scene::{Frame, Scene};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::interface::Interface;
 
 /// The name of an effect. Effects are reported in this order; `Display` writes [`EffectName::word`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

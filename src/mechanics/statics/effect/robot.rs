@@ -4,8 +4,8 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.6.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::{Assembly, AssemblyGrip};
-use crate::scene::Limits;
+use crate::mechanics::scene::Limits;
+use crate::mechanics::statics::assembly::{Assembly, AssemblyGrip};
 
 /// Forces of robots. Applies if a robot holds a placed block; contributes one grip per hold, with the robot's limits of
 /// force and a torque limit of 0.

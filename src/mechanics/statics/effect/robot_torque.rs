@@ -4,7 +4,7 @@
 //! control torque poorly.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Torques of robots. Applies if the torque limit of a robot that holds a block is above 0; sets the torque limits of
 /// the grips.

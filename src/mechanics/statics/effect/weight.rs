@@ -3,7 +3,7 @@
 //! Source: [Vallat23](crate::doc::references) §2.0.1.
 
 use super::{Applicability, Effect, EffectName, FrameContext, counted};
-use crate::assembly::Assembly;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// The weight of the blocks. Applies if there is gravity and a placed block has weight; sets the weight of each body
 /// and the direction of gravity.

@@ -2,7 +2,7 @@
 
 use super::gap_segment::GapSegment;
 use crate::geometry::{Edge, Point, Tolerance, Vector};
-use crate::scene::{Scene, ToleranceSource};
+use crate::mechanics::scene::{Scene, ToleranceSource};
 
 /// If a tolerance is given, a segment that covers this fraction of the shorter edge is a contact, however short the
 /// edge.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::scene::{BodyId, Scene};
 
 /// If the difference of the unit bisectors of two corners has at most this length, the contact has no defined normal,
 /// because both corners point in the same direction.

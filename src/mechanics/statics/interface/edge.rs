@@ -15,7 +15,7 @@ use super::notice::Notices;
 use super::pinned::{MAX_PINNED_SIZE_PER_GAP, pinned_gaps};
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, normal_across, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Tolerance, Vector, cross};
-use crate::scene::{BodyId, Scene, size};
+use crate::mechanics::scene::{BodyId, Scene, size};
 
 /// Edges farther apart than this multiple of the contact tolerance are not mentioned in a notice.
 const MAX_REPORTED_GAPS: f64 = 30.0;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Cell, Lattice, boundary, quarter_turn};
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::scene::{BodyId, Scene};
 
 type Node = (i64, i64);
 

@@ -19,7 +19,7 @@ pub(crate) use lattice::LatticeEdges;
 pub(crate) use pinned::{ContactsByBody, pinning_stone};
 
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Frame, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 
 /// What kind of contact an interface is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 //! one about contacts that are too short, one about gaps that are too wide.
 
 use crate::geometry::Tolerance;
-use crate::scene::format::UnitsEntry;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{BodyId, Scene};
 
 /// Collects the segments that are too short and the edges that are too far apart for an interface.
 #[derive(Default)]

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::{Interface, NearMiss, PinnedGap};
-use crate::scene::{BlockId, BodyId, Scene, size};
+use crate::mechanics::scene::{BlockId, BodyId, Scene, size};
 
 /// The interfaces of each body.
 pub(crate) struct ContactsByBody<'a>(BTreeMap<BodyId, Vec<&'a Interface>>);

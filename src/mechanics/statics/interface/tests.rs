@@ -1,7 +1,7 @@
 //! Tests of contacts in scenes whose contacts are obvious.
 
 use super::*;
-use crate::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, Pair};
+use crate::mechanics::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, Pair};
 
 mod corner;
 mod edge;
@@ -166,7 +166,7 @@ fn edges_touch_within_the_tolerance_and_are_near_misses_beyond_it() {
     // none.
     let apart = Interfaces::new(&at(31.0 * gap, 0.0));
     assert_eq!((apart.near_misses.len(), apart.notices.len()), (1, 0));
-    let size = crate::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
+    let size = crate::mechanics::scene::size(&at(0.0, 0.0).body(FIRST).polygon);
     for (share, seen) in [(0.0099, 1), (0.0101, 0)] {
         assert_eq!(Interfaces::new(&at(share * size, 0.0)).near_misses.len(), seen);
     }

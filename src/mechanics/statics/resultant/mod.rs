@@ -4,8 +4,8 @@
 //! application points, weighted by their normal forces.
 
 use crate::geometry::{Point, Vector};
-use crate::interface::Interface;
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::mechanics::statics::interface::Interface;
 
 /// The single force that is equivalent to the normal forces and the friction of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]

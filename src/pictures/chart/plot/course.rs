@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::RGBColor;
 
 use super::{DrawingResult, GRID, INK, Page, UNITS_PER_PIXEL, font, small, tick, words_from};
-use crate::chart::{Course, SMALL_SIZE, round_step};
+use crate::pictures::chart::{Course, SMALL_SIZE, round_step};
 
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 

@@ -6,7 +6,7 @@ use plotters::style::{FontStyle, RGBColor};
 use super::{
     DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, tick, words_from,
 };
-use crate::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
+use crate::pictures::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
 
 /// The colour of highlighted lines.
 const HIGHLIGHT_COLOUR: RGBColor = RGBColor(20, 70, 130);

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::RGBColor;
 
 use super::{DrawingResult, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, words_from};
-use crate::chart::{LARGE_SIZE, Scatter, power_of_ten};
+use crate::pictures::chart::{LARGE_SIZE, Scatter, power_of_ten};
 
 /// The colour of the Pareto front.
 const FRONT_COLOUR: RGBColor = RGBColor(240, 190, 60);

@@ -8,8 +8,8 @@
 use core::f64::consts::TAU;
 
 use super::{Placed, corners};
-use crate::drawing::arrow::head_size;
-use crate::drawing::{PagePoint, PageRect};
+use crate::pictures::drawing::arrow::head_size;
+use crate::pictures::drawing::{PagePoint, PageRect};
 
 /// Convex pieces that labels must not cover.
 #[derive(Clone, Debug, Default)]
@@ -116,7 +116,7 @@ impl Ink {
         self.convex((0..8).map(corner));
     }
 
-    /// Adds the arrow that [`arrow::straight`](crate::drawing::arrow::straight) draws.
+    /// Adds the arrow that [`arrow::straight`](crate::pictures::drawing::arrow::straight) draws.
     pub fn arrow(&mut self, from: PagePoint, along: (f64, f64), width: f64) {
         let length = libm::hypot(along.0, along.1);
         if length.is_nan() || length <= 0.0 {

@@ -7,7 +7,7 @@
 
 use super::ink::separated;
 use super::{Ink, LABEL_CLEARANCE, LabelRequest, Placed, centred, corners, within};
-use crate::drawing::{PagePoint, PageRect};
+use crate::pictures::drawing::{PagePoint, PageRect};
 
 /// Largest number of rounds over all pairs. The second round rarely changes anything; the limit keeps crowded figures
 /// fast.

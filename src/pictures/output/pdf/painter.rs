@@ -8,7 +8,7 @@ use resvg::usvg;
 
 use super::super::tree;
 use super::paint::{fill, outline, outline_of, passes, share, stroke, transform};
-use crate::drawing::Face;
+use crate::pictures::drawing::Face;
 
 /// Paints the nodes of an SVG on a page.
 pub(super) struct PdfPainter<'s, 'd> {

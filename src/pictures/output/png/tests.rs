@@ -2,8 +2,10 @@
 //! picture as the full SVG.
 
 use super::*;
-use crate::drawing::{Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text};
-use crate::output::svg;
+use crate::pictures::drawing::{
+    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text,
+};
+use crate::pictures::output::svg;
 
 fn words(words: &str, face: Face) -> String {
     let text = Text::new(PagePoint::new(5.0, 30.0), words, face, 24.0, Colour::BLACK);

@@ -13,8 +13,8 @@ use write_fonts::read::{FontRef, TableProvider as _};
 use write_fonts::tables::cmap::Cmap;
 use write_fonts::types::{GlyphId, Tag};
 
-use crate::drawing::Face;
-use crate::output::tree::Run;
+use crate::pictures::drawing::Face;
+use crate::pictures::output::tree::Run;
 
 /// Returns a style sheet that embeds a subset of each built-in font of the text. The names of the font families begin
 /// with `mark`.
@@ -101,7 +101,7 @@ fn kerning(font: &FontRef<'_>, face: Face, runs: &[&Run]) -> Result<BTreeMap<(u1
         for pair in run.glyphs.windows(2) {
             let [a, b] = pair else { continue };
             // True if the glyph stands for exactly one character. The glyph of a ligature is not in the subset.
-            let own = |placed: &crate::output::tree::Placed| {
+            let own = |placed: &crate::pictures::output::tree::Placed| {
                 let mut characters = placed.characters.chars();
                 let only = characters.next().filter(|_| characters.next().is_none());
                 only.and_then(|c| face.glyph(c)) == Some(placed.glyph)

@@ -4,7 +4,7 @@ use resvg::tiny_skia::{PathSegment, Point};
 use resvg::usvg::{Node, Text};
 
 use super::outline::Steps;
-use crate::drawing::PagePoint;
+use crate::pictures::drawing::PagePoint;
 
 /// Returns the number in the id of a line of text (`t1`, `t2` …), and the SVG path data of its letters. Returns `None`
 /// if the id has another form.

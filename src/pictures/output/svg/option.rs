@@ -1,6 +1,6 @@
 //! [`Options`]: the options for writing an SVG file.
 
-use crate::output::fonts::Fonts;
+use crate::pictures::output::fonts::Fonts;
 
 /// How text is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Writes numbers and SVG path data with as few characters as possible, at a precision of 1/100 pixel.
 
-use crate::drawing::{Outline, PagePoint, Segment};
+use crate::pictures::drawing::{Outline, PagePoint, Segment};
 
 /// Formats a number with at most two decimals (1/100 pixel), without trailing zeros and without −0.
 ///

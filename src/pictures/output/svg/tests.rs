@@ -2,7 +2,7 @@
 
 use super::*;
 
-use crate::drawing::{Colour, Outline, PagePoint, PageRect, Text};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Text};
 
 fn page(items: Vec<Item>) -> Drawing {
     Drawing { width: 40.0, height: 30.0, title: "t".into(), description: "d".into(), background: None, items }

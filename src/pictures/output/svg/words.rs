@@ -4,7 +4,7 @@
 use super::font;
 use super::outline::number;
 use super::{DEFAULT_FACE, Form, Writer};
-use crate::drawing::{Anchor, Face, Stroke, Text};
+use crate::pictures::drawing::{Anchor, Face, Stroke, Text};
 use crate::text::xml;
 
 impl Writer<'_> {

@@ -1,11 +1,11 @@
 //! Draws the outlines of a scene that may be invalid, with the numbered marks of its problems and gaps.
 
 use super::super::option::Options;
-use crate::drawing::hatch::{hatch, lines};
-use crate::drawing::text::width;
-use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text};
 use crate::geometry::{Bounds, Point};
-use crate::scene::{BodyId, Code, Sketch, SketchedBody};
+use crate::mechanics::scene::{BodyId, Code, Sketch, SketchedBody};
+use crate::pictures::drawing::hatch::{hatch, lines};
+use crate::pictures::drawing::text::width;
+use crate::pictures::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text};
 
 /// Radius of a number's disc, pixels.
 pub(super) const DISC_RADIUS: f64 = 9.0;

@@ -1,8 +1,8 @@
 //! [`Plan`]: computes the positions of the polygon of forces and of the small pictures of mechanisms, in metres.
 
-use crate::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
-use crate::figure::view;
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
+use crate::products::figure::view;
 
 /// Length at which the largest force is drawn if the polygon is at the loaded point, as a fraction of the size of the
 /// structure.

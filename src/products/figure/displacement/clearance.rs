@@ -2,7 +2,7 @@
 
 use super::rigid::Displacement;
 use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, overlap};
-use crate::scene::{BlockId, Frame, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Scene};
 
 /// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. An overlap of 1 % is already
 /// visible.

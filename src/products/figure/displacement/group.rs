@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::super::joint::Joint;
-use crate::analysis::{Analysis, Motion};
-use crate::scene::{BlockId, BodyId};
+use crate::mechanics::analysis::{Analysis, Motion};
+use crate::mechanics::scene::{BlockId, BodyId};
 
 /// A block is at rest if the speed of its fastest point is at most this fraction of the largest speed of all blocks.
 /// Slower motions are numerical noise of the solver or not visible.

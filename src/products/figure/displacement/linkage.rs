@@ -11,9 +11,9 @@ use nalgebra::{DMatrix, DVector};
 use super::super::joint::Joint;
 use super::group::rigid_bodies;
 use super::rigid::Displacement;
-use crate::analysis::{Analysis, Motion};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Analysis, Motion};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// Joints are not closed if there are more bodies than this, because closing them would take longer than the drawing.
 const MAX_BODIES: usize = 40;

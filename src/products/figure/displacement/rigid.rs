@@ -1,7 +1,7 @@
 //! [`Displacement`]: a rigid displacement of a block: a rotation about a point and a translation.
 
-use crate::analysis::Motion;
 use crate::geometry::{Point, Vector, quarter_turn};
+use crate::mechanics::analysis::Motion;
 
 /// A rotation about a point, followed by a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]

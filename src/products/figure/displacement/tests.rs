@@ -1,8 +1,8 @@
 use super::*;
-use crate::figure::unit::unit;
 use crate::geometry::{ConvexPieces, Polygon, overlap};
 use crate::geometry::{Vector, quarter_turn};
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
+use crate::products::figure::unit::unit;
 
 fn falling() -> Vec<Scene> {
     [
@@ -14,7 +14,7 @@ fn falling() -> Vec<Scene> {
     .into()
 }
 
-fn moved(block: &crate::scene::Block, displacement: &Displacement) -> Polygon {
+fn moved(block: &crate::mechanics::scene::Block, displacement: &Displacement) -> Polygon {
     let corners = block.body.polygon.outline().iter();
     let corners = corners.map(|p| displacement.moved(*p)).collect();
     Polygon::new(corners, Vec::new()).expect("a rigid motion keeps an outline simple")

@@ -9,7 +9,7 @@ use super::strand::{Strand, StrandKind, strands};
 use super::{
     MAX_SINGLE_STRANDS, MIN_BAND_WIDTH, MISSING_SIGN, carried, colour, dot_symbol, largest, missing_symbol, widest,
 };
-use crate::analysis::Verdict;
+use crate::mechanics::analysis::Verdict;
 
 /// Returns the legend entries of a figure of force flow. `unit` is the unit length in pixels.
 pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {

@@ -1,7 +1,7 @@
 //! [`ribbon`]: computes the outline of a band from its axis and its widths.
 
-use crate::drawing::{Camera, Outline};
 use crate::geometry::{Point, Vector, quarter_turn};
+use crate::pictures::drawing::{Camera, Outline};
 
 /// Largest width of a band at a corner, as a multiple of its width before and after the corner.
 const MAX_MITRE: f64 = 1.6;

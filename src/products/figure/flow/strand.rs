@@ -8,10 +8,10 @@
 
 use super::curve::{curve, moved_inside};
 use super::line::{self, LineOfAction, TruePath};
-use crate::analysis::{Failure, FrameAnalysis};
-use crate::figure::bearing::{self, bearings};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
-use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
+use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
+use crate::products::figure::bearing::{self, bearings};
 
 /// If the component of a force along gravity is at most this fraction of the force, the component across gravity
 /// decides whether the force enters or leaves the block.
@@ -178,7 +178,7 @@ fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
 fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec<Strand>> {
     let presses = |f: &&ForceOnBlock| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
     let given = |f: &&ForceOnBlock| matches!(f.origin, Origin::Load | Origin::Weight);
-    let turned = |load: &crate::scene::Load| load.block == on && load.torque != 0.0;
+    let turned = |load: &crate::mechanics::scene::Load| load.block == on && load.torque != 0.0;
     let pressing: Vec<&ForceOnBlock> = forces.iter().filter(presses).collect();
     let [one, other] = pressing[..] else {
         return None;

@@ -1,14 +1,14 @@
 //! Writes the texts of figures of force flow: the tooltips of bands and joints, and the text below the verdict.
 
 use super::strand::{Origin, Strand};
-use crate::analysis::{Contact, FrameAnalysis};
-use crate::figure::context::FigureContext;
-use crate::figure::description;
-use crate::figure::largest;
-use crate::figure::limit;
-use crate::figure::verdict;
-use crate::figure::words::quantity;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::products::figure::context::FigureContext;
+use crate::products::figure::description;
+use crate::products::figure::largest;
+use crate::products::figure::limit;
+use crate::products::figure::verdict;
+use crate::products::figure::words::quantity;
 
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 pub(super) fn strand(scene: &Scene, frame_analysis: &FrameAnalysis, strand: &Strand) -> String {

@@ -2,10 +2,10 @@
 //! the shown part of the scene.
 
 use super::arrow::{Arrow, MAX_LENGTH};
-use crate::analysis::{Analysis, Contact};
-use crate::drawing::{Camera, PageRect};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Analysis, Contact};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::pictures::drawing::{Camera, PageRect};
 
 /// Space beyond the tip of an arrow for its name: width and height, pixels.
 const NAME_SPACE: (f64, f64) = (38.0, 24.0);

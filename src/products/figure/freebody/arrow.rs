@@ -1,8 +1,8 @@
 //! [`Arrow`]: the position, shape and name of an arrow of a free-body diagram.
 
-use crate::drawing::symbol::Symbol;
-use crate::drawing::{Colour, PagePoint};
 use crate::geometry::Point;
+use crate::pictures::drawing::symbol::Symbol;
+use crate::pictures::drawing::{Colour, PagePoint};
 
 /// Length of the longest arrow, pixels.
 pub(super) const MAX_LENGTH: f64 = 64.0;

@@ -7,11 +7,11 @@ use super::around::{aside, corners, distinct, inward};
 use super::arrow::{Arrow, MAX_LENGTH, SHAFT_WIDTH};
 use super::force::{Detail, Force, detail, largest};
 use super::parallel_arrows::separate_arrows;
-use crate::analysis::{Analysis, Contact};
-use crate::drawing::Camera;
-use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Vector, quarter_turn};
-use crate::scene::BlockId;
+use crate::mechanics::analysis::{Analysis, Contact};
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::Camera;
+use crate::pictures::drawing::symbol::{Accent, Symbol};
 
 /// Length of an arrow that only names a force, pixels.
 const NAMING_LENGTH: f64 = 52.0;

@@ -6,13 +6,13 @@ use super::force::largest;
 use super::table::Table;
 use super::value::{self, Piece, rows};
 use super::{LIST_SIZE, MARGIN, Sheet};
-use crate::drawing::{Anchor, Face, Group, Item, PagePoint, Text, text};
-use crate::figure::arrow::round_above;
-use crate::figure::legend;
-use crate::figure::option::Corners;
-use crate::figure::unit::unit;
-use crate::figure::verdict;
-use crate::figure::words::{listed, quantity, round_below_in};
+use crate::pictures::drawing::{Anchor, Face, Group, Item, PagePoint, Text, text};
+use crate::products::figure::arrow::round_above;
+use crate::products::figure::legend;
+use crate::products::figure::option::Corners;
+use crate::products::figure::unit::unit;
+use crate::products::figure::verdict;
+use crate::products::figure::words::{listed, quantity, round_below_in};
 
 impl Sheet<'_> {
     /// Returns the table of the forces on the block, with their moments about the centroid of the block.

@@ -3,12 +3,12 @@
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
 use super::around::{Corner, corners, distinct, inward, other};
-use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis};
-use crate::drawing::Colour;
-use crate::drawing::symbol::{Accent, Symbol};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::scene::format::UnitsEntry;
-use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause};
+use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause};
+use crate::pictures::drawing::Colour;
+use crate::pictures::drawing::symbol::{Accent, Symbol};
 
 /// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
 /// select another level of detail.

@@ -2,11 +2,11 @@
 //! construction.
 
 use super::{HEADING_SIZE, MARGIN, SUBHEADING_SIZE};
-use crate::analysis::Analysis;
-use crate::drawing::{Face, text};
-use crate::figure::option::Options;
-use crate::figure::words::letter;
-use crate::scene::BlockId;
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::{Face, text};
+use crate::products::figure::option::Options;
+use crate::products::figure::words::letter;
 
 /// Returns the lines of the heading, each with its font and its font size in pixels. The list is empty if the options
 /// exclude titles. `width` is the width of the page in pixels.

@@ -30,12 +30,12 @@ use force::{Force, forces};
 use heading::heading;
 
 use super::option::Options;
-use crate::analysis::{Analysis, Contact};
-use crate::drawing::placement::{Ink, LabelRequest};
-use crate::drawing::symbol::Symbol;
-use crate::drawing::{Anchor, Camera, Drawing, Face, Item, PagePoint, PageRect, Text};
 use crate::geometry::{Bounds, Polygon};
-use crate::scene::{BlockId, BodyId};
+use crate::mechanics::analysis::{Analysis, Contact};
+use crate::mechanics::scene::{BlockId, BodyId};
+use crate::pictures::drawing::placement::{Ink, LabelRequest};
+use crate::pictures::drawing::symbol::Symbol;
+use crate::pictures::drawing::{Anchor, Camera, Drawing, Face, Item, PagePoint, PageRect, Text};
 
 /// Font size of names in the drawing, pixels.
 const NAME_SIZE: f64 = 19.0;

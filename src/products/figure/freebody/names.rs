@@ -2,11 +2,11 @@
 
 use super::around::{neighbours, runs_on};
 use super::{NAME_SIZE, SPACE_BELOW, Sheet};
-use crate::drawing::placement::{Ink, LabelRequest, place, place_avoiding};
-use crate::drawing::symbol::Symbol;
-use crate::drawing::{Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 use crate::geometry::{Polygon, Vector};
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::placement::{Ink, LabelRequest, place, place_avoiding};
+use crate::pictures::drawing::symbol::Symbol;
+use crate::pictures::drawing::{Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 
 /// Largest number of names of forces, and of bodies, in a picture.
 const MAX_NAMES: usize = 150;

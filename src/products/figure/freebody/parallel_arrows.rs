@@ -4,8 +4,8 @@
 //! the two arrows would overlap. Only the position of the arrow changes; the list of forces keeps the line of action.
 
 use super::arrow::{Arrow, SHAFT_WIDTH};
-use crate::drawing::Camera;
-use crate::drawing::arrow::HEAD_WIDTH;
+use crate::pictures::drawing::Camera;
+use crate::pictures::drawing::arrow::HEAD_WIDTH;
 
 /// Arrows count as parallel if the angle between their axes is less than this, rad. Opposite arrows are parallel too.
 const PARALLEL_ANGLE: f64 = 0.12;

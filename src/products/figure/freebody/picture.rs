@@ -5,14 +5,14 @@
 use super::around::{corners, distinct, neighbours};
 use super::arrow::Arrow;
 use super::{MARGIN, NAME_SIZE, SPACE_BELOW, Sheet};
-use crate::drawing::arrow::{straight, turning};
-use crate::drawing::hatch::{hatch, lines};
-use crate::drawing::placement::{Ink, LabelRequest};
-use crate::drawing::symbol::{Accent, Symbol};
-use crate::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke};
-use crate::figure::arrow::MIN_VISIBLE_ARROW;
 use crate::geometry::{Point, Polygon};
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::arrow::{straight, turning};
+use crate::pictures::drawing::hatch::{hatch, lines};
+use crate::pictures::drawing::placement::{Ink, LabelRequest};
+use crate::pictures::drawing::symbol::{Accent, Symbol};
+use crate::pictures::drawing::{Group, Outline, PagePoint, PageRect, Path, Stroke};
+use crate::products::figure::arrow::MIN_VISIBLE_ARROW;
 
 /// Distance of hatching lines, pixels.
 const HATCH_SPACING: f64 = 7.0;

@@ -4,11 +4,13 @@
 //! the columns. The last row is the sum, which is zero in equilibrium, except for rounding.
 
 use super::force::Force;
-use crate::drawing::symbol::{Accent, Symbol};
-use crate::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::geometry::{Point, Vector};
-use crate::scene::Unit;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::Unit;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::pictures::drawing::symbol::{Accent, Symbol};
+use crate::pictures::drawing::{
+    Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
 
 /// Space between columns, pixels.
 const COLUMN_GAP: f64 = 14.0;

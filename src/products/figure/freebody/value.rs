@@ -1,11 +1,11 @@
 //! [`places`]: lists the coordinates of the points at which forces act, and the components of the unit normals.
 
 use super::around::{corners, distinct, inward};
-use crate::analysis::{Analysis, Contact};
-use crate::drawing::symbol::{Accent, Symbol};
-use crate::drawing::text::NO_BREAK;
-use crate::drawing::{Face, Item, PagePoint, PageRect, Text, Theme, text};
-use crate::scene::BlockId;
+use crate::mechanics::analysis::{Analysis, Contact};
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::symbol::{Accent, Symbol};
+use crate::pictures::drawing::text::NO_BREAK;
+use crate::pictures::drawing::{Face, Item, PagePoint, PageRect, Text, Theme, text};
 
 /// Space between values in a row, pixels.
 const VALUE_GAP: f64 = 26.0;

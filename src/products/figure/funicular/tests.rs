@@ -1,7 +1,7 @@
 //! Tests of lines of thrust in structures whose lines can be computed by hand.
 
 use super::*;
-use crate::analysis::Analysis;
+use crate::mechanics::analysis::Analysis;
 
 fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))

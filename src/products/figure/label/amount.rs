@@ -7,9 +7,9 @@ use super::super::pen::{DOT_RADIUS, Pen, TURN_RADIUS};
 use super::super::words::quantity;
 use super::lettering::{LINE_HEIGHT, Label, MIN_SIZE, label};
 use super::row::RowPlaces;
-use crate::drawing::placement::LabelRequest;
-use crate::drawing::{Colour, Face, PagePoint, text};
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::placement::LabelRequest;
+use crate::pictures::drawing::{Colour, Face, PagePoint, text};
 
 /// Approximate largest number of magnitudes of loads and missing forces that are written in frames with many blocks.
 pub(crate) const MAX_AMOUNTS: usize = 16;
@@ -250,9 +250,9 @@ fn centres_along(from: PagePoint, along: (f64, f64), width: f64, (wide, high): (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::arrow::Head;
     use crate::geometry::{Point, Vector};
-    use crate::scene::BlockId;
+    use crate::mechanics::scene::BlockId;
+    use crate::products::figure::arrow::Head;
 
     #[test]
     fn if_there_are_too_many_amounts_only_the_largest_are_labelled() {

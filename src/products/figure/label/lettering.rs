@@ -2,9 +2,9 @@
 //! label into lines and draw it.
 
 use super::super::pen::Pen;
-use crate::drawing::placement::{LabelRequest, Placed};
-use crate::drawing::{Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::placement::{LabelRequest, Placed};
+use crate::pictures::drawing::{Anchor, Colour, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, text};
 
 /// Least font size, pixels.
 pub(super) const MIN_SIZE: f64 = 9.0;

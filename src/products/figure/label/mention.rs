@@ -5,7 +5,7 @@
 //! that the text mentions has no label. The opposite error would be worse: a label on a block that the text does not
 //! mention would mislead the reader.
 
-use crate::drawing::text::NO_BREAK;
+use crate::pictures::drawing::text::NO_BREAK;
 
 /// True if a text contains `name` as a separate word that is neither a quantity nor a count nor a part of a number.
 pub(super) fn names(text: &str, name: &str) -> bool {

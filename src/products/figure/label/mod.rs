@@ -1,6 +1,6 @@
 //! [`labels`]: draws names of blocks and robots, and magnitudes of forces, at positions that avoid other shapes.
 //!
-//! [`placement`](crate::drawing::placement) finds the positions; this file determines the labels and their preferred
+//! [`placement`](crate::pictures::drawing::placement) finds the positions; this file determines the labels and their preferred
 //! positions. A name is inside its block if there is space, otherwise next to it, usually with a leader line. If a
 //! label that the text below the verdict mentions has no free position, it is drawn over other shapes. Any other label
 //! without a free position is left out, and a note counts these labels.
@@ -26,10 +26,10 @@ use super::context::FigureContext;
 use super::pen::Pen;
 use super::view;
 use super::words::{counted, listed};
-use crate::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_avoiding};
-use crate::drawing::{Group, PagePoint, PageRect};
 use crate::geometry::Bounds;
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::placement::{Ink, LabelRequest, Placed, nearest, place_avoiding};
+use crate::pictures::drawing::{Group, PagePoint, PageRect};
 
 /// In frames with more blocks than this, only blocks that the text mentions are labelled with their names.
 pub(crate) const MAX_LABELLED_BLOCKS: usize = 60;

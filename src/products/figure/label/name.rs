@@ -3,10 +3,10 @@
 use super::super::pen::Pen;
 use super::super::view;
 use super::lettering::{Label, MIN_SIZE, broken, label};
-use crate::drawing::Face;
-use crate::drawing::placement::LabelRequest;
 use crate::geometry::{Bounds, Point, Polygon};
-use crate::scene::{BlockId, Hold};
+use crate::mechanics::scene::{BlockId, Hold};
+use crate::pictures::drawing::Face;
+use crate::pictures::drawing::placement::LabelRequest;
 
 /// Number of positions tried along each axis of a block.
 const POSITIONS_PER_AXIS: usize = 13;

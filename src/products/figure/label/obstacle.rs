@@ -1,10 +1,10 @@
 //! [`ink`]: collects the parts of a frame's picture that labels must not cover.
 
-use crate::drawing::PagePoint;
-use crate::drawing::placement::Ink;
-use crate::figure::arrow::{ArrowKind, TurnArrow};
-use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 use crate::geometry::Polygon;
+use crate::pictures::drawing::PagePoint;
+use crate::pictures::drawing::placement::Ink;
+use crate::products::figure::arrow::{ArrowKind, TurnArrow};
+use crate::products::figure::pen::{CENTROID_RADIUS, DOT_RADIUS, Pen};
 
 /// Returns the shapes that labels must not cover: the outlines of ground, blocks and planned blocks, the discs of
 /// robots, the visible arrows, and the dots that replace small arrows.

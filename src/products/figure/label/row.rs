@@ -4,7 +4,7 @@
 
 use super::super::arrow::{ArrowKind, ForceArrow};
 use super::super::pen::Pen;
-use crate::drawing::PagePoint;
+use crate::pictures::drawing::PagePoint;
 
 /// Least number of loads in a row.
 const MIN_LOADS: usize = 3;

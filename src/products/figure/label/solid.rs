@@ -2,10 +2,10 @@
 //! would mistake the label for the name of this body.
 
 use super::middle;
-use crate::drawing::PageRect;
-use crate::figure::pen::Pen;
 use crate::geometry::Bounds;
-use crate::scene::BlockId;
+use crate::mechanics::scene::BlockId;
+use crate::pictures::drawing::PageRect;
+use crate::products::figure::pen::Pen;
 
 /// The bounding boxes on the page of the blocks of a frame, as they are drawn, and of the ground.
 pub(super) struct DrawnBoxes {

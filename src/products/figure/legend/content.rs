@@ -10,10 +10,10 @@ use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_LENGTH};
 use super::super::words::{counted, quantity, round_below_in};
 use super::entry::{Entry, MissingWords};
 use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_symbol, missing_dot, weight_symbol};
-use crate::drawing::Colour;
-use crate::drawing::arrow::HEAD_LENGTH;
-use crate::scene::Frame;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::Frame;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::pictures::drawing::Colour;
+use crate::pictures::drawing::arrow::HEAD_LENGTH;
 
 /// The last words of the names of quantities that colours show. They are left out in a column of print.
 const OF_A_BLOCK: &str = " of a block";

@@ -1,7 +1,7 @@
 //! [`Entry`]: an entry of the legend, which consists of a symbol and a text.
 
 use super::symbol::{self, LINE_LENGTH, ON_BLOCK, SYMBOL_GAP, written};
-use crate::drawing::{Colour, Face, Item, PagePoint, Theme, text};
+use crate::pictures::drawing::{Colour, Face, Item, PagePoint, Theme, text};
 
 const COLOURS_TEXT: &str = "the forces on a block share a colour";
 const PLANNED_TEXT: &str = "planned block";

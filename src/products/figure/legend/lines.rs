@@ -2,7 +2,7 @@
 
 use super::entry::Entry;
 use super::symbol::written;
-use crate::drawing::{Face, Group, Item, PagePoint, Theme, text};
+use crate::pictures::drawing::{Face, Group, Item, PagePoint, Theme, text};
 
 /// Distance between the text lines of an entry that needs several lines, as a multiple of the font size.
 const WRAPPED_LINE_HEIGHT: f64 = 1.25;

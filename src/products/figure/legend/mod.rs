@@ -10,7 +10,7 @@ pub(crate) use entry::{Entry, MissingWords};
 pub(crate) use lines::draw;
 pub(crate) use symbol::BAR_LENGTH;
 
-use crate::drawing::{Item, PagePoint, Theme};
+use crate::pictures::drawing::{Item, PagePoint, Theme};
 
 /// Height of a line of the legend, as a multiple of its font size.
 pub(crate) const LINE_HEIGHT: f64 = 2.08;

@@ -1,8 +1,10 @@
 //! Draws the symbols of the legend. In each function, `at` is the middle of the left edge of the symbol on the page.
 
-use crate::drawing::arrow::straight;
-use crate::drawing::{Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
-use crate::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::{
+    Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
+use crate::products::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
 pub(super) const SAMPLE_LENGTH: f64 = 26.0;

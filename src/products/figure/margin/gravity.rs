@@ -5,11 +5,11 @@
 use super::super::pen::Pen;
 use super::super::words::degrees;
 use super::reason::percent_of;
-use crate::analysis::{Analysis, End, Toward};
-use crate::drawing::arrow::straight;
-use crate::drawing::placement::Ink;
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn, sin_cos_degrees};
+use crate::mechanics::analysis::{Analysis, End, Toward};
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Length of an arrow that shows gravity, as a fraction of the diagonal of the structure.
 const GRAVITY_LENGTH: f64 = 0.16;

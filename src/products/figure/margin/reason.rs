@@ -1,9 +1,9 @@
 //! Writes the text below the verdict in a figure of a margin: the values of the parameter (tilt, horizontal load or
 //! load factor) at which the structure begins to fall or would stand.
 
-use crate::analysis::{Analysis, End, Interval, Toward, Verdict};
-use crate::wording::margin::{Parameter, stands};
-use crate::wording::number::digits;
+use crate::mechanics::analysis::{Analysis, End, Interval, Toward, Verdict};
+use crate::products::wording::margin::{Parameter, stands};
+use crate::products::wording::number::digits;
 
 use super::super::words::{degrees, percent};
 
@@ -48,7 +48,7 @@ pub(super) fn sentence(analysis: &Analysis, frame: usize, toward: Toward) -> Str
     }
 }
 
-/// Converts the parameter of a figure to the parameter of the sentences in [`wording`](crate::wording::margin).
+/// Converts the parameter of a figure to the parameter of the sentences in [`wording`](crate::products::wording::margin).
 fn stated(toward: Toward) -> Parameter {
     match toward {
         Toward::Tilt => Parameter::Tilt,

@@ -3,10 +3,10 @@
 use super::super::arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
 use super::super::option::{Normalisation, Options};
 use super::part::parts;
-use crate::analysis::{Contact, FrameAnalysis};
-use crate::drawing::Colour;
 use crate::geometry::{Point, Vector};
-use crate::scene::{BodyId, ForceCause, Frame, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::{BodyId, ForceCause, Frame, Scene};
+use crate::pictures::drawing::Colour;
 
 /// Forces below this fraction of the largest force are not drawn, because they may be errors of the solver. Forces
 /// have a relative accuracy of about 1e-9.

@@ -4,10 +4,10 @@ use super::super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
 use super::super::option::Normalisation;
 use super::super::parallel_arrows;
 use super::maker::{ArrowMaker, FORCE_TOL};
-use crate::analysis::{Failure, FrameAnalysis};
-use crate::drawing::{Colour, Theme};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::pictures::drawing::{Colour, Theme};
 
 /// Least length of the arrow of the largest missing force, unit lengths. If this arrow is shorter at the scale of the
 /// other forces, missing forces have a separate scale. The second number is the least length of the arrow of any

@@ -14,8 +14,8 @@ use super::arrow::{ForceArrow, Marks};
 use super::option::{Normalisation, Options};
 use super::unit::unit;
 use super::view;
-use crate::analysis::Analysis;
 use crate::geometry::Point;
+use crate::mechanics::analysis::Analysis;
 use maker::ArrowMaker;
 use part::parts;
 

@@ -3,9 +3,9 @@
 
 use super::super::arrow::ArrowKind;
 use super::super::option::ForceStyle;
-use crate::analysis::Contact;
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::scene::BodyId;
+use crate::mechanics::analysis::Contact;
+use crate::mechanics::scene::BodyId;
 
 /// A force of an interface on the first of its two bodies.
 pub(super) struct InterfaceForce {

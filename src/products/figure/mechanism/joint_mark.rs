@@ -4,11 +4,11 @@ use super::super::description;
 use super::super::joint::{Joint, joints};
 use super::super::legend::Entry;
 use super::super::pen::Pen;
-use crate::analysis::{Analysis, Contact, Verdict};
-use crate::drawing::placement::Ink;
-use crate::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 use crate::geometry::{Point, Vector};
-use crate::scene::BodyId;
+use crate::mechanics::analysis::{Analysis, Contact, Verdict};
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Radius of the ring of a hinge, unit lengths.
 const HINGE_RADIUS: f64 = 0.085;

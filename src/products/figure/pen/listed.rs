@@ -2,8 +2,8 @@
 //! of blocks without an outline.
 
 use super::Pen;
-use crate::drawing::{Group, Outline, Path, Stroke};
 use crate::geometry::{Point, Vector};
+use crate::pictures::drawing::{Group, Outline, Path, Stroke};
 
 /// Length of a normal in unit lengths. The friction cone has the same length.
 const NORMAL_LENGTH: f64 = 0.75;

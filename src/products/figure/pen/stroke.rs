@@ -3,13 +3,15 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
-use crate::drawing::arrow::{HEAD_WIDTH, head, straight, turning};
-use crate::drawing::{Colour, Group, Item, Outline, Path, Stroke};
-use crate::figure::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow};
-use crate::figure::by_colour::ByColour;
-use crate::figure::description;
 use crate::geometry::{Point, Vector};
-use crate::scene::BodyId;
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::arrow::{HEAD_WIDTH, head, straight, turning};
+use crate::pictures::drawing::{Colour, Group, Item, Outline, Path, Stroke};
+use crate::products::figure::arrow::{
+    ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
+};
+use crate::products::figure::by_colour::ByColour;
+use crate::products::figure::description;
 
 /// Radius of the arrow of a torque in unit lengths, larger than a robot's disc.
 pub(crate) const TURN_RADIUS: f64 = 0.46;

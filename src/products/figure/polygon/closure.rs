@@ -2,10 +2,10 @@
 //! names the missing forces.
 
 use super::{closed, outer};
-use crate::analysis::{Failure, FrameAnalysis};
-use crate::figure::arrow::{ArrowKind, Marks};
-use crate::figure::verdict;
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::products::figure::arrow::{ArrowKind, Marks};
+use crate::products::figure::verdict;
 
 /// Returns two texts: why the polygon is closed, and the missing forces. If the polygon only closes with missing forces
 /// from the ground or from robots, the second text names only these forces. Missing forces between two blocks act in

@@ -1,8 +1,8 @@
 //! Draws missing forces, and lines between corners of a force polygon that are drawn twice, in the polygon and in the
 //! legend.
 
-use crate::drawing::arrow::straight;
-use crate::drawing::{Colour, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::arrow::straight;
+use crate::pictures::drawing::{Colour, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Returns the stroke of a line that connects the two places at which the same corner of a force polygon is drawn.
 pub(super) fn join_stroke(theme: &Theme) -> Stroke {

@@ -1,7 +1,7 @@
 //! Tests of the force polygon.
 
 use super::*;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::format::UnitsEntry;
 
 #[test]
 fn the_legend_shows_each_scale_of_polygons_with_the_letters_of_its_panels() {

@@ -1,11 +1,11 @@
 //! [`Plan`]: computes the arrows at the corners of a frame, and its most effective changes with their numbers.
 
 use super::super::option::Options;
-use crate::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::scene::Scene;
-use crate::wording::failure::pair;
-use crate::wording::sensitivity::{
+use crate::mechanics::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
+use crate::mechanics::scene::Scene;
+use crate::products::wording::failure::pair;
+use crate::products::wording::sensitivity::{
     self as words, EffectiveChange, FRICTION_STEP, Target, corner_moves, length, step_length, visible,
 };
 

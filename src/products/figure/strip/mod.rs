@@ -14,8 +14,8 @@ use super::context::FigureContext;
 use super::layout::Layout;
 use super::option::Options;
 use super::view;
-use crate::analysis::Analysis;
-use crate::drawing::Drawing;
+use crate::mechanics::analysis::Analysis;
+use crate::pictures::drawing::Drawing;
 
 /// Spaces that are added around the structure if some labels have no good position, pixels. In each pair, the first
 /// value is for the left and the right, the second for above and below. All pairs but the first are only tried for flat

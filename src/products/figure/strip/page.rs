@@ -6,8 +6,8 @@ use super::super::option::Options;
 use super::super::title;
 use super::Strip;
 use super::panel::PanelPosition;
-use crate::drawing::{Anchor, Drawing, Item, Outline, PagePoint, Path, Stroke, Text};
 use crate::geometry::{Bounds, Point};
+use crate::pictures::drawing::{Anchor, Drawing, Item, Outline, PagePoint, Path, Stroke, Text};
 
 /// Largest number of frames in the description of a figure.
 const MAX_DESCRIBED_FRAMES: usize = 30;

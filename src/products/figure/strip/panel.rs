@@ -8,8 +8,8 @@ use super::super::option::ArrowScale;
 use super::super::pen::Pen;
 use super::super::verdict;
 use super::Strip;
-use crate::drawing::{Anchor, Camera, Face, Group, Item, PagePoint, Text, text};
 use crate::geometry::Bounds;
+use crate::pictures::drawing::{Anchor, Camera, Face, Group, Item, PagePoint, Text, text};
 
 /// Height of a line of a caption, as a multiple of its font size.
 const CAPTION_LINE: f64 = 22.0 / 17.0;

@@ -6,8 +6,8 @@ use super::super::legend;
 use super::super::verdict;
 use super::super::words::{counted, letter, quantity};
 use super::Strip;
-use crate::drawing::{Face, text};
 use crate::geometry::Bounds;
+use crate::pictures::drawing::{Face, text};
 
 /// Largest number of lines of a caption. Longer captions end in "…".
 const MAX_CAPTION_LINES: usize = 8;

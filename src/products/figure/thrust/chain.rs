@@ -1,8 +1,8 @@
 //! [`Chain`]: a sequence of blocks in which forces pass from one joint to the next, such as the blocks of an arch.
 
-use crate::analysis::{Contact, FrameAnalysis};
 use crate::geometry::{Vector, quarter_turn};
-use crate::scene::{BlockId, BodyId, Frame, Scene};
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 
 use super::super::bearing::bearings;
 

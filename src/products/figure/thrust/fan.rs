@@ -3,15 +3,17 @@
 //! connect the tips of the rays of its two joints. The force polygon of one chain of blocks is called a fan.
 
 use super::chain::{Chain, chains};
-use crate::analysis::FrameAnalysis;
-use crate::drawing::placement::Ink;
-use crate::drawing::{Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
-use crate::scene::{AppliedForce, ForceCause, Frame, Scene};
+use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::scene::{AppliedForce, ForceCause, Frame, Scene};
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{
+    Anchor, Camera, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
+};
 
 use super::super::view;
 use super::super::words::{force, quantity, round_below_in};
-use crate::scene::Unit;
+use crate::mechanics::scene::Unit;
 
 /// Largest width of a fan, as a fraction of the structure's width.
 const FAN_WIDTH_SHARE: f64 = 0.42;

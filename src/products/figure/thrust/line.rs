@@ -7,9 +7,9 @@ use super::super::funicular::{ForceOrigin, ThrustSegment};
 use super::super::pen::Pen;
 use super::super::words::{force, quantity};
 use super::largest;
-use crate::analysis::{FrameAnalysis, Verdict};
-use crate::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
-use crate::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// The width of the line of thrust for the largest force in unit lengths, with the least and the largest value of this
 /// width in pixels.

@@ -7,10 +7,10 @@ use super::super::legend::Entry;
 use super::super::pen::Pen;
 use super::super::words::quantity;
 use super::line::colour;
-use crate::analysis::{Contact, ThrustState, ThrustStates, Verdict};
-use crate::drawing::placement::Ink;
-use crate::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
-use crate::interface::ContactKind;
+use crate::mechanics::analysis::{Contact, ThrustState, ThrustStates, Verdict};
+use crate::mechanics::statics::interface::ContactKind;
+use crate::pictures::drawing::placement::Ink;
+use crate::pictures::drawing::{Group, Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Width of the lines of least and of greatest thrust, pixels, and their dashes.
 const LINE_WIDTH: f64 = 1.3;

@@ -1,7 +1,7 @@
 //! Draws the symbols of interfaces in the legend of a utilisation figure.
 
 use super::{idle_stroke, rimmed};
-use crate::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
 
 /// Length of the line of a symbol, pixels.
 pub(super) const SYMBOL_WIDTH: f64 = 26.0;

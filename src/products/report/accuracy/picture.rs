@@ -1,11 +1,13 @@
 //! [`picture`]: draws an accuracy study as one picture. Each row shows one method: its time, its error and its
 //! numbers of wrong and undecided verdicts at every tolerance.
 
-use crate::analysis::Accuracy;
-use crate::drawing::{Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
-use crate::output::svg::{self, OutlineError, Words};
-use crate::study::{DEFAULT_TOLERANCE, Method, Summary};
-use crate::wording::number::counted;
+use crate::mechanics::analysis::Accuracy;
+use crate::pictures::drawing::{
+    Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
+};
+use crate::pictures::output::svg::{self, OutlineError, Words};
+use crate::products::study::{DEFAULT_TOLERANCE, Method, Summary};
+use crate::products::wording::number::counted;
 
 const WIDTH: f64 = 920.0;
 /// Height of a row, pixels.

@@ -3,11 +3,11 @@
 
 use super::unit::Units;
 use super::{Grid, TableCell};
-use crate::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::geometry::{Point, Vector, cross};
-use crate::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
+use crate::products::wording::failure::named;
 use crate::text::line;
-use crate::wording::failure::named;
 
 /// Largest number of reactions in separate rows. If there are more, they are summed for each part of the ground. It is
 /// also the largest number of missing forces in separate rows; if there are more, one row has their sum.
@@ -148,7 +148,7 @@ fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec
 /// Returns the forces that robots exert on all blocks, or only on `block` if it is given.
 fn robots(scene: &Scene, frame_analysis: &FrameAnalysis, block: Option<BlockId>, about: Point) -> Vec<Force> {
     let holding = frame_analysis.robots.iter().filter(|r| block.is_none_or(|b| b == r.block));
-    let force = |r: &crate::analysis::RobotForce| {
+    let force = |r: &crate::mechanics::analysis::RobotForce| {
         let what = format!("robot {}", line(&scene.robots[r.robot.0].id));
         Force::new(what, r.at, r.force, r.torque, about)
     };

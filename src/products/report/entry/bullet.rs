@@ -1,8 +1,8 @@
 //! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the current value.
 
-use crate::analysis::{End, FrameAnalysis, Interval};
-use crate::scene::Scene;
-use crate::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
+use crate::mechanics::scene::Scene;
+use crate::products::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 
 /// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,10 +5,10 @@
 //! Only margins and wedging are computed separately and have separate times.
 
 use super::Grid;
-use crate::analysis::{EffectName, EffectReport, FrameAnalysis, Stages};
-use crate::result::Timing;
+use crate::mechanics::analysis::{EffectName, EffectReport, FrameAnalysis, Stages};
+use crate::products::result::Timing;
+use crate::products::wording::number::{counted, duration};
 use crate::text::line;
-use crate::wording::number::{counted, duration};
 
 /// Makes the table of the effects that were simulated or left out in a frame. The table has times only if `timing`
 /// includes them.

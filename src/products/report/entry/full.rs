@@ -5,12 +5,12 @@ use super::joints::{Ranking, missing};
 use super::sheet::empty;
 use super::unit::Units;
 use super::{Chart, Grid, ReportOptions, Section, SheetPart};
-use crate::analysis::{Analysis, FrameAnalysis};
-use crate::chart::{self, Bars};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::scene::Scene;
+use crate::pictures::chart::{self, Bars};
+use crate::products::wording::number::{place, prefixed};
+use crate::products::wording::{failure, proof};
 use crate::text::line;
-use crate::wording::number::{place, prefixed};
-use crate::wording::{failure, proof};
 
 /// Frames with fewer joints have no charts, because a short table is easier to read than a chart.
 const MIN_CHART_JOINTS: usize = 8;

@@ -1,11 +1,11 @@
 //! [`governing`] finds the governing step of a scene. [`headline_words`] states the most important margin of a frame.
 
 use super::bullet;
-use crate::analysis::{Analysis, FrameAnalysis, Verdict};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::products::wording::headline::headline;
+use crate::products::wording::margin::{Parameter, StatedMargin, stated};
 use crate::text::line;
-use crate::wording::headline::headline;
-use crate::wording::margin::{Parameter, StatedMargin, stated};
 
 /// Returns the index of the governing step, from 0. This is the first step that falls. If no step falls, it is the
 /// first undecided step. If all steps stand, it is the step whose headline margin has the smallest relative reserve.

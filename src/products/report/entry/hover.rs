@@ -1,7 +1,7 @@
 //! [`HoverTarget`]: the part of a figure that is highlighted together with a table row.
 
-use crate::drawing::{Camera, Colour, Drawing, Group, Item, Outline, Path, Stroke};
 use crate::geometry::Point;
+use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Item, Outline, Path, Stroke};
 use crate::text::line;
 
 /// Width of a target for an interface, in pixels: wide enough to hit with a mouse.

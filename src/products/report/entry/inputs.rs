@@ -3,9 +3,9 @@
 use super::Grid;
 use super::unit::Units;
 use crate::geometry::Vector;
-use crate::scene::{BlockId, Limits, Scene};
+use crate::mechanics::scene::{BlockId, Limits, Scene};
+use crate::products::wording::number::{amount, counted, digits, place, tenths};
 use crate::text::line;
-use crate::wording::number::{amount, counted, digits, place, tenths};
 
 /// Largest number of loads, robots or pairs of materials in a table.
 const MAX_ROWS: usize = 12;

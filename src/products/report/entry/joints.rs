@@ -3,13 +3,13 @@
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
-use crate::analysis::{Contact, Failure, FrameAnalysis, Verdict};
-use crate::interface::ContactKind;
-use crate::scene::Unit;
-use crate::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Unit;
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::mechanics::statics::interface::ContactKind;
+use crate::products::wording::failure;
+use crate::products::wording::number::percent;
 use crate::text::line;
-use crate::wording::failure;
-use crate::wording::number::percent;
 
 /// Largest number of joints in the table of a report that is not full.
 const MAX_JOINTS: usize = 12;

@@ -28,12 +28,12 @@ pub use hover::{HoverTarget, touched};
 pub use part::{Badge, Chart, Figure, Section, SheetPart};
 pub use row::{Row, Thumbnail};
 
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::Theme;
-use crate::output::svg::OutlineError;
-use crate::report::accuracy;
-use crate::result::{Layout, Timing, accuracy_json, to_json_of};
-use crate::study::{Study, summary};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::pictures::drawing::Theme;
+use crate::pictures::output::svg::OutlineError;
+use crate::products::report::accuracy;
+use crate::products::result::{Layout, Timing, accuracy_json, to_json_of};
+use crate::products::study::{Study, summary};
 use crate::text;
 
 /// The options of a report.

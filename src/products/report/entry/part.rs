@@ -4,9 +4,9 @@
 use std::borrow::Cow;
 
 use super::{Grid, HoverTarget, MarginBar};
-use crate::analysis::Verdict;
-use crate::drawing::Drawing;
-use crate::figure::Kind;
+use crate::mechanics::analysis::Verdict;
+use crate::pictures::drawing::Drawing;
+use crate::products::figure::Kind;
 
 /// A part of a page.
 #[derive(Clone, Debug)]

@@ -2,16 +2,16 @@
 
 use super::bullet;
 use super::governing::{governing, headline_words};
-use crate::analysis::{Analysis, Verdict};
-use crate::drawing::Camera;
-use crate::drawing::{Outline, PagePoint, Segment};
 use crate::geometry::Bounds;
-use crate::scene::format::UnitsEntry;
-use crate::scene::{BlockId, Scene};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{BlockId, Scene};
+use crate::pictures::drawing::Camera;
+use crate::pictures::drawing::{Outline, PagePoint, Segment};
+use crate::products::wording::failure;
+use crate::products::wording::number::{percent, quantity};
+use crate::products::wording::verdict::plain;
 use crate::text;
-use crate::wording::failure;
-use crate::wording::number::{percent, quantity};
-use crate::wording::verdict::plain;
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);

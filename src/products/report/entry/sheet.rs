@@ -5,15 +5,15 @@ use super::governing::headline_words;
 use super::joints::{Ranking, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs, verdict_text};
-use crate::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
-use crate::drawing::Drawing;
-use crate::figure::{self, Kind, Options};
-use crate::scene::Scene;
-use crate::scene::Unit;
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::Unit;
+use crate::pictures::drawing::Drawing;
+use crate::products::figure::{self, Kind, Options};
+use crate::products::wording::number::letter;
+use crate::products::wording::verdict::plain;
+use crate::products::wording::{proof, verdict};
 use crate::text::line;
-use crate::wording::number::letter;
-use crate::wording::verdict::plain;
-use crate::wording::{proof, verdict};
 
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
 const FIGURE_WIDTH: f64 = 440.0;

@@ -6,10 +6,10 @@ use super::joints::Ranking;
 use super::row::thumbnail;
 use super::sheet::{empty, others, sheet};
 use super::{Grid, ReportOptions, Section, TableCell, full};
-use crate::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::products::wording::number::letter;
+use crate::products::wording::verdict::plain;
 use crate::text::line;
-use crate::wording::number::letter;
-use crate::wording::verdict::plain;
 
 /// Largest number of steps that do not stand and are drawn in addition to the governing step. A full report draws all
 /// of them.

@@ -1,11 +1,11 @@
 //! [`Units`]: the SI prefix for all forces and torques in the report on a frame. [`Column`]: the unit and the number of
 //! decimals for all numbers of a table column.
 
-use crate::analysis::FrameAnalysis;
-use crate::scene::format::UnitsEntry;
-use crate::scene::{Scene, Unit};
-use crate::wording::failure;
-use crate::wording::number::three;
+use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{Scene, Unit};
+use crate::products::wording::failure;
+use crate::products::wording::number::three;
 
 /// The format of the numbers of a table column.
 #[derive(Clone, Debug, PartialEq)]

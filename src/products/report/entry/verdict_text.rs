@@ -2,13 +2,13 @@
 //! inputs that would change its verdict.
 
 use super::joints::name;
-use crate::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
-use crate::figure::{Joint, joints, moving};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::products::figure::{Joint, joints, moving};
+use crate::products::wording::failure::{shortened, unsupported_phrase};
+use crate::products::wording::margin::{Parameter, Position, StatedMargin, stated};
+use crate::products::wording::number::{counted, listed, place, three, three_down, three_up};
 use crate::text::line;
-use crate::wording::failure::{shortened, unsupported_phrase};
-use crate::wording::margin::{Parameter, Position, StatedMargin, stated};
-use crate::wording::number::{counted, listed, place, three, three_down, three_up};
 
 /// Largest number of joints of one kind that a sentence names.
 const MAX_NAMED: usize = 4;
@@ -200,7 +200,7 @@ fn limit_of_tilt(low: Option<f64>, high: Option<f64>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::Options;
+    use crate::mechanics::analysis::Options;
 
     /// At an end that is not confirmed, the structure is only known to stand: no sentence may say that it falls
     /// there.

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use crate::report::entry::{BarEnd, MarginBar};
-use crate::wording::margin::Position;
+use crate::products::report::entry::{BarEnd, MarginBar};
+use crate::products::wording::margin::Position;
 
 /// Width and height of a bar, pixels.
 const BAR_SIZE: (f64, f64) = (220.0, 20.0);

@@ -16,9 +16,9 @@ pub(super) use part::section;
 
 use super::entry::{Row, Thumbnail};
 use super::head::{Head, OutputFile, STANDS_MEANING, sign, slug};
-use crate::analysis::Verdict;
+use crate::mechanics::analysis::Verdict;
+use crate::products::wording::verdict::plain;
 use crate::text;
-use crate::wording::verdict::plain;
 
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
 const SCRIPT: &str = include_str!("../../../../assets/report/report.js");

@@ -4,11 +4,13 @@ use maud::{Markup, PreEscaped, html};
 
 use super::bar::bar;
 use super::{path, thumbnail, verdict, verdicts};
-use crate::chart;
-use crate::drawing::Drawing;
-use crate::output::svg::{self, Options};
-use crate::report::entry::{Badge, Chart, Entry, Figure, Grid, HoverTarget, Section, SheetPart, TableCell, touched};
-use crate::wording::verdict::plain;
+use crate::pictures::chart;
+use crate::pictures::drawing::Drawing;
+use crate::pictures::output::svg::{self, Options};
+use crate::products::report::entry::{
+    Badge, Chart, Entry, Figure, Grid, HoverTarget, Section, SheetPart, TableCell, touched,
+};
+use crate::products::wording::verdict::plain;
 
 /// Tables with more rows are collapsed.
 const MAX_OPEN_ROWS: usize = 24;

@@ -2,13 +2,13 @@
 
 use super::bar;
 use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, SMALL_TEXT_SIZE};
-use crate::analysis::Verdict;
-use crate::drawing::text::wrap;
-use crate::drawing::{Anchor, Colour, Face, Outline, PagePoint, Path};
-use crate::output::pdf::Role;
-use crate::report::entry::Badge;
-use crate::report::head::sign;
-use crate::wording::verdict::plain;
+use crate::mechanics::analysis::Verdict;
+use crate::pictures::drawing::text::wrap;
+use crate::pictures::drawing::{Anchor, Colour, Face, Outline, PagePoint, Path};
+use crate::pictures::output::pdf::Role;
+use crate::products::report::entry::Badge;
+use crate::products::report::head::sign;
+use crate::products::wording::verdict::plain;
 
 /// Width of the space for the verdict at the left of the panel, pixels.
 const WORD_WIDTH: f64 = 150.0;

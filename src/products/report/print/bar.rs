@@ -1,10 +1,10 @@
 //! [`draw`]: draws a margin as a bar, with the same shapes as in HTML.
 
 use super::flow::Flow;
-use crate::drawing::{Colour, Outline, PagePoint, Path, Stroke};
-use crate::output::pdf::Role;
-use crate::report::entry::{BarEnd, MarginBar};
-use crate::wording::margin::Position;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+use crate::pictures::output::pdf::Role;
+use crate::products::report::entry::{BarEnd, MarginBar};
+use crate::products::wording::margin::Position;
 
 /// Height of a bar, pixels.
 pub(super) const HEIGHT: f64 = 16.0;

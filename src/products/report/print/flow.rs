@@ -1,11 +1,13 @@
 //! [`Flow`]: places text, tables and figures on the pages of a PDF, from top to bottom.
 
 use super::Page;
-use crate::drawing::text::{width, wrap};
-use crate::drawing::{Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, Theme};
-use crate::output::fonts::Fonts;
-use crate::output::pdf::{self, Role};
-use crate::report::entry::{Chart, Figure, SheetPart};
+use crate::pictures::drawing::text::{width, wrap};
+use crate::pictures::drawing::{
+    Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, Theme,
+};
+use crate::pictures::output::fonts::Fonts;
+use crate::pictures::output::pdf::{self, Role};
+use crate::products::report::entry::{Chart, Figure, SheetPart};
 use crate::text::line;
 
 /// Width and height of A4 in pixels, 96 per inch.

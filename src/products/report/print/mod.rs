@@ -11,10 +11,10 @@ mod table;
 
 use super::entry::{Entry, SheetPart, overview};
 use super::head::{Head, ReportError, STANDS_MEANING};
-use crate::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Theme};
-use crate::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
+use crate::pictures::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Theme};
+use crate::pictures::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
+use crate::products::wording::verdict::plain;
 use crate::text::line;
-use crate::wording::verdict::plain;
 use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
 
 /// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.

@@ -2,10 +2,10 @@
 
 use super::bar;
 use super::flow::{COLUMN_GAP, Flow, LINE_HEIGHT, MARGIN, SMALL_TEXT_SIZE, TEXT_BOTTOM, TEXT_SIZE};
-use crate::drawing::text::{width, wrap};
-use crate::drawing::{Anchor, Face, PagePoint, PageRect};
-use crate::output::pdf::Role;
-use crate::report::entry::{Grid, TableCell, Thumbnail};
+use crate::pictures::drawing::text::{width, wrap};
+use crate::pictures::drawing::{Anchor, Face, PagePoint, PageRect};
+use crate::pictures::output::pdf::Role;
+use crate::products::report::entry::{Grid, TableCell, Thumbnail};
 
 /// A table stays on one page if the total height of its rows is below this fraction of the height of the text area.
 const MAX_UNBROKEN_SHARE: f64 = 0.3;

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use crate::result::key::{KEYS, Type};
+use crate::products::result::key::{KEYS, Type};
 use crate::text;
 
 /// The name of a field, and the fields below it. The fields below a list are the fields of its entries.

@@ -29,7 +29,7 @@ pub use change::Change;
 pub use read::FactsError;
 pub use write::DIGITS;
 
-use crate::analysis::Analysis;
+use crate::mechanics::analysis::Analysis;
 
 /// The version of the format. The first line of a facts file states it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

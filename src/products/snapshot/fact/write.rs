@@ -2,9 +2,9 @@
 
 use super::round::Rounding;
 use super::{Fact, Facts, Section, Value, Version};
-use crate::analysis::{Analysis, Contact, Failure, FrameAnalysis, RobotForce, Verdict};
 use crate::geometry::{Point, Vector};
-use crate::scene::{BlockId, BodyId, Load, RobotId, Scene};
+use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis, RobotForce, Verdict};
+use crate::mechanics::scene::{BlockId, BodyId, Load, RobotId, Scene};
 use crate::text;
 
 /// The significant digits of a force that is as large as the largest weight or load.

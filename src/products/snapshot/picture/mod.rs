@@ -19,7 +19,7 @@ use png::{BitDepth, ColorType, DecodingError, Transformations};
 pub use difference::{Difference, PixelTolerance};
 use palette::Palette;
 
-use crate::output::png::{MAX_PIXELS, MAX_SIDE};
+use crate::pictures::output::png::{MAX_PIXELS, MAX_SIDE};
 
 /// The PNG text keyword for the subject of a reference: a scene or a figure.
 const SUBJECT_KEYWORD: &str = "drystone-snapshot";

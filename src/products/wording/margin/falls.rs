@@ -4,8 +4,8 @@
 use super::super::number::NO_BREAK;
 use super::confirmed;
 use super::list::friction;
-use crate::analysis::{FrameAnalysis, Interval, Verdict};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{FrameAnalysis, Interval, Verdict};
+use crate::mechanics::scene::Scene;
 
 /// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame
 /// stands or is undecided, or if no computed margin shows what is lacking.

@@ -1,8 +1,8 @@
 //! [`stated`] lists the margins of a frame, each with the current value of its parameter.
 
 use super::{Parameter, Position, StatedMargin};
-use crate::analysis::{FrameAnalysis, Interval, Intervals, Verdict};
-use crate::scene::Scene;
+use crate::mechanics::analysis::{FrameAnalysis, Interval, Intervals, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::text;
 
 /// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.

@@ -12,8 +12,8 @@ pub use list::stated;
 pub use range::stands;
 
 use super::number::{amount, digits};
-use crate::analysis::{End, FrameAnalysis, Interval};
-use crate::scene::{Scene, Unit};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
+use crate::mechanics::scene::{Scene, Unit};
 
 /// The parameter that a margin varies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! [`stands`] describes in words at which values of a parameter a frame stands.
 
 use super::{Parameter, confirmed};
-use crate::analysis::{End, Exclusion, Interval};
+use crate::mechanics::analysis::{End, Exclusion, Interval};
 
 /// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
 pub fn stands(parameter: Parameter, interval: &Interval) -> String {

@@ -29,7 +29,7 @@ fn quantities_have_three_significant_digits_and_a_prefix() {
 
 #[test]
 fn a_chosen_unit_has_no_prefix() {
-    use crate::scene::format::{ForceUnit, LengthUnit};
+    use crate::mechanics::scene::format::{ForceUnit, LengthUnit};
     let units = UnitsEntry::default().of_length(LengthUnit::Millimetre).of_force(ForceUnit::Kilonewton);
     let cases = [
         (2400.0, units.force(), "2.4 kN"),

@@ -1,8 +1,8 @@
 //! Bounding boxes of outlines, for finding outlines that are drawn twice.
 
 use crate::geometry::{Bounds, Point};
-use crate::import::draft::{Part, PartGeometry};
-use crate::import::subpath::Subpath;
+use crate::sources::import::draft::{Part, PartGeometry};
+use crate::sources::import::subpath::Subpath;
 
 /// Two outlines coincide if their boxes differ by at most this share of their size.
 const COINCIDENCE_TOL: f64 = 1e-6;

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::Point;
-use crate::import::subpath::{Segment, Subpath};
+use crate::sources::import::subpath::{Segment, Subpath};
 
 /// An open curve, with text that describes its entity to the user.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::record::{Record, integer, number};
 use crate::geometry::{Point, Vector};
-use crate::import::subpath::{Arc, Segment, Subpath};
+use crate::sources::import::subpath::{Arc, Segment, Subpath};
 
 /// A segment with a smaller bulge is a straight line. The bulge is the sagitta divided by half the chord.
 const MIN_BULGE: f64 = 1e-9;
@@ -62,7 +62,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve)) if entity.kind != "LINE" && entity.kind != "ELLIPSE" => {
             // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE and
             // ELLIPSE are not mirrored, because they always use the axes of the drawing.
-            Shape::Curve(curve.mapped(&crate::import::affine::Affine::scale(-1.0, 1.0)))
+            Shape::Curve(curve.mapped(&crate::sources::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
         (Extrusion::Other, _) => Shape::Unreadable("it does not lie in the plane of the drawing"),

@@ -3,7 +3,7 @@
 use super::entity::{Corner, Shape, count, open, part_of_ellipse, polyline};
 use super::record::{Record, integer, number};
 use crate::geometry::{Point, Vector};
-use crate::import::subpath::{Segment, Subpath};
+use crate::sources::import::subpath::{Segment, Subpath};
 
 /// Two edges of a boundary are connected if the distance of their ends is at most this times (1 + the distance of the
 /// end from the origin).

@@ -4,8 +4,8 @@ use core::f64::consts::TAU;
 
 use super::*;
 use crate::geometry::Point;
-use crate::import::draft::{PartGeometry, Role};
-use crate::import::subpath::Subpath;
+use crate::sources::import::draft::{PartGeometry, Role};
+use crate::sources::import::subpath::Subpath;
 
 /// The text of a DXF file with these blocks and entities. Each group is given as a line `code value`.
 fn file(blocks: &str, entities: &str) -> String {

@@ -9,13 +9,13 @@ use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
 use super::hatch;
 use super::record::Record;
 use crate::geometry::Bounds;
-use crate::import::LENGTH_TOL;
-use crate::import::affine::Affine;
-use crate::import::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
-use crate::import::limit::{MAX_BODIES, too_many};
-use crate::import::naming::Naming;
-use crate::import::stone::Stone;
-use crate::import::subpath::Subpath;
+use crate::sources::import::LENGTH_TOL;
+use crate::sources::import::affine::Affine;
+use crate::sources::import::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
+use crate::sources::import::limit::{MAX_BODIES, too_many};
+use crate::sources::import::naming::Naming;
+use crate::sources::import::stone::Stone;
+use crate::sources::import::subpath::Subpath;
 
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;

@@ -8,7 +8,7 @@ use svgtypes::PointsParser;
 use super::path;
 use super::viewport::{Viewport, length};
 use crate::geometry::{Point, Vector};
-use crate::import::subpath::{Arc, Segment, Subpath};
+use crate::sources::import::subpath::{Arc, Segment, Subpath};
 
 /// Returns the subpaths of a shape, in the coordinates of its element.
 ///

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use svgtypes::{PathParser, PathSegment};
 
 use crate::geometry::{Point, Vector, cross};
-use crate::import::subpath::{Arc, Segment, Subpath};
+use crate::sources::import::subpath::{Arc, Segment, Subpath};
 
 /// Returns the subpaths of a `d` attribute.
 ///

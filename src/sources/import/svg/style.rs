@@ -7,7 +7,7 @@ use roxmltree::Node;
 use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, StyleSheet};
 use svgtypes::{Color, Paint, PaintFallback};
 
-use crate::import::draft::FillRule;
+use crate::sources::import::draft::FillRule;
 
 /// The style of an element. Most properties are inherited.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use core::str::FromStr;
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
-use crate::import::affine::Affine;
+use crate::sources::import::affine::Affine;
 
 /// The size to which percentages refer.
 #[derive(Clone, Copy, Debug, PartialEq)]

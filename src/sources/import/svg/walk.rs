@@ -12,10 +12,10 @@ use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
 use super::style::Style;
 use super::viewport;
 use super::xml::{SVG, is, is_never_drawn};
-use crate::import::affine::Affine;
-use crate::import::draft::{Draft, Role};
-use crate::import::naming::Naming;
-use crate::import::scale::Scale;
+use crate::sources::import::affine::Affine;
+use crate::sources::import::draft::{Draft, Role};
+use crate::sources::import::naming::Naming;
+use crate::sources::import::scale::Scale;
 
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.

@@ -2,8 +2,8 @@
 //! linear program.
 
 use super::Attempt;
-use crate::program::Program;
-use crate::solve::{Effort, collapse};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Effort, collapse};
 
 pub(super) fn attempt(program: &Program) -> Attempt {
     let (motion, least_adhesion) = collapse(program).unzip();

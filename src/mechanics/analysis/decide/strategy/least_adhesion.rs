@@ -2,8 +2,8 @@
 //! limit of stability, this sum shows more reliably than the solver's status whether the component stands.
 
 use super::Attempt;
-use crate::program::Program;
-use crate::solve::{SolverSettings, least_adhesion_in};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{SolverSettings, least_adhesion_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     let least_adhesion = least_adhesion_in(program, settings);

@@ -2,8 +2,8 @@
 //! stop. It decides nearly every component, and figures show its forces.
 
 use super::Attempt;
-use crate::program::Program;
-use crate::solve::{Balance, SolverSettings, balance_at_first_look, balance_in};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Balance, SolverSettings, balance_at_first_look, balance_in};
 
 pub(super) fn attempt(program: &Program, settings: SolverSettings) -> Attempt {
     from_balance(balance_in(program, settings))

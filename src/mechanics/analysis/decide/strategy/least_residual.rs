@@ -3,8 +3,8 @@
 //! and the motion with the greatest power.
 
 use super::Attempt;
-use crate::program::Program;
-use crate::solve::{Effort, Residual, any_balance, least_residual};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Effort, Residual, any_balance, least_residual};
 
 pub(super) fn attempt_any_balance(program: &Program) -> Attempt {
     from_residual(Some(any_balance(program)))

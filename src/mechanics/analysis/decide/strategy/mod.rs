@@ -8,8 +8,8 @@ mod least_adhesion;
 
 use std::fmt;
 
-use crate::program::Program;
-use crate::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverSettings};
+use crate::mechanics::program::Program;
+use crate::mechanics::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverSettings};
 
 /// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions
 /// cost too much.

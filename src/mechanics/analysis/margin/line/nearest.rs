@@ -1,11 +1,11 @@
 //! Finds the value of a parameter nearest to its present value at which a component stands.
 
 use super::{CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH};
-use crate::analysis::Verdict;
-use crate::analysis::margin::exclusion::Exclusion;
-use crate::analysis::margin::interval::Interval;
-use crate::analysis::margin::trial::Trial;
-use crate::proof::Motion;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::margin::exclusion::Exclusion;
+use crate::mechanics::analysis::margin::interval::Interval;
+use crate::mechanics::analysis::margin::trial::Trial;
+use crate::mechanics::proof::Motion;
 
 impl Line<'_> {
     /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is

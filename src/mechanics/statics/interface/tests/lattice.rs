@@ -1,7 +1,7 @@
 //! Tests of contacts in scenes made of cells.
 
 use super::*;
-use crate::interface::lattice::LatticeEdges;
+use crate::mechanics::statics::interface::lattice::LatticeEdges;
 
 fn squares(list: &[(f64, f64)]) -> Vec<CellEntry> {
     let cells = list.iter().map(|(x, y)| CellEntry::Square(*x, *y));

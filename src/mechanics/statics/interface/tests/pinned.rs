@@ -1,7 +1,7 @@
 //! Tests of which stone keeps a gap open, and in which frames.
 
 use super::*;
-use crate::interface::pinned::{ContactsByBody, pinning_stone};
+use crate::mechanics::statics::interface::pinned::{ContactsByBody, pinning_stone};
 
 const GROUND: BodyId = BodyId::Ground(0);
 const STONE: BodyId = BodyId::Block(BlockId(1));

@@ -5,8 +5,8 @@ use super::{
     AMPLITUDES_KEY, COLOUR_FIELDS, FONT_SIZE_LIMITS, LIST_FIELDS, PIXEL_UNIT, SIZE_FIELDS, StyleProblem, Theme,
     WIDTH_FIELDS,
 };
-use crate::drawing::colour::Colour;
-use crate::drawing::ramp;
+use crate::pictures::drawing::colour::Colour;
+use crate::pictures::drawing::ramp;
 use crate::text::nearest;
 
 /// Reads the keys of a file and collects all problems.

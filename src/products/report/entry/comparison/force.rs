@@ -2,13 +2,13 @@
 
 use super::Side;
 use super::number::change;
-use crate::figure::{ForceChange, noise, shared_forces};
-use crate::report::entry::Grid;
-use crate::scene::Scene;
-use crate::scene::format::UnitsEntry;
+use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::products::figure::{ForceChange, noise, shared_forces};
+use crate::products::report::entry::Grid;
+use crate::products::wording::failure::pair;
+use crate::products::wording::number::{digits, percent};
 use crate::text::line;
-use crate::wording::failure::pair;
-use crate::wording::number::{digits, percent};
 
 /// The forces at the interfaces that both frames have.
 pub(super) struct SharedForces<'a> {

@@ -1,9 +1,9 @@
 //! [`mark`]: marks changed blocks and forces in a figure.
 
-use crate::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::geometry::Point;
-use crate::report::entry::hover::onto_scene;
-use crate::scene::Scene;
+use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
+use crate::products::report::entry::hover::onto_scene;
 
 /// The smallest and largest radius of the ring around a changed force, in pixels.
 const RING_RADIUS_LIMITS: (f64, f64) = (3.0, 9.0);

@@ -2,10 +2,10 @@
 //! margins.
 
 use super::Side;
-use crate::analysis::FrameAnalysis;
-use crate::report::entry::{Grid, bullet};
-use crate::scene::format::UnitsEntry;
-use crate::wording::number::{digits, tenths};
+use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::products::report::entry::{Grid, bullet};
+use crate::products::wording::number::{digits, tenths};
 
 /// Writes the change of a number relative to `before`, in percent, with its sign. The text is `none` if there is no
 /// change except for rounding, and `from nothing` if `before` is 0 and `after` is not.

@@ -2,13 +2,13 @@
 //! friction of pairs of materials, loads and robots.
 
 use super::Side;
-use crate::report::entry::Grid;
-use crate::scene::Unit;
-use crate::scene::format::UnitsEntry;
-use crate::scene::{Limits, Scene};
+use crate::mechanics::scene::Unit;
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{Limits, Scene};
+use crate::products::report::entry::Grid;
+use crate::products::wording::failure::shortened;
+use crate::products::wording::number::{amount, digits, listed, place};
 use crate::text::line;
-use crate::wording::failure::shortened;
-use crate::wording::number::{amount, digits, listed, place};
 
 /// Largest number of differences that a sentence names.
 const MAX_NAMED_DIFFERENCES: usize = 4;

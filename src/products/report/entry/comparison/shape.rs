@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use super::Side;
 use crate::geometry::Point;
-use crate::report::entry::Grid;
-use crate::scene::format::UnitsEntry;
-use crate::scene::{Block, Scene};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::mechanics::scene::{Block, Scene};
+use crate::products::report::entry::Grid;
+use crate::products::wording::failure::shortened;
+use crate::products::wording::number::{amount, digits, listed, place};
 use crate::text::line;
-use crate::wording::failure::shortened;
-use crate::wording::number::{amount, digits, listed, place};
 
 /// A block counts as moved if its centroid moved by more than `MOVE_TOL` times the largest absolute coordinate of all
 /// block corners in the two scenes.
