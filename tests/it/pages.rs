@@ -67,9 +67,9 @@ fn words(schema: &Value, definitions: &Value) -> String {
     });
     match kind.expect("a type") {
         "number" => "number".into(),
-        "integer" => "whole number".into(),
+        "integer" => "integer".into(),
         "string" => "text".into(),
-        "boolean" => "true or false".into(),
+        "boolean" => "boolean".into(),
         "null" => "null".into(),
         "object" => {
             let entry = words(&schema["additionalProperties"], definitions);
@@ -114,25 +114,35 @@ fn title(name: &str) -> &str {
     }
 }
 
-/// The table of an object's keys.
+/// The table of an object's keys. Keys that equal those of a block share the last row.
 fn object_table(schema: &Value, definitions: &Value) -> String {
+    let block = &definitions["BlockEntry"]["properties"];
+    let mut as_for_a_block = Vec::new();
     let required: Vec<&str> =
         schema["required"].as_array().map(|keys| keys.iter().filter_map(Value::as_str).collect()).unwrap_or_default();
-    let mut rows = String::from("| key | value | default | meaning |\n|---|---|---|---|\n");
+    let mut rows = String::from("| key | value | meaning |\n|---|---|---|\n");
     let keys = schema["properties"].as_object().expect("keys");
     for (key, value) in keys {
+        if schema["properties"] != *block && block[key] == *value {
+            as_for_a_block.push(format!("`{key}`"));
+            continue;
+        }
         let meaning = (value["description"].as_str()).expect("every key is described");
         // A description may have several lines, but a row of a table may not.
         let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
         let default = match &value["default"] {
-            _ if required.contains(&key.as_str()) => "required".to_owned(),
-            Value::Null => "none".into(),
-            Value::Array(list) if list.is_empty() => "none".into(),
-            Value::Object(map) if map.is_empty() => "none".into(),
-            other => format!("`{}`", other.to_string().replace(".0", "").replace(',', ", ")),
+            _ if required.contains(&key.as_str()) => ", required".to_owned(),
+            Value::Null => String::new(),
+            Value::Array(list) if list.is_empty() => String::new(),
+            Value::Object(map) if map.is_empty() => String::new(),
+            other => format!(", default `{}`", other.to_string().replace(".0", "").replace(',', ", ")),
         };
         // The default in the description must be that of the schema.
-        if let (Some(stated), false) = (meaning.split(" Default ").nth(1), value["default"].is_null()) {
+        let (meaning, stated) = match meaning.split_once(" Default ") {
+            Some((meaning, stated)) if !value["default"].is_null() => (meaning.to_owned(), Some(stated.to_owned())),
+            _ => (meaning, None),
+        };
+        if let Some(stated) = stated {
             let stated: Value = serde_json::from_str(stated.trim_end_matches('.')).unwrap_or(Value::Null);
             let (stated, expected) = (stated.to_string(), value["default"].to_string());
             let [stated, expected] = [stated, expected].map(|text| text.replace(".0", ""));
@@ -154,7 +164,10 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
         }
         let cell = |text: &str| text.replace('|', "\\|");
         let kind = cell(&words(value, definitions));
-        rows += &format!("| `{key}` | {kind} | {default} | {} |\n", cell(&meaning));
+        rows += &format!("| `{key}` | {kind}{default} | {} |\n", cell(&meaning));
+    }
+    if !as_for_a_block.is_empty() {
+        rows += &format!("| {} | | As for a block. |\n", as_for_a_block.join(", "));
     }
     rows
 }
@@ -192,11 +205,16 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
 }
 
 fn key_table(keys: &[Key]) -> String {
-    let mut rows = String::from("| key | value | unit | present | meaning |\n|---|---|---|---|---|\n");
-    for key in keys {
-        let when = if key.when.is_empty() { "always" } else { key.when };
-        let kind = key.kind.words();
-        rows += &format!("| `{}` | {kind} | {} | {when} | {} |\n", key.path, key.unit, key.meaning);
+    let mut rows = String::from("| key | value | meaning |\n|---|---|---|\n");
+    let text = |key: &Key| {
+        let unit = if key.unit.is_empty() { String::new() } else { format!(", {}", key.unit) };
+        let when = if key.when.is_empty() { String::new() } else { format!("*{}:* ", key.when) };
+        format!("{}{unit} | {when}{}", key.kind.words(), key.meaning)
+    };
+    // Neighbours with the same text share a row.
+    for same in keys.chunk_by(|a, b| text(a) == text(b)) {
+        let paths: Vec<String> = same.iter().map(|key| format!("`{}`", key.path)).collect();
+        rows += &format!("| {} | {} |\n", paths.join(", "), text(&same[0]));
     }
     rows
 }

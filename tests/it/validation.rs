@@ -122,13 +122,11 @@ fn difference(percent: f64) -> String {
 }
 
 fn table(values: &[f64]) -> String {
-    let mut rows = String::from(
-        "| | group | case | drystone | published | difference, % | source |\n|---|---|---|---|---|---|---|\n",
-    );
-    for (k, (case, value)) in CASES.iter().zip(values).enumerate() {
+    let mut rows =
+        String::from("| group | case | drystone | published | difference, % | source |\n|---|---|---|---|---|---|\n");
+    for (case, value) in CASES.iter().zip(values) {
         rows += &format!(
-            "| {} | {} | {} | {} | {}{} | {} | {} |\n",
-            k + 1,
+            "| {} | {} | {} | {}{} | {} | {} |\n",
             case.group,
             case.what,
             ours(case, *value),

@@ -120,8 +120,8 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
             without("ground"),
             Result(STANDS, json!("unstable")),
         ),
-        Claim("`drystone` | whole number | required", without("drystone"), Refused("missing_key", "drystone")),
-        Claim("`blocks` | list: a block | required", without("blocks"), Refused("missing_key", "blocks")),
+        Claim("`drystone` | integer, required", without("drystone"), Refused("missing_key", "drystone")),
+        Claim("`blocks` | list: a block, required", without("blocks"), Refused("missing_key", "blocks")),
         Claim(
             "the value `null` has the same meaning as leaving the key out",
             file(json!({ "title": null, "gravity": null, "grid": null,
@@ -158,34 +158,34 @@ fn defaults_and_units_are_those_of_the_page() {
     let pushed = |load: Value| block(json!({ "weight": 10 }), json!({ "loads": [load] }));
     let resultant = "/frames/0/interfaces/0/resultant";
     assert_claims(vec![
-        Claim("Default [0, -9.81].", file(json!({})), Result(WEIGHT, json!(9.81))),
+        Claim("default `[0, -9.81]`", file(json!({})), Result(WEIGHT, json!(9.81))),
         Claim(
-            "Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default 1.",
+            "default `1` | Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one.",
             file(json!({})),
             Result(WEIGHT, json!(9.81)),
         ),
         Claim(
-            "Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.",
+            "default `1` | Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0.",
             file(json!({ "thickness": 2 })),
             Result(WEIGHT, json!(19.62)),
         ),
         Claim(
-            "Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one. Default 0.7.",
+            "default `0.7` | Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one.",
             file(json!({})),
             Result(MU, json!(0.7)),
         ),
         Claim(
-            "Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length. Default 0.",
+            "default `0` | Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length.",
             file(json!({ "kernel": 0.2 })),
             Result("/frames/0/interfaces/0/application_points", json!([[0.9, 0], [0.1, 0]])),
         ),
         Claim(
-            "Default 0.",
+            "default `0`",
             file(json!({})),
             Result("/frames/0/interfaces/0/application_points", json!([[1, 0], [0, 0]])),
         ),
         Claim(
-            "Whether a corner that touches an edge or another corner carries force. Default false.",
+            "default `false` | Whether a corner that touches an edge or another corner carries force.",
             block(json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }), json!({})),
             Result(STANDS, json!("unstable")),
         ),
@@ -220,7 +220,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/robots/0/limit_used", json!(0.5)),
         ),
         Claim(
-            "Force [x, y] in the force unit of the scene. Default [0, 0].",
+            "default `[0, 0]` | Force [x, y] in the force unit of the scene.",
             pushed(json!({ "block": "a" })),
             Result(resultant, json!({ "at": [0.5, 0.0], "force": [0.0, 10.0] })),
         ),
@@ -235,7 +235,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/resultant/at", json!([0.625, 0])),
         ),
         Claim(
-            "Torque in the force unit times the length unit of the scene, anticlockwise positive. Default 0.",
+            "default `0` | Torque in the force unit times the length unit of the scene, anticlockwise positive.",
             pushed(json!({ "block": "a", "torque": 1 })),
             Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0])),
         ),
@@ -262,7 +262,7 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/resultant/at", json!([0.4, 0.0])),
         ),
         Claim(
-            "Edge length of a cell in the length unit of the scene, more than 0. Default 1.",
+            "default `1` | Edge length of a cell in the length unit of the scene, more than 0.",
             json!({ "drystone": 1, "grid": { "kind": "square" },
             "blocks": [{ "cells": [[0, 0]] }] }),
             Result(WEIGHT, json!(9.81)),

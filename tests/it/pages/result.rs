@@ -71,7 +71,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
     );
     let at = |phrase, file, pointer, value| Claim(phrase, file, &plain, pointer, Some(value));
     assert_claims(vec![
-        at("the median length of the frame's interfaces", &three, "/frames/0/length", json!(2.0)),
+        at("median length of the interfaces without corner contacts", &three, "/frames/0/length", json!(2.0)),
         at("the shorter of the two in the middle", &two, "/frames/0/length", json!(0.5)),
         at("without corner contacts", &tip, "/frames/0/length", json!(2f64.sqrt())),
         at(
@@ -81,15 +81,15 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             json!(6f64.sqrt()),
         ),
         at("1 in an empty frame", &nothing, "/frames/0/length", json!(1.0)),
-        at("the weight of all placed blocks", &hung, "/frames/0/weight", json!(3.0)),
+        at("weight of all placed blocks", &hung, "/frames/0/weight", json!(3.0)),
         at(
-            "the friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction",
+            "friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction",
             &smooth,
             "/frames/0/interfaces/0/friction_used",
             json!(0.0),
         ),
         at(
-            "the friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction",
+            "friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction",
             &flat,
             "/frames/0/interfaces/0/friction_used",
             json!(0.0),
@@ -100,10 +100,10 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             "/frames/0/interfaces/0/friction_used",
             json!(1.0),
         ),
-        at("the robots that hold a block in this frame", &side, "/frames/0/robots/0/id", json!("r")),
-        Claim("the robots that hold a block in this frame", &side, &plain, "/frames/0/robots/1", None),
+        at("robots that hold a block in this frame", &side, "/frames/0/robots/0/id", json!("r")),
+        Claim("robots that hold a block in this frame", &side, &plain, "/frames/0/robots/1", None),
         at(
-            "the largest share of a limit that the robot uses, from 0 to 1",
+            "largest share of a limit that the robot uses, from 0 to 1",
             &side,
             "/frames/0/robots/0/limit_used",
             json!(0.75),
@@ -115,12 +115,7 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             json!(1.0),
         ),
         at("0 for a robot without limits, or with all limits 0", &no, "/frames/0/robots/0/limit_used", json!(0.0)),
-        at(
-            "the missing force, on `bodies[0]` or on the block",
-            &short,
-            "/frames/0/failures/0/force",
-            json!([0.0, 1.0]),
-        ),
+        at("missing force, on `bodies[0]` or on the block", &short, "/frames/0/failures/0/force", json!([0.0, 1.0])),
         at(
             "`failures` may be empty and `total_sticking` may be 0 in a frame that falls",
             &hanging,
@@ -143,11 +138,11 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
             "/frames/0/unsupported",
             json!(["z"]),
         ),
-        at("the velocities of the blocks as the collapse begins", &hung, "/frames/0/mechanism/0/block", json!("z")),
-        Claim("the velocities of the blocks as the collapse begins", &hung, &plain, "/frames/0/mechanism/1", None),
+        at("velocities of the blocks as the collapse begins", &hung, "/frames/0/mechanism/0/block", json!("z")),
+        Claim("velocities of the blocks as the collapse begins", &hung, &plain, "/frames/0/mechanism/1", None),
         at("empty if the frame stands", &flat, "/frames/0/mechanism", json!([])),
-        at("the title of the step; empty if the step has none", &flat, "/frames/0/title", json!("")),
-        at("a lower bound of `total_force` for all balances", &flat, "/frames/0/total_force_bound", json!(1.0)),
+        at("title of the step; empty if it has none", &flat, "/frames/0/title", json!("")),
+        at("lower bound of `total_force` for all balances", &flat, "/frames/0/total_force_bound", json!(1.0)),
         Claim("if the frame stands and a bound was found", &hanging, &plain, "/frames/0/total_force_bound", None),
     ]);
 }
@@ -164,37 +159,25 @@ fn requested_values_are_present_and_others_are_not() {
     let there = |phrase, file, options, pointer, value| Claim(phrase, file, options, pointer, Some(value));
     let empty = json!({ "left": [], "right": [] });
     assert_claims(vec![
-        Claim("`frames[].margins` | object | | with `--margins`", &stands, &plain, "/frames/0/margins", None),
+        Claim("`frames[].margins` | object | *with `--margins`:*", &stands, &plain, "/frames/0/margins", None),
         there(
-            "`frames[].margins.friction` | number, null or `\"unbounded\"` | | if requested",
+            "`frames[].margins.friction` | margin | *if requested:*",
             &stands,
             &some,
             "/frames/0/margins/friction",
             json!(0.0),
         ),
-        Claim(
-            "`frames[].margins.kernel` | number, null or `\"unbounded\"` | | if requested",
-            &stands,
-            &some,
-            "/frames/0/margins/kernel",
-            None,
-        ),
-        Claim("`frames[].margins.tilt` | object | | if requested", &stands, &some, "/frames/0/margins/tilt", None),
+        Claim("`frames[].margins.kernel` | margin | *if requested:*", &stands, &some, "/frames/0/margins/kernel", None),
+        Claim("`frames[].margins.tilt` | object | *if requested:*", &stands, &some, "/frames/0/margins/tilt", None),
         there("empty if they were not requested", &held, &some, "/frames/0/margins/robots", json!({})),
         there(
-            "the least limits of each robot that holds a block, by its name",
+            "least limits of each robot that holds a block",
             &held,
             &all,
             "/frames/0/margins/robots/r/fy",
             json!(10.0),
         ),
-        Claim(
-            "the least limits of each robot that holds a block, by its name",
-            &held,
-            &all,
-            "/frames/0/margins/robots/idle",
-            None,
-        ),
+        Claim("least limits of each robot that holds a block", &held, &all, "/frames/0/margins/robots/idle", None),
         there(
             "empty for a margin that is unbounded or null",
             &stands,
@@ -218,7 +201,7 @@ fn requested_values_are_present_and_others_are_not() {
             Value::Null,
         ),
         there(
-            "`frames[].only_by_wedging` | true, false or null | | with `--wedging`, if the frame stands",
+            "`frames[].only_by_wedging` | boolean or null | *with `--wedging`, if the frame stands:*",
             &stands,
             &all,
             "/frames/0/only_by_wedging",
@@ -229,10 +212,10 @@ fn requested_values_are_present_and_others_are_not() {
         there("by forces if the frame stands", &stands, &plain, "/frames/0/proof/worst_pull", json!(0.0)),
         there("by a motion if it falls", &hanging, &plain, "/frames/0/proof/no_balance_below", json!("unbounded")),
         there("by either if it is undecided", &narrow, &plain, "/frames/0/verdict", json!("undecided")),
-        Claim("`frames[].doubt` | text | | if the frame is undecided", &stands, &plain, "/frames/0/doubt", None),
+        Claim("`frames[].doubt` | text | *if the frame is undecided:*", &stands, &plain, "/frames/0/doubt", None),
         Claim("only if `false`", &stands, &plain, "/frames/0/total_force_least", None),
-        Claim("`notes` | list of objects | | if there are notes", &stands, &plain, "/notes", None),
-        there("the title of the scene; empty if the scene has none", &stands, &plain, "/scene", json!("")),
+        Claim("`notes` | objects | *if there are notes", &stands, &plain, "/notes", None),
+        there("title of the scene; empty if the scene has none", &stands, &plain, "/scene", json!("")),
         Claim("from the command line", &stands, &plain, "/file", None),
     ]);
 }
