@@ -68,18 +68,21 @@
     feature = "import",
     doc = "| [`import`](mod@import) | a scene file | a drawing: SVG, DXF, GeoJSON or WKT |"
 )]
-//! | [`interface`] | pairs of bodies that touch, and where | a scene |
-//! | [`effect::assemble`] | [`assembly::Assembly`]: bodies, contacts, grips | a frame, with the effects that it needs |
-//! | [`program`] | the equilibrium equations in dimensionless numbers | an assembly |
-//! | [`solve`] | forces, or a motion | a program |
-//! | [`proof`] | the errors of these forces or this motion | an assembly, and forces or a motion |
-//! | [`resultant`] | one force per interface | the forces at the interface's ends |
+//! | [`interface`](internals::interface) | pairs of bodies that touch, and where | a scene |
+//! | [`assemble`](internals::effect::assemble) | [`Assembly`](internals::assembly::Assembly): bodies, contacts, grips | a frame, with the effects that it needs |
+//! | [`program`](internals::program) | the equilibrium equations in dimensionless numbers | an assembly |
+//! | [`solve`](internals::solve) | forces, or a motion | a program |
+//! | [`proof`](internals::proof) | the errors of these forces or this motion | an assembly, and forces or a motion |
+//! | [`resultant`](internals::resultant) | one force per interface | the forces at the interface's ends |
 //! | [`Analysis`] | verdict, forces, failures, motion and margins | a scene |
 //! | [`figure::forces`] | [`drawing::Drawing`] | an analysis |
 //! | [`output::svg::write`] | SVG text | a drawing |
 #![cfg_attr(feature = "png", doc = "| [`output::png::render`] | PNG bytes | SVG text |")]
 #![cfg_attr(feature = "pdf", doc = "| [`output::pdf::write`] | a PDF page | a drawing |")]
-#![cfg_attr(feature = "report", doc = "| [`study::study`] | times and errors of solvers and tolerances | scenes |")]
+#![cfg_attr(
+    feature = "report",
+    doc = "| [`study`](internals::study::study) | times and errors of solvers and tolerances | scenes |"
+)]
 //! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |
 #![cfg_attr(
