@@ -124,10 +124,12 @@ fn difference(percent: f64) -> String {
 fn table(values: &[f64]) -> String {
     let mut rows =
         String::from("| group | case | drystone | published | difference, % | source |\n|---|---|---|---|---|---|\n");
+    let mut group = "";
     for (case, value) in CASES.iter().zip(values) {
+        let same = std::mem::replace(&mut group, case.group) == case.group;
         rows += &format!(
             "| {} | {} | {} | {}{} | {} | {} |\n",
-            case.group,
+            if same { "" } else { case.group },
             case.what,
             ours(case, *value),
             with_unit(case.unit, case.published),
