@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use super::finding::Findings;
 use super::frame::Frame;
-use super::path::Trail;
 use super::problem;
 use super::{BlockId, Body, BodyId, size};
 use crate::geometry::{Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap};
+use crate::read::Trail;
 
 /// The largest number of overlaps that are reported. If a scene has more, they most likely have one cause.
 const MAX_LISTED_OVERLAPS: usize = 1000;
@@ -87,11 +87,11 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
         };
         let name = |id: BodyId| match id {
             BodyId::Ground(i) => format!("ground[{i}]"),
-            BodyId::Block(b) => format!("block `{}`", problem::shortened(&scene.names[b.0])),
+            BodyId::Block(b) => format!("block `{}`", crate::text::shortened(&scene.names[b.0])),
         };
         let frame = (scene.frames.len() > 1).then(|| match scene.frames[f.frame].title.as_str() {
             "" => format!("steps[{}]", f.frame),
-            title => format!("steps[{}], \"{}\"", f.frame, problem::shortened(title)),
+            title => format!("steps[{}], \"{}\"", f.frame, crate::text::shortened(title)),
         });
         let wording = problem::outline::overlap(
             &name(f.bodies[1]),

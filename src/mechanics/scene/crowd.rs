@@ -12,9 +12,9 @@ use super::BodyId;
 use super::collision::Numbered;
 use super::finding::Findings;
 use super::frame::Frame;
-use super::path::Trail;
 use super::problem;
 use crate::geometry::Point;
+use crate::read::Trail;
 
 /// The largest number of bodies in one frame whose corners may meet at one point. These bodies have 4 950 contacts, for
 /// which the computation takes half a second.

@@ -5,13 +5,11 @@
 //! also reported to have no outline.
 
 use super::format::UnitsEntry;
-use super::path::{Path, Segment, Trail};
-use super::problem::{self, Problem, SceneError, Wording};
-use super::source::{Mark, Source};
+use super::problem::{Problem, SceneError, Wording};
+use crate::read::reader::{MAX_FINDINGS, more};
+use crate::read::{Mark, Source};
+use crate::read::{Path, Segment, Trail};
 
-/// The largest number of problems that are kept. If a file has more, they probably have one cause, which the first
-/// problems already show.
-const MAX_FINDINGS: usize = 2000;
 /// Only this number of problems, the first ones, may suggest a similar name. Each suggestion needs a comparison with
 /// all names.
 const MAX_SUGGESTIONS: usize = 50;
@@ -88,11 +86,9 @@ impl Findings {
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
             n if n < MAX_FINDINGS => self.list.push(finding),
-            MAX_FINDINGS => self.list.push(Finding {
-                path: Path::default(),
-                mark: Mark::Value,
-                wording: problem::text::more_problems(MAX_FINDINGS),
-            }),
+            MAX_FINDINGS => {
+                self.list.push(Finding { path: Path::default(), mark: Mark::Value, wording: more().into() })
+            }
             _ => {}
         }
     }

@@ -307,42 +307,6 @@ pub(super) fn parse(text: &str) -> Option<SceneFile> {
     serde_json::from_str(text).ok()
 }
 
-/// True if the parser of this module and serde_json read the same values from a text, or both reject it. For tests of
-/// the reader.
-#[cfg(test)]
-pub(super) fn agrees(text: &str) -> bool {
-    use super::tree::{self, Node, NodeKind, Tree};
-    fn value(tree: &Tree<'_>, node: &Node<'_>) -> serde_json::Value {
-        match &node.kind {
-            NodeKind::Null => serde_json::Value::Null,
-            NodeKind::Flag(flag) => (*flag).into(),
-            NodeKind::Number(x) => (*x).into(),
-            NodeKind::Text(text) => text.as_ref().into(),
-            NodeKind::List(list) => (tree.items(list).iter().map(|n| value(tree, n))).collect(),
-            NodeKind::Object(object) => {
-                (tree.entries(object).iter()).map(|e| (e.name.clone().into_owned(), value(tree, &e.value))).collect()
-            }
-        }
-    }
-    /// Converts every number to a float, because the syntax tree stores all numbers as floats.
-    fn floats(value: serde_json::Value) -> serde_json::Value {
-        match value {
-            serde_json::Value::Number(x) => x.as_f64().into(),
-            serde_json::Value::Array(list) => list.into_iter().map(floats).collect(),
-            serde_json::Value::Object(map) => map.into_iter().map(|(k, v)| (k, floats(v))).collect(),
-            other => other,
-        }
-    }
-    match (tree::parse(text), serde_json::from_str(text)) {
-        (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
-        (Err(_), Err(_)) => true,
-        // A number that is too large for a float is an error for serde_json, but not for the syntax tree. It is
-        // reported later, when values are read.
-        (Ok(_), Err(error)) => error.to_string().contains("number out of range"),
-        (Err(_), Ok(_)) => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -17,7 +17,6 @@ mod name;
 mod note;
 mod number;
 mod outline;
-mod path;
 mod steps;
 mod problem;
 mod reading;
@@ -25,10 +24,7 @@ mod resolution;
 mod rounding;
 pub mod shape;
 mod sketch;
-mod source;
 mod starter;
-mod syntax;
-mod tree;
 mod unit;
 
 pub use applied_force::{AppliedForce, ForceCause};

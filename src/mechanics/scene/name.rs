@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::finding::Findings;
 use super::format::Map;
-use super::path::Trail;
 use super::problem;
+use crate::read::Trail;
 
 /// Reports each key that occurs twice in a map that was built in code. For a file, such keys were reported while
 /// reading.

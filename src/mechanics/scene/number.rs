@@ -2,8 +2,8 @@
 //! 10⁻³⁰ in size, and some must not be negative.
 
 use super::finding::Findings;
-use super::path::Trail;
 use super::problem;
+use crate::read::Trail;
 
 /// The largest absolute value of any number in a scene file, in any unit.
 pub(super) const MAX_MAGNITUDE: f64 = 1e12;

@@ -3,9 +3,9 @@
 use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
-use super::path::Trail;
 use super::problem;
 use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
+use crate::read::Trail;
 
 /// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
 /// coordinates are exact.

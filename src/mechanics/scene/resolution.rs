@@ -20,13 +20,14 @@ use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
-use super::path::Trail;
 use super::problem;
 use super::shape;
 use super::steps::{self, StepContext};
 use super::unit;
 use super::{Block, BlockId, BodyId, Ground, Material, Rgb, Robot, RobotId, Scene};
 use crate::geometry::{Lattice, LatticeKind, Point, Vector};
+use crate::read::Trail;
+use crate::read::reader::unknown_choice;
 
 const DEFAULT_FRICTION: f64 = 0.7;
 const DEFAULT_DENSITY: f64 = 1.0;
@@ -289,8 +290,8 @@ fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
         match NoteCode::named(word) {
             Some(code) => codes.push(code),
             None => {
-                let words: Vec<String> = NoteCode::ALL.iter().map(|c| c.to_string()).collect();
-                findings.add(&list.index(i), problem::entry::unknown_choice(word, &words));
+                let words: Vec<&str> = NoteCode::ALL.iter().map(|c| c.word()).collect();
+                findings.add(&list.index(i), unknown_choice(word, &words).into());
             }
         }
     }

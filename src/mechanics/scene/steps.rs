@@ -11,10 +11,10 @@ use super::format::{HoldEntry, Pair, StepEntry};
 use super::frame::{Frame, Hold, Plan};
 use super::name::{self, Names};
 use super::number::is_sane;
-use super::path::Trail;
 use super::problem;
 use super::{BlockId, RobotId};
 use crate::geometry::Point;
+use crate::read::Trail;
 
 /// The largest sum, over all frames, of the number of placed blocks. It allows a wall of almost 4 000 blocks that are
 /// placed in one step each.

@@ -1,7 +1,8 @@
 //! Messages about names and ids that are unknown, reserved, empty or used twice.
 
-use super::{Code, Wording, new_wording, shortened};
+use super::{Code, Wording, new_wording};
 use crate::text::nearest;
+use crate::text::shortened;
 
 pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
     let help = match nearest(name, known.iter().copied()) {

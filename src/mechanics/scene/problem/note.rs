@@ -1,6 +1,7 @@
 //! Messages of notes, which point out input that is allowed but probably not intended.
 
-use super::{Code, Wording, digits, new_wording, pair, shortened};
+use super::{Code, Wording, digits, new_wording, pair};
+use crate::text::shortened;
 
 /// Creates the wording of a note. A wording needs a problem code, but this code is never shown, because notes have
 /// codes of their own.

@@ -2,7 +2,8 @@
 
 use crate::mechanics::scene::format::UnitsEntry;
 
-use super::{Code, Wording, digits, new_wording, shortened};
+use super::{Code, Wording, digits, new_wording};
+use crate::text::shortened;
 
 pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
     new_wording(

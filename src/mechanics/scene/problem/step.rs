@@ -1,6 +1,7 @@
 //! Messages about steps of the assembly that cannot be executed.
 
-use super::{Code, Wording, new_wording, shortened};
+use super::{Code, Wording, new_wording};
+use crate::text::shortened;
 
 pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
     new_wording(

@@ -4,12 +4,10 @@
 
 use super::super::format::{
     BlockEntry, CellEntry, CellHalf, ContactEntry, Expectation, ForceUnit, FrictionPairEntry, GridEntry, GridKind,
-    GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry, MaterialEntry, Pair, RobotEntry, SceneFile,
-    ShapeEntry, StepEntry, UnitsEntry, Version,
+    GripEntry, GroundEntry, HoldEntry, LengthUnit, LimitsEntry, LoadEntry, Map, MaterialEntry, Pair, RobotEntry,
+    SceneFile, ShapeEntry, StepEntry, UnitsEntry, Version,
 };
-use super::super::path::Trail;
-use super::super::tree::{Node, NodeKind};
-use super::value::{Object, Reader};
+use crate::read::{Expected, Fields, Node, NodeKind, Reader, Trail};
 
 /// For every type of the format: its name, and its keys in alphabetical order.
 #[cfg(test)]
@@ -77,10 +75,10 @@ const UNITS: &[&str] = &["force", "length"];
 
 const CELL: &str = "[x, y, \"up\"], [x, y, \"down\"] or [x, y]";
 
-type R<'s, 't> = Reader<'s, 't>;
+type R<'s> = Reader<'s>;
 
 /// Reads the whole scene file. A value that does not fit the format is reported and left out.
-pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
+pub(super) fn scene<'s>(r: &mut R<'s>, node: &'s Node<'s>) -> SceneFile {
     let at = &Trail::Top;
     let Some(o) = r.object(node, at, SCENE) else {
         return SceneFile::default();
@@ -98,10 +96,10 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
         kernel: number(r, o, at, "kernel"),
         density: number(r, o, at, "density"),
         thickness: number(r, o, at, "thickness"),
-        materials: r.map(o, at, "materials", material),
+        materials: map(r, o, at, "materials", material),
         friction_pairs: r.list(o, at, "friction_pairs", friction_pair),
         grid: r.optional(o, at, "grid", grid),
-        shapes: r.map(o, at, "shapes", shape),
+        shapes: map(r, o, at, "shapes", shape),
         ground: r.list(o, at, "ground", ground),
         blocks: (r.required(o, at, "blocks", |r, n, at| r.entries(n, at, block))).unwrap_or_default(),
         contacts: r.list(o, at, "contacts", contact),
@@ -115,35 +113,46 @@ pub(super) fn scene<'t>(r: &mut R<'_, 't>, node: &Node<'t>) -> SceneFile {
     }
 }
 
-fn number<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>, key: &str) -> Option<f64> {
+fn map<'s, T: Default>(
+    r: &mut R<'s>,
+    o: Fields<'s>,
+    at: &Trail<'_>,
+    key: &str,
+    read: impl FnMut(&mut R<'s>, &'s Node<'s>, &Trail<'_>) -> Option<T>,
+) -> Map<T> {
+    let named = o.get(key).and_then(|node| r.names(node, &at.key(key), read));
+    Map(named.unwrap_or_default())
+}
+
+fn number<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>, key: &str) -> Option<f64> {
     r.optional(o, at, key, |r, n, at| r.number(n, at))
 }
 
-fn text<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>, key: &str) -> Option<String> {
+fn text<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>, key: &str) -> Option<String> {
     r.optional(o, at, key, |r, n, at| r.text(n, at))
 }
 
-fn point<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>, key: &str) -> Option<Pair> {
+fn point<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>, key: &str) -> Option<Pair> {
     r.optional(o, at, key, |r, n, at| r.point(n, at))
 }
 
-fn names<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>, key: &str) -> Vec<String> {
+fn names<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>, key: &str) -> Vec<String> {
     r.list(o, at, key, |r, n, at| r.text(n, at))
 }
 
-fn corners<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Vec<Pair>> {
+fn corners<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Vec<Pair>> {
     r.entries(node, at, |r, n, at| r.point(n, at))
 }
 
-fn polygon<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec<Pair>> {
+fn polygon<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>) -> Option<Vec<Pair>> {
     r.optional(o, at, "polygon", corners)
 }
 
-fn holes<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Vec<Vec<Pair>> {
+fn holes<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>) -> Vec<Vec<Pair>> {
     r.list(o, at, "holes", corners)
 }
 
-fn cells<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec<CellEntry>> {
+fn cells<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>) -> Option<Vec<CellEntry>> {
     let list = r.optional(o, at, "cells", |r, n, at| {
         // If a cell cannot be read, its body counts as unreadable. Any value can therefore take the place of this cell.
         r.entries(n, at, |r, n, at| cell(r, n, at).map(Some))
@@ -152,20 +161,20 @@ fn cells<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Vec
     Some(list.into_iter().map(read).collect())
 }
 
-fn version<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Version> {
+fn version<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Version> {
     if let (NodeKind::Number(_), Ok(number)) = (&node.kind, r.written(node).parse()) {
         return Some(Version(number));
     }
-    r.wrong(node, at, "a whole number");
+    r.wrong(node, at, Expected::Whole);
     None
 }
 
-fn contact<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<ContactEntry> {
+fn contact<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<ContactEntry> {
     let o = r.object(node, at, CONTACT)?;
     let bodies = r.required(o, at, "bodies", |r, n, at| match &n.kind {
         NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
         _ => {
-            r.wrong(n, at, "a list with the names of two bodies");
+            r.wrong(n, at, Expected::Other("a list with the names of two bodies"));
             None
         }
     });
@@ -177,7 +186,7 @@ fn contact<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Con
     })
 }
 
-fn units<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<UnitsEntry> {
+fn units<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<UnitsEntry> {
     let o = r.object(node, at, UNITS)?;
     let lengths = [
         ("m", LengthUnit::Metre),
@@ -198,7 +207,7 @@ fn units<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Units
     })
 }
 
-fn material<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<MaterialEntry> {
+fn material<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<MaterialEntry> {
     let o = r.object(node, at, MATERIAL)?;
     Some(MaterialEntry {
         density: number(r, o, at, "density"),
@@ -207,12 +216,12 @@ fn material<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Ma
     })
 }
 
-fn friction_pair<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<FrictionPairEntry> {
+fn friction_pair<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<FrictionPairEntry> {
     let o = r.object(node, at, FRICTION_PAIR)?;
     let between = r.required(o, at, "between", |r, n, at| match &n.kind {
         NodeKind::List(list) if list.len() == 2 => r.entries(n, at, |r, n, at| r.text(n, at)),
         _ => {
-            r.wrong(n, at, "a list with the names of two materials");
+            r.wrong(n, at, Expected::Other("a list with the names of two materials"));
             None
         }
     });
@@ -222,7 +231,7 @@ fn friction_pair<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Opti
     })
 }
 
-fn grid<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GridEntry> {
+fn grid<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<GridEntry> {
     let o = r.object(node, at, GRID)?;
     let kinds = [("triangular", GridKind::Triangular), ("square", GridKind::Square)];
     Some(GridEntry {
@@ -231,11 +240,11 @@ fn grid<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GridEn
     })
 }
 
-fn cell<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<CellEntry> {
+fn cell<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<CellEntry> {
     let items = match &node.kind {
         NodeKind::List(list) if (2..=3).contains(&list.len()) => r.items(list),
         _ => {
-            r.wrong(node, at, CELL);
+            r.wrong(node, at, Expected::Other(CELL));
             return None;
         }
     };
@@ -251,12 +260,12 @@ fn cell<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<CellEn
     }
 }
 
-fn shape<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<ShapeEntry> {
+fn shape<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<ShapeEntry> {
     let o = r.object(node, at, SHAPE)?;
     Some(ShapeEntry { polygon: polygon(r, o, at), holes: holes(r, o, at), cells: cells(r, o, at) })
 }
 
-fn ground<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<GroundEntry> {
+fn ground<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<GroundEntry> {
     let o = r.object(node, at, GROUND)?;
     Some(GroundEntry {
         polygon: polygon(r, o, at),
@@ -271,7 +280,7 @@ fn ground<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Grou
     })
 }
 
-fn block<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<BlockEntry> {
+fn block<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<BlockEntry> {
     let o = r.object(node, at, BLOCK)?;
     Some(BlockEntry {
         id: text(r, o, at, "id"),
@@ -291,7 +300,7 @@ fn block<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Block
     })
 }
 
-fn robot<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<RobotEntry> {
+fn robot<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<RobotEntry> {
     let o = r.object(node, at, ROBOT)?;
     Some(RobotEntry {
         id: text(r, o, at, "id"),
@@ -301,7 +310,7 @@ fn robot<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Robot
     })
 }
 
-fn limits<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<LimitsEntry> {
+fn limits<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<LimitsEntry> {
     let o = r.object(node, at, LIMITS)?;
     Some(LimitsEntry {
         fx: number(r, o, at, "fx"),
@@ -311,7 +320,7 @@ fn limits<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<Limi
     })
 }
 
-fn load<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<LoadEntry> {
+fn load<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<LoadEntry> {
     let o = r.object(node, at, LOAD)?;
     Some(LoadEntry {
         block: (r.required(o, at, "block", |r, n, at| r.text(n, at))).unwrap_or_default(),
@@ -321,25 +330,25 @@ fn load<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<LoadEn
     })
 }
 
-fn step<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<StepEntry> {
+fn step<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<StepEntry> {
     let o = r.object(node, at, STEP)?;
     Some(StepEntry {
         title: text(r, o, at, "title"),
         release: names(r, o, at, "release"),
         remove: names(r, o, at, "remove"),
         place: names(r, o, at, "place"),
-        hold: r.map(o, at, "hold", hold),
-        plan: r.map(o, at, "plan", |r, n, at| r.text(n, at)),
+        hold: map(r, o, at, "hold", hold),
+        plan: map(r, o, at, "plan", |r, n, at| r.text(n, at)),
         expect: expectation(r, o, at),
     })
 }
 
-fn expectation<'t>(r: &mut R<'_, 't>, o: Object<'_, 't>, at: &Trail<'_>) -> Option<Expectation> {
+fn expectation<'s>(r: &mut R<'s>, o: Fields<'s>, at: &Trail<'_>) -> Option<Expectation> {
     let choices = [("stable", Expectation::Stable), ("unstable", Expectation::Unstable)];
     r.optional(o, at, "expect", |r, n, at| r.choice(n, at, &choices))
 }
 
-fn hold<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<HoldEntry> {
+fn hold<'s>(r: &mut R<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<HoldEntry> {
     match &node.kind {
         NodeKind::Text(block) => Some(HoldEntry::Block(block.clone().into_owned())),
         NodeKind::Object(_) => {
@@ -350,7 +359,7 @@ fn hold<'t>(r: &mut R<'_, 't>, node: &Node<'t>, at: &Trail<'_>) -> Option<HoldEn
             }))
         }
         _ => {
-            r.wrong(node, at, "a string or an object");
+            r.wrong(node, at, Expected::Other("a string or an object"));
             None
         }
     }

@@ -6,9 +6,9 @@ use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::{self, Pair};
 use crate::mechanics::scene::number::{MAX_MAGNITUDE, at_least_zero, is_sane};
 use crate::mechanics::scene::outline::{self, Outline};
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::problem;
 use crate::mechanics::scene::{Block, Body, Ground, Rgb};
+use crate::read::Trail;
 
 /// The keys that blocks and ground share.
 pub(super) struct BodyEntry<'f> {

@@ -5,9 +5,9 @@ use crate::geometry::{Bounds, Point, Polygon, Vector, convex_hull, quarter_turn,
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_sane};
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::problem;
 use crate::mechanics::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
+use crate::read::Trail;
 
 /// The radius of a schematic disc, and half the width of a schematic support, as a fraction of the diagonal of the
 /// rectangle around all centres and contacts.

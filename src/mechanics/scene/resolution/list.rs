@@ -10,8 +10,8 @@ use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::number::at_least_zero;
 use crate::mechanics::scene::outline::Outline;
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::{problem, shape};
+use crate::read::Trail;
 
 impl Resolution<'_> {
     /// Returns the outlines of the file's shapes, followed by those of the built-in shapes. An outline is `None` if it

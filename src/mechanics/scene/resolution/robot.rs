@@ -6,8 +6,8 @@ use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::LimitsEntry;
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::{BlockId, Grip, Limits, Load, Robot};
+use crate::read::Trail;
 
 impl Resolution<'_> {
     pub(super) fn robots(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Robot> {
