@@ -132,8 +132,6 @@ macro_rules! optional_setters {
 #[doc(hidden)]
 pub mod text;
 
-// The macros for options are not used yet outside tests.
-#[allow(dead_code, unused_macros, unused_imports)]
 mod read;
 
 #[doc(hidden)]

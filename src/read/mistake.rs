@@ -120,8 +120,10 @@ pub enum Cause<'a> {
     MissingKey(&'a str),
     /// The text is empty.
     Empty,
-    /// The text is written in this other format.
+    /// The text is written in this other format instead of JSON.
     OtherFormat(&'a str),
+    /// The text does not follow the grammar of TOML.
+    NotToml,
     /// Too many brackets are open at once.
     TooDeep,
     /// A comment in JSON.

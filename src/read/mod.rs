@@ -1,7 +1,7 @@
 //! Reads values from JSON and TOML, and reports all mistakes at once, each with line, column, path and remedy. Scene
 //! files, style files, settings and options are read in this way.
 //!
-//! A type implements [`Read`]: it reads itself from a value of the syntax tree ([`Tree`]) with the help of the
+//! A type implements [`Read`]: it reads itself from a value of the syntax tree ([`tree::Tree`]) with the help of the
 //! [`Reader`], which collects the mistakes. [`from_text`] reads a whole text.
 //!
 //! A struct of options is declared in the macro `options!`. The macro declares the struct as it stands, and each field
@@ -39,9 +39,9 @@ pub mod tree;
 
 pub use mistake::{Broken, Cause, Dialect, Expected, Kind, Mistake, Problem, Problems};
 pub use path::{Path, Segment, Trail};
-pub use reader::{Fields, Finding, Reader};
+pub use reader::{Finding, Reader};
 pub use source::{Mark, Notation, Source};
-pub use tree::{Node, NodeKind, Tree};
+pub use tree::{Node, NodeKind};
 
 /// A value that can be read from a syntax tree.
 pub trait Read: Sized {
@@ -84,10 +84,10 @@ pub fn from_text<T>(
     }
 }
 
-/// Implements [`Read`] and [`Update`] for a struct, for the listed fields. A field may have another name in the text,
-/// which stands after it in quotes. After `as` stands the function that reads its value.
+/// Implements [`Read`] and [`Update`] for a struct, for the listed fields, such as `width` or `page.width`. A field may
+/// have another name in the text, which stands after it in quotes. After `as` stands the function that reads its value.
 macro_rules! read_keys {
-    ($name:ty { $($field:ident $($key:literal)? $(as $how:expr)?),* $(,)? }) => {
+    ($name:ty { $($($field:ident).+ $($key:literal)? $(as $how:expr)?),* $(,)? }) => {
         impl $crate::read::Update for $name {
             fn update<'s>(
                 &mut self,
@@ -95,11 +95,11 @@ macro_rules! read_keys {
                 node: &'s $crate::read::Node<'s>,
                 at: &$crate::read::Trail<'_>,
             ) {
-                if let Some(fields) = r.object(node, at, &[$([$($key,)? stringify!($field)][0]),*]) {
+                if let Some(fields) = r.object(node, at, &[$([$($key,)? stringify!($($field).+)][0]),*]) {
                     $(
-                        let key = [$($key,)? stringify!($field)][0];
+                        let key = [$($key,)? stringify!($($field).+)][0];
                         if let Some(value) = r.optional(fields, at, key, $crate::read::how!($($how)?)) {
-                            self.$field = value;
+                            self.$($field).+ = value;
                         }
                     )*
                 }
@@ -121,6 +121,7 @@ macro_rules! read_keys {
 }
 
 /// Declares a struct of options, and implements [`Read`] and [`Update`] for it; see the documentation of this module.
+#[cfg_attr(not(test), allow(unused_macros))]
 macro_rules! options {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
         $($(#[$attr:meta])* $field_vis:vis $field:ident: $type:ty $(as $how:expr)?),* $(,)?
@@ -144,7 +145,9 @@ macro_rules! how {
     };
 }
 
-pub(crate) use {how, options, read_keys};
+#[allow(unused_imports, reason = "no options are declared with `options!` yet")]
+pub(crate) use options;
+pub(crate) use {how, read_keys};
 
 impl Read for f64 {
     fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<f64> {

@@ -323,37 +323,25 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// Reads the value of a required key with the function `read`. Reports a missing key and returns `None`.
-    pub fn required<T>(
+    /// Reads the value of a key with the function `read`. Reports a missing key if it is required. Returns the default
+    /// value if the key is absent, or if its value does not fit.
+    pub fn key<T: Default>(
         &mut self,
         fields: Fields<'s>,
         at: &Trail<'_>,
         key: &str,
+        is_required: bool,
         read: impl FnOnce(&mut Self, &'s Node<'s>, &Trail<'_>) -> Option<T>,
-    ) -> Option<T> {
+    ) -> T {
         if let Some(node) = fields.get(key) {
-            return read(self, node, &at.key(key));
+            return read(self, node, &at.key(key)).unwrap_or_default();
         }
-        let help = self.dialect.help(Cause::MissingKey(key), format!("add `\"{key}\"`"));
-        self.report(
-            &at.key(key),
-            Mark::Value,
-            Mistake::new(Kind::MissingKey, format!("the key `{key}` is missing"), help),
-        );
-        None
-    }
-
-    /// Reads the list that is the value of `key`. The function `read` reads each entry. The result is empty if the key
-    /// is absent, or if its value is not a list.
-    pub fn list<T: Default>(
-        &mut self,
-        fields: Fields<'s>,
-        at: &Trail<'_>,
-        key: &str,
-        read: impl FnMut(&mut Self, &'s Node<'s>, &Trail<'_>) -> Option<T>,
-    ) -> Vec<T> {
-        let node = fields.get(key);
-        node.and_then(|node| self.entries(node, &at.key(key), read)).unwrap_or_default()
+        if is_required {
+            let help = self.dialect.help(Cause::MissingKey(key), format!("add `\"{key}\"`"));
+            let mistake = Mistake::new(Kind::MissingKey, format!("the key `{key}` is missing"), help);
+            self.report(&at.key(key), Mark::Value, mistake);
+        }
+        T::default()
     }
 
     /// Reads all entries of a list with the function `read`. An entry that does not fit is replaced by the default

@@ -25,7 +25,7 @@ pub fn json<'t>(text: &'t str, dialect: &Dialect) -> Result<Source<'t>, Broken> 
 /// Every syntax error, with its place.
 #[cfg(feature = "toml")]
 pub fn toml<'t>(text: &'t str, dialect: &Dialect) -> Result<Source<'t>, Vec<Broken>> {
-    let help = dialect.help(Cause::OtherFormat("TOML"), "correct the text here, or shortly before this place");
+    let help = dialect.help(Cause::NotToml, "correct the text here, or shortly before this place");
     let broken = |(span, why)| Broken {
         span,
         mistake: Mistake::new(Kind::Syntax, format!("this is not TOML: {why}"), help.clone()),

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use super::finding::Finding;
 use super::format::{HoldEntry, Pair, SceneFile};
-use super::problem::{Wording, codes, note as say};
+use super::problem::{Wording, codes, message as say};
 use super::{BlockId, Body, BodyId, RobotId, Scene};
 use crate::geometry::{Point, Polygon};
 use crate::read::{Mark, Source};

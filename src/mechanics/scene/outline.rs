@@ -47,7 +47,7 @@ pub(super) fn polygon(
             let extent = polygon.bounds().diagonal();
             if extent < SMALLEST_EXTENT {
                 let units = findings.units;
-                findings.add(&outer, problem::number::tiny_extent(extent, SMALLEST_EXTENT, units));
+                findings.add(&outer, problem::message::tiny_extent(extent, SMALLEST_EXTENT, units));
                 return None;
             }
             let centroid = polygon.centroid();

@@ -4,13 +4,9 @@
 //! was found and what to do about it.
 
 mod code;
-pub(super) mod entry;
-pub(super) mod name;
-pub(super) mod note;
-pub(super) mod number;
+pub(super) mod message;
 pub(super) mod outline;
 pub(super) mod remedy;
-pub(super) mod step;
 
 use std::fmt;
 use std::ops::Range;

@@ -4,10 +4,6 @@
 //! A text is read once, into a syntax tree. The scene file is made from that tree. A value that does not fit is
 //! reported and left out. All other values are still checked.
 
-mod object;
-
-#[cfg(test)]
-pub(super) use self::object::KEYS;
 use super::Scene;
 use super::finding::{self, Finding, UnreadParts};
 use super::format::SceneFile;
@@ -15,7 +11,7 @@ use super::note::{self, Lines};
 use super::problem::SceneError;
 use super::problem::remedy::SCENE;
 use super::resolution::resolve;
-use crate::read::{self, Reader, Source, syntax};
+use crate::read::{self, Read, Reader, Source, Trail, syntax};
 
 impl Scene {
     /// Reads and checks a scene file.
@@ -135,12 +131,35 @@ impl Scene {
     }
 }
 
+/// Returns a small example as the text of a scene file. Its structure stands after every step. Users can extend it.
+///
+/// ```
+/// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
+/// assert!(scene.frames().len() > 1);
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn starter() -> &'static str {
+    include_str!("../../../assets/starter.json")
+}
+
+/// Returns the example of [`starter`] with one more step, in which a block tips over because a robot releases it too
+/// early.
+///
+/// ```
+/// let scene = drystone::scene::Scene::from_json(drystone::scene::falling_starter())?;
+/// assert_eq!(drystone::Analysis::new(&scene).verdict(), drystone::analysis::Verdict::Unstable);
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn falling_starter() -> &'static str {
+    include_str!("../../../assets/starter-falls.json")
+}
+
 /// Reads the scene file from the syntax tree of `source`. Returns the file, the problems found while reading, and the
 /// parts that could not be read.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
     let mut reader = Reader::new(source, &SCENE);
     let file = match &source.tree {
-        Some(tree) => object::scene(&mut reader, &tree.root),
+        Some(tree) => SceneFile::read(&mut reader, &tree.root, &Trail::Top).unwrap_or_default(),
         None => SceneFile::default(),
     };
     let finding = |f: read::Finding| Finding { path: f.path, mark: f.mark, wording: f.mistake.into() };
@@ -151,7 +170,8 @@ pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts
 mod tests {
     use super::*;
     use crate::mechanics::scene::format;
-    use crate::read::{Node, NodeKind, Tree};
+    use crate::read::tree::Tree;
+    use crate::read::{Node, NodeKind};
 
     /// Reads a text with serde, which checks only the types of the values.
     fn by_types(text: &str) -> Option<SceneFile> {

@@ -36,7 +36,7 @@ fn remedy(cause: Cause<'_>) -> Option<String> {
         }
         Cause::MissingKey("drystone") => "add `\"drystone\": 1`, the version of the scene format",
         Cause::MissingKey("blocks") => "add `\"blocks\": […]`, the list of blocks; it may be empty",
-        Cause::MissingKey(_) => return None,
+        Cause::MissingKey(_) | Cause::NotToml => return None,
         Cause::Empty => "start from the scene that `drystone new` writes",
         Cause::OtherFormat("XML") => "a scene is written as JSON; `drystone import` converts a drawing to a scene",
         Cause::OtherFormat(_) => {

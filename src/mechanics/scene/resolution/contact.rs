@@ -44,7 +44,7 @@ impl Resolution<'_> {
             if let [Some(a), Some(b)] = bodies
                 && a == b
             {
-                findings.add(&names, problem::entry::contact_of_one());
+                findings.add(&names, problem::message::contact_of_one());
                 bodies[0] = None;
             }
             let ([Some(a), Some(b)], true) = (bodies, sound) else {
