@@ -132,6 +132,8 @@ macro_rules! optional_setters {
 #[doc(hidden)]
 pub mod text;
 
+mod read;
+
 #[doc(hidden)]
 pub mod geometry;
 

@@ -1,4 +1,4 @@
-//! Escapes untrusted text for each output format. All text that does not come from this program is untrusted.
+//! Escapes untrusted text for each output format, and shortens and joins words for messages. All text that does not come from this program is untrusted.
 //!
 //! A title, an id or a file name may contain anything: line breaks that begin a table row, escape sequences of
 //! terminals, characters that reverse the reading direction, markup, or spreadsheet formulas. The functions of this
@@ -46,6 +46,21 @@ pub fn heading(text: &str, max_chars: usize) -> String {
         return words;
     }
     words.chars().take(max_chars.saturating_sub(1)).chain(['…']).collect()
+}
+
+/// If a text has more than 40 characters, returns its first 37 characters and "…"; otherwise the whole text.
+pub fn shortened(text: &str) -> String {
+    if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(37).chain("…".chars()).collect() }
+}
+
+/// Joins the items into a text such as "a, b or c"; "nothing" if there are no items.
+pub fn choice(items: impl IntoIterator<Item = String>) -> String {
+    let items: Vec<String> = items.into_iter().collect();
+    match items.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => "nothing".into(),
+    }
 }
 
 /// Returns a space for a line break or tab, [`HIDDEN`] for another control character or a character that changes the
@@ -244,5 +259,11 @@ mod tests {
         assert_eq!(csv(" =1+1"), "\"' =1+1\"");
         assert_eq!(csv("\t@a\nb"), "\"' @a b\"");
         assert_eq!(csv("a-b"), "\"a-b\"");
+    }
+
+    #[test]
+    fn choices_are_joined_with_commas_and_or() {
+        assert_eq!(choice(["a".to_string(), "b".to_string(), "c".to_string()]), "a, b or c");
+        assert_eq!(choice(["a".to_string()]), "a");
     }
 }

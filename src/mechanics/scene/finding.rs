@@ -4,14 +4,12 @@
 //! Problems in an entry that could not be read are not added. For example, a block with an unreadable polygon is not
 //! also reported to have no outline.
 
-use super::format::UnitsEntry;
-use super::path::{Path, Segment, Trail};
-use super::problem::{self, Problem, SceneError, Wording};
-use super::source::{Mark, Source};
+use super::format::{BlockEntry, MaterialEntry, RobotEntry, UnitsEntry};
+use super::problem::{Problem, SceneError, Wording};
+use crate::read::reader::{MAX_FINDINGS, more};
+use crate::read::{Mark, Source};
+use crate::read::{Path, Segment, Trail};
 
-/// The largest number of problems that are kept. If a file has more, they probably have one cause, which the first
-/// problems already show.
-const MAX_FINDINGS: usize = 2000;
 /// Only this number of problems, the first ones, may suggest a similar name. Each suggestion needs a comparison with
 /// all names.
 const MAX_SUGGESTIONS: usize = 50;
@@ -88,11 +86,9 @@ impl Findings {
     pub(super) fn keep(&mut self, finding: Finding) {
         match self.list.len() {
             n if n < MAX_FINDINGS => self.list.push(finding),
-            MAX_FINDINGS => self.list.push(Finding {
-                path: Path::default(),
-                mark: Mark::Value,
-                wording: problem::text::more_problems(MAX_FINDINGS),
-            }),
+            MAX_FINDINGS => {
+                self.list.push(Finding { path: Path::default(), mark: Mark::Value, wording: more().into() })
+            }
             _ => {}
         }
     }
@@ -159,9 +155,7 @@ impl UnreadParts {
             [] => true,
             [Segment::Key(key)] => key == list || (known == 0 && !NAMED_LISTS.contains(&key.as_str())),
             [Segment::Key(key), Segment::Index(_)] => key == list,
-            [Segment::Key(key), Segment::Index(_), Segment::Key(inner)] => {
-                key == list && !ENTRY_KEYS.contains(&inner.as_str())
-            }
+            [Segment::Key(key), Segment::Index(_), Segment::Key(inner)] => key == list && !is_not_a_name(inner),
             _ => false,
         })
     }
@@ -170,22 +164,9 @@ impl UnreadParts {
 /// The top-level keys of a scene file under which objects with names or ids are listed.
 const NAMED_LISTS: [&str; 4] = ["materials", "shapes", "blocks", "robots"];
 
-/// Inner keys that are not a misspelt `id`. If the value of such a key cannot be read, the names of the list are still
-/// known.
-const ENTRY_KEYS: [&str; 15] = [
-    "polygon",
-    "holes",
-    "cells",
-    "shape",
-    "at",
-    "angle",
-    "material",
-    "weight",
-    "mass",
-    "density",
-    "friction",
-    "fill",
-    "holds",
-    "limits",
-    "thickness",
-];
+/// True for an inner key that is not a misspelt `id`. If the value of such a key cannot be read, the names of the list
+/// are still known.
+fn is_not_a_name(key: &str) -> bool {
+    let known = [BlockEntry::KEYS, RobotEntry::KEYS, MaterialEntry::KEYS].concat();
+    key != "id" && (known.contains(&key) || key == "thickness")
+}

@@ -1,15 +1,15 @@
 //! The scene file as Rust types, one type for each kind of JSON object. The JSON Schema is generated from these types.
 //!
-//! A [`SceneFile`] is read from text, or built in code with the methods in `build`. Reading checks only the types of
-//! the values; [`SceneFile::build`] checks the rest. A key may be absent or `null` if its field is an `Option`.
-//! No other part of the scene module uses serde, serde_json or schemars.
+//! Each object is declared once, in the macro `entry!`. A [`SceneFile`] is read from text, or built in code: a method has
+//! the name of its key, and a method that adds one entry to a list has the singular, such as `block` for the key
+//! `blocks`. Each method returns the changed object. Reading checks only the types of the values; [`SceneFile::build`]
+//! checks the rest and reports all problems at once. A key may be absent or `null` if its field is an `Option`. No other
+//! part of the scene module uses serde, serde_json or schemars.
 
 mod body;
-mod build;
+mod declare;
 mod lines;
 mod map;
-#[cfg(feature = "schema")]
-mod schema;
 mod step;
 mod unit;
 
@@ -17,116 +17,86 @@ mod unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use self::declare::{entry, word};
+use super::{NoteCode, Scene, SceneError};
+use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
+
 pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry};
 pub(crate) use lines::Lines;
 pub use map::Map;
-#[cfg(feature = "schema")]
-pub use schema::schema;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 
 /// A position or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];
 
-/// A scene of dry-laid blocks: their positions, and the robots that hold them. SI units by default; y points up, and
-/// angles are in degrees anticlockwise.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
-#[non_exhaustive]
-pub struct SceneFile {
-    /// Path or address of the JSON Schema, for editors; drystone ignores this key.
-    #[serde(rename = "$schema", skip_serializing_if = "Option::is_none")]
-    pub schema: Option<String>,
-    /// Version of the scene format; must be 1.
-    pub drystone: Version,
-    /// Title of the scene, for reports and captions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub title: Option<String>,
-    /// Author of the calculation, for reports.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub author: Option<String>,
-    /// Project that the structure belongs to, for reports.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub project: Option<String>,
-    /// Date of the calculation, for reports: any text. Reports never read a clock.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub date: Option<String>,
-    /// Units of lengths and forces in this file. Masses stay in kg, densities in kg/m³ and gravity in m/s². Default:
-    /// metres and newtons.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub units: Option<UnitsEntry>,
-    /// Gravity [x, y] in m/s². Weights act in this direction; with [0, 0], no weight acts. Default [0, -9.81].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = [0.0, -9.81])))]
-    pub gravity: Option<Pair>,
-    /// Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one. Default
-    /// 0.7.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 0.7)))]
-    pub friction: Option<f64>,
-    /// Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length.
-    /// Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0), extend("default" = 0.0)))]
-    pub kernel: Option<f64>,
-    /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
-    pub density: Option<f64>,
-    /// Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("default" = 1.0)))]
-    pub thickness: Option<f64>,
-    /// Materials of blocks and of the ground, by name.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub materials: Map<MaterialEntry>,
-    /// Friction coefficients between pairs of materials.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub friction_pairs: Vec<FrictionPairEntry>,
-    /// The lattice. With a lattice, `at` of a body is in lattice coordinates, and outlines may be sets of cells.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub grid: Option<GridEntry>,
-    /// Shapes that bodies can use as outlines, by name. The triangular lattice also has the built-in shapes up, down,
-    /// hexagon, linkh, linkr and linkl; these names are reserved.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub shapes: Map<ShapeEntry>,
-    /// Parts of the ground: they support any load and never move.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub ground: Vec<GroundEntry>,
-    /// The blocks.
-    pub blocks: Vec<BlockEntry>,
-    /// The contacts between bodies, as points with a normal. If any contact is listed, no contacts are computed from
-    /// the outlines.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub contacts: Vec<ContactEntry>,
-    /// Robots, each of which can hold one block at a time.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub robots: Vec<RobotEntry>,
-    /// Loads on blocks, in addition to their weights.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub loads: Vec<LoadEntry>,
-    /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and bodies
-    /// may overlap by up to this depth. Default: estimated from how the coordinates are written and how large the scene
-    /// is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub contact_tolerance: Option<f64>,
-    /// Whether a corner that touches an edge or another corner carries force. Default false.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = false)))]
-    pub corner_contacts: Option<bool>,
-    /// Steps of the assembly, one frame each. Without steps, there is one frame: all blocks are placed, and each
-    /// robot holds the block in its key `holds`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub steps: Vec<StepEntry>,
-    /// The expected verdict of every frame whose step has no `expect`. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub expect: Option<Expectation>,
-    /// Codes of notes that are switched off, such as `no_ground`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub silence: Vec<String>,
+entry! {
+    /// A scene of dry-laid blocks: their positions, and the robots that hold them. SI units by default; y points up,
+    /// and angles are in degrees anticlockwise.
+    #[cfg_attr(feature = "schema", schemars(title = "drystone scene"))]
+    pub struct SceneFile {
+        /// Path or address of the JSON Schema, for editors; drystone ignores this key.
+        schema "$schema": bare Option<String>,
+        /// Version of the scene format; must be 1.
+        drystone: required Version,
+        /// Title of the scene, for reports and captions.
+        title: Option<String>,
+        /// Author of the calculation, for reports.
+        author: Option<String>,
+        /// Project that the structure belongs to, for reports.
+        project: Option<String>,
+        /// Date of the calculation, for reports: any text. Reports never read a clock.
+        date: Option<String>,
+        /// Units of lengths and forces in this file. Masses stay in kg, densities in kg/m³ and gravity in m/s².
+        /// Default: metres and newtons.
+        units: bare Option<UnitsEntry>,
+        /// Gravity [x, y] in m/s². Weights act in this direction; with [0, 0], no weight acts. Default [0, -9.81].
+        gravity: Option<Pair> [extend("default" = [0.0, -9.81])] as vector,
+        /// Friction coefficient μ, at least 0, of each body for which neither the body nor its material gives one.
+        /// Default 0.7.
+        friction: Option<f64> [range(min = 0.0), extend("default" = 0.7)],
+        /// Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length.
+        /// Default 0.
+        kernel: Option<f64> [range(min = 0.0, max = 1.0), extend("default" = 0.0)],
+        /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default
+        /// 1.
+        density: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
+        /// Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.
+        thickness: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
+        /// Materials of blocks and of the ground, by name.
+        materials: Map<MaterialEntry>,
+        /// Friction coefficients between pairs of materials.
+        friction_pairs: Vec<FrictionPairEntry>,
+        /// The lattice. With a lattice, `at` of a body is in lattice coordinates, and outlines may be sets of cells.
+        grid: bare Option<GridEntry>,
+        /// Shapes that bodies can use as outlines, by name. The triangular lattice also has the built-in shapes up,
+        /// down, hexagon, linkh, linkr and linkl; these names are reserved.
+        shapes: Map<ShapeEntry>,
+        /// Parts of the ground: they support any load and never move.
+        ground: Vec<GroundEntry>,
+        /// The blocks.
+        blocks: required Vec<BlockEntry>,
+        /// The contacts between bodies, as points with a normal. If any contact is listed, no contacts are computed
+        /// from the outlines.
+        contacts: Vec<ContactEntry>,
+        /// Robots, each of which can hold one block at a time.
+        robots: Vec<RobotEntry>,
+        /// Loads on blocks, in addition to their weights.
+        loads: Vec<LoadEntry>,
+        /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and
+        /// bodies may overlap by up to this depth. Default: estimated from how the coordinates are written and how
+        /// large the scene is.
+        contact_tolerance: Option<f64> [range(min = 0.0)],
+        /// Whether a corner that touches an edge or another corner carries force. Default false.
+        corner_contacts: Option<bool> [extend("default" = false)],
+        /// Steps of the assembly, one frame each. Without steps, there is one frame: all blocks are placed, and each
+        /// robot holds the block in its key `holds`.
+        steps: Vec<StepEntry>,
+        /// The expected verdict of every frame whose step has no `expect`. Default: none.
+        expect: Option<Expectation>,
+        /// Codes of notes that are switched off, such as `no_ground`.
+        silence: Vec<String>,
+    }
 }
 
 /// Parses one entry of a scene file, such as a block, from its JSON text. Only the types of the values are checked. The
@@ -134,19 +104,6 @@ pub struct SceneFile {
 #[cfg(any(feature = "python", feature = "wasm"))]
 pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string())
-}
-
-/// Builder methods for the keys of the whole file whose value is a number, a vector or a truth value.
-impl SceneFile {
-    optional_setters! {
-        gravity: Pair, "Gravity [x, y] in m/s². Weights act in its direction.";
-        friction: f64, "Friction coefficient μ of bodies without a coefficient of their own or of their material, at least 0.";
-        kernel: f64, "Safety kernel, 0 to 1: the fraction of each contact's length that must stay free of force.";
-        density: f64, "Density in kg/m³ of blocks without a density of their own or of their material, at least 0.";
-        thickness: f64, "Thickness of all blocks in the length unit of the scene, perpendicular to the plane of the scene, at least 0.";
-        contact_tolerance: f64, "Contact tolerance: the largest distance, in the length unit of the scene, between two edges that touch, at least 0.";
-        corner_contacts: bool, "Whether a corner that touches an edge or another corner transmits force.";
-    }
 }
 
 impl SceneFile {
@@ -167,9 +124,91 @@ impl SceneFile {
         bytes.push(b'\n');
         crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
     }
-}
 
-impl SceneFile {
+    /// Sets the units in which all lengths and forces of the scene are given.
+    pub fn units(mut self, length: LengthUnit, force: ForceUnit) -> Self {
+        self.units = Some(UnitsEntry::default().of_length(length).of_force(force));
+        self
+    }
+
+    /// Sets the kind of the lattice, and the edge length of its cells in the length unit of the scene.
+    pub fn grid(mut self, kind: GridKind, side: f64) -> Self {
+        let side = Some(side);
+        self.grid = Some(GridEntry { kind, side });
+        self
+    }
+
+    /// Adds a material. Blocks and ground refer to it by `name`.
+    pub fn material(mut self, name: impl Into<String>, material: MaterialEntry) -> Self {
+        self.materials.0.push((name.into(), material));
+        self
+    }
+
+    /// Adds the friction coefficient, at least 0, between the materials with the names `a` and `b`.
+    pub fn friction_pair(mut self, a: &str, b: &str, friction: f64) -> Self {
+        let between = [a.into(), b.into()];
+        self.friction_pairs.push(FrictionPairEntry { between, friction });
+        self
+    }
+
+    /// Adds a shape, given by its corners in the length unit of the scene or as a [`ShapeEntry`]. Blocks and ground
+    /// refer to it by `name`.
+    pub fn shape(mut self, name: impl Into<String>, shape: impl Into<ShapeEntry>) -> Self {
+        self.shapes.0.push((name.into(), shape.into()));
+        self
+    }
+
+    /// Adds a part of the ground, given by its corners in the length unit of the scene or as a [`GroundEntry`].
+    pub fn ground(mut self, part: impl Into<GroundEntry>) -> Self {
+        self.ground.push(part.into());
+        self
+    }
+
+    /// Adds a block, given by its corners in the length unit of the scene or as a [`BlockEntry`]. If a block has no id,
+    /// its number in the list is its id, counted from 1.
+    pub fn block(mut self, block: impl Into<BlockEntry>) -> Self {
+        self.blocks.push(block.into());
+        self
+    }
+
+    /// Adds a robot.
+    pub fn robot(mut self, robot: RobotEntry) -> Self {
+        self.robots.push(robot);
+        self
+    }
+
+    /// Adds a contact between two bodies. If a scene lists contacts, contacts are not computed from the outlines.
+    pub fn contact(mut self, contact: ContactEntry) -> Self {
+        self.contacts.push(contact);
+        self
+    }
+
+    /// Adds a load on a block.
+    pub fn load(mut self, load: LoadEntry) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Adds a step of the assembly. The state after each step is one frame.
+    pub fn step(mut self, step: StepEntry) -> Self {
+        self.steps.push(step);
+        self
+    }
+
+    /// Switches off all notes with this code.
+    pub fn silence(mut self, code: NoteCode) -> Self {
+        self.silence.push(code.to_string());
+        self
+    }
+
+    /// Checks the scene file and converts it to a [`Scene`], like [`Scene::new`].
+    ///
+    /// # Errors
+    /// All problems of the scene, each with its path.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        Scene::new(self)
+    }
+
     /// Replaces the contact tolerance of the file by `tolerance`, in metres; `None` leaves the file unchanged. The
     /// value is stored in the file's unit of length.
     pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
@@ -192,66 +231,61 @@ impl Default for Version {
     }
 }
 
-/// A material of blocks or of the ground.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct MaterialEntry {
-    /// Density in kg/m³, at least 0, of blocks of this material that give none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub density: Option<f64>,
-    /// Friction coefficient, at least 0, of bodies of this material that give none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub friction: Option<f64>,
-    /// Fill colour, "#rrggbb" or "#rgb", of bodies of this material that give none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("pattern" = FILL_PATTERN)))]
-    pub fill: Option<String>,
+impl Read for Version {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Version> {
+        if let (NodeKind::Number(_), Ok(number)) = (&node.kind, r.written(node).parse()) {
+            return Some(Version(number));
+        }
+        r.wrong(node, at, Expected::Whole);
+        None
+    }
 }
 
-/// The friction coefficient between two materials. At an interface between bodies of these materials, this coefficient
-/// replaces those of the bodies, of the materials and of the scene.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct FrictionPairEntry {
-    /// Names of the two materials, in any order. If both names are equal, the coefficient applies between two bodies
-    /// of this material.
-    pub between: [String; 2],
-    /// Friction coefficient at interfaces between bodies of these materials, at least 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub friction: f64,
+entry! {
+    /// A material of blocks or of the ground.
+    pub struct MaterialEntry {
+        /// Density in kg/m³, at least 0, of blocks of this material that give none.
+        density: Option<f64> [range(min = 0.0)],
+        /// Friction coefficient, at least 0, of bodies of this material that give none.
+        friction: Option<f64> [range(min = 0.0)],
+        /// Fill colour, "#rrggbb" or "#rgb", of bodies of this material that give none.
+        fill: Option<String> [extend("pattern" = FILL_PATTERN)],
+    }
 }
 
-/// A regular lattice.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct GridEntry {
-    /// The kind of the lattice.
-    pub kind: GridKind,
-    /// Edge length of a cell in the length unit of the scene, more than 0. Default 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = 1.0, "exclusiveMinimum" = 0)))]
-    pub side: Option<f64>,
+entry! {
+    /// The friction coefficient between two materials. At an interface between bodies of these materials, this
+    /// coefficient replaces those of the bodies, of the materials and of the scene.
+    pub struct FrictionPairEntry {
+        /// Names of the two materials, in any order. If both names are equal, the coefficient applies between two
+        /// bodies of this material.
+        between: required [String; 2] as |r, node, at| two_names(r, node, at, "materials"),
+        /// Friction coefficient at interfaces between bodies of these materials, at least 0.
+        friction: required f64 [range(min = 0.0)],
+    }
 }
 
-/// The kind of a lattice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum GridKind {
-    /// Equilateral triangles: lattice point (x, y) is at side·(x + y/2, y·√3/2).
-    #[default]
-    Triangular,
-    /// Squares: lattice point (x, y) is at side·(x, y).
-    Square,
+entry! {
+    /// A regular lattice.
+    pub struct GridEntry {
+        /// The kind of the lattice.
+        kind: required GridKind,
+        /// Edge length of a cell in the length unit of the scene, more than 0. Default 1.
+        side: Option<f64> [extend("default" = 1.0, "exclusiveMinimum" = 0)],
+    }
+}
+
+word! {
+    /// The kind of a lattice.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum GridKind {
+        /// Equilateral triangles: lattice point (x, y) is at side·(x + y/2, y·√3/2).
+        #[default]
+        Triangular = "triangular",
+        /// Squares: lattice point (x, y) is at side·(x, y).
+        Square = "square",
+    }
 }
 
 /// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square lattice.
@@ -266,36 +300,115 @@ pub enum CellEntry {
     Square(f64, f64),
 }
 
-/// The position of a triangle relative to its horizontal edge: above (`Up`) or below (`Down`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum CellHalf {
-    /// Corners (x, y), (x+1, y), (x, y+1).
-    Up,
-    /// Corners (x, y), (x+1, y), (x+1, y−1).
-    Down,
+impl Default for CellEntry {
+    fn default() -> CellEntry {
+        CellEntry::Square(0.0, 0.0)
+    }
 }
 
-/// A named shape: either a polygon or lattice cells, in coordinates relative to the origin of the shape.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct ShapeEntry {
-    /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must not
-    /// cross itself; it may be concave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 3)))]
-    pub polygon: Option<Vec<Pair>>,
-    /// Holes in the polygon, each a list of corners in the length unit of the scene. A hole lies inside the outline and
-    /// not inside another hole.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub holes: Vec<Vec<Pair>>,
-    /// Lattice cells that form the outline, connected by common edges, each listed once.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    pub cells: Option<Vec<CellEntry>>,
+impl Read for CellEntry {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<CellEntry> {
+        let items = match &node.kind {
+            NodeKind::List(list) if (2..=3).contains(&list.len()) => r.items(list),
+            _ => {
+                r.wrong(node, at, Expected::Other("[x, y, \"up\"], [x, y, \"down\"] or [x, y]"));
+                return None;
+            }
+        };
+        let x = r.number(&items[0], &at.index(0));
+        let y = r.number(&items[1], &at.index(1));
+        match items.get(2) {
+            None => Some(CellEntry::Square(x?, y?)),
+            Some(half) => {
+                let half = CellHalf::read(r, half, &at.index(2));
+                Some(CellEntry::Triangle(x?, y?, half?))
+            }
+        }
+    }
+}
+
+word! {
+    /// The position of a triangle relative to its horizontal edge: above (`Up`) or below (`Down`).
+    pub enum CellHalf {
+        /// Corners (x, y), (x+1, y), (x, y+1).
+        Up = "up",
+        /// Corners (x, y), (x+1, y), (x+1, y−1).
+        Down = "down",
+    }
+}
+
+entry! {
+    /// A named shape: either a polygon or lattice cells, in coordinates relative to the origin of the shape.
+    pub struct ShapeEntry {
+        /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must
+        /// not cross itself; it may be concave.
+        polygon: Option<Vec<Pair>> [length(min = 3)],
+        /// Holes in the polygon, each a list of corners in the length unit of the scene. A hole lies inside the outline
+        /// and not inside another hole.
+        holes: Vec<Vec<Pair>>,
+        /// Lattice cells that form the outline, connected by common edges, each listed once.
+        cells: Option<Vec<CellEntry>> [length(min = 1)],
+    }
+}
+
+/// Reads an optional vector [x, y].
+fn vector<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Option<Pair>> {
+    match node.kind {
+        NodeKind::Null => Some(None),
+        _ => r.vector(node, at).map(Some),
+    }
+}
+
+/// Reads a list of two names. `what` says what they name.
+fn two_names<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>, what: &str) -> Option<[String; 2]> {
+    match &node.kind {
+        NodeKind::List(list) if list.len() == 2 => Vec::read(r, node, at)?.try_into().ok(),
+        _ => {
+            r.wrong(node, at, Expected::Other(&format!("a list with the names of two {what}")));
+            None
+        }
+    }
+}
+
+/// Defines the method that adds a hole to an outline, and the conversion of corners to an object with this outline.
+macro_rules! outline {
+    ($($entry:ident)*) => {
+        $(
+            impl $entry {
+                /// Adds a hole to the polygon. The corners of the hole are [x, y] in the length unit of the scene.
+                pub fn hole(mut self, corners: impl Into<Vec<Pair>>) -> Self {
+                    self.holes.push(corners.into());
+                    self
+                }
+            }
+
+            impl<const N: usize> From<[Pair; N]> for $entry {
+                fn from(corners: [Pair; N]) -> $entry {
+                    $entry::default().polygon(corners)
+                }
+            }
+
+            impl From<Vec<Pair>> for $entry {
+                fn from(corners: Vec<Pair>) -> $entry {
+                    $entry::default().polygon(corners)
+                }
+            }
+        )*
+    };
+}
+
+outline! { GroundEntry BlockEntry ShapeEntry }
+
+/// Returns the JSON Schema (draft 2020-12) of a scene file. Editors use the schema to complete and check a scene.
+///
+/// ```
+/// assert!(drystone::scene::format::schema().contains("\"title\": \"drystone scene\""));
+/// ```
+#[cfg(feature = "schema")]
+pub fn schema() -> String {
+    let settings = schemars::generate::SchemaSettings::draft2020_12();
+    let schema = settings.into_generator().into_root_schema_for::<SceneFile>();
+    format!("{:#}\n", schema.as_value())
 }
 
 #[cfg(feature = "schema")]
@@ -305,42 +418,6 @@ const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
 #[cfg(test)]
 pub(super) fn parse(text: &str) -> Option<SceneFile> {
     serde_json::from_str(text).ok()
-}
-
-/// True if the parser of this module and serde_json read the same values from a text, or both reject it. For tests of
-/// the reader.
-#[cfg(test)]
-pub(super) fn agrees(text: &str) -> bool {
-    use super::tree::{self, Node, NodeKind, Tree};
-    fn value(tree: &Tree<'_>, node: &Node<'_>) -> serde_json::Value {
-        match &node.kind {
-            NodeKind::Null => serde_json::Value::Null,
-            NodeKind::Flag(flag) => (*flag).into(),
-            NodeKind::Number(x) => (*x).into(),
-            NodeKind::Text(text) => text.as_ref().into(),
-            NodeKind::List(list) => (tree.items(list).iter().map(|n| value(tree, n))).collect(),
-            NodeKind::Object(object) => {
-                (tree.entries(object).iter()).map(|e| (e.name.clone().into_owned(), value(tree, &e.value))).collect()
-            }
-        }
-    }
-    /// Converts every number to a float, because the syntax tree stores all numbers as floats.
-    fn floats(value: serde_json::Value) -> serde_json::Value {
-        match value {
-            serde_json::Value::Number(x) => x.as_f64().into(),
-            serde_json::Value::Array(list) => list.into_iter().map(floats).collect(),
-            serde_json::Value::Object(map) => map.into_iter().map(|(k, v)| (k, floats(v))).collect(),
-            other => other,
-        }
-    }
-    match (tree::parse(text), serde_json::from_str(text)) {
-        (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
-        (Err(_), Err(_)) => true,
-        // A number that is too large for a float is an error for serde_json, but not for the syntax tree. It is
-        // reported later, when values are read.
-        (Ok(_), Err(error)) => error.to_string().contains("number out of range"),
-        (Err(_), Ok(_)) => false,
-    }
 }
 
 #[cfg(test)]
@@ -370,5 +447,17 @@ mod tests {
         let read: SceneFile = serde_json::from_str(&text).expect("a scene file");
         assert_eq!(read, file);
         assert_eq!(read.steps[0].hold.0[0].0, "z", "a map keeps the file's order");
+    }
+
+    #[cfg(feature = "schema")]
+    #[test]
+    fn the_schema_is_made_from_the_types() {
+        let schema: serde_json::Value = serde_json::from_str(&schema()).expect("JSON");
+        assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+        assert_eq!(schema["additionalProperties"], false);
+        assert_eq!(schema["required"], serde_json::json!(["drystone", "blocks"]));
+        assert_eq!(schema["properties"]["friction"]["default"], 0.7);
+        assert!(schema["properties"]["gravity"]["description"].as_str().expect("a description").contains("m/s²"));
+        assert!(schema.get("$id").is_none());
     }
 }

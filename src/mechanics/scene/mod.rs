@@ -7,17 +7,14 @@
 mod applied_force;
 mod body;
 mod collision;
-mod crowd;
 mod fault;
 mod finding;
 pub mod format;
-mod frame;
 mod heal;
 mod name;
 mod note;
 mod number;
 mod outline;
-mod path;
 mod steps;
 mod problem;
 mod reading;
@@ -25,28 +22,24 @@ mod resolution;
 mod rounding;
 pub mod shape;
 mod sketch;
-mod source;
-mod starter;
-mod syntax;
-mod tree;
 mod unit;
 
 pub use applied_force::{AppliedForce, ForceCause};
 pub use body::{
-    Block, BlockId, Body, BodyId, Grip, Ground, Limits, ListedContact, Load, Material, Rgb, Robot, RobotId,
+    Block, BlockId, Body, BodyId, Frame, Grip, Ground, Hold, Limits, ListedContact, Load, Material, Plan, Rgb, Robot,
+    RobotId,
 };
 pub use collision::Penetration;
 pub(crate) use fault::isolate;
 #[cfg(feature = "schema")]
 pub use format::schema;
-pub use frame::{Frame, Hold, Plan};
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
 pub use problem::{Code, Place, Problem, SceneError};
+pub use reading::{falling_starter, starter};
 pub use resolution::SketchedBody;
 pub use sketch::{Sketch, Spot};
-pub use starter::{falling_starter, starter};
 pub use unit::Unit;
 
 #[doc(inline)]

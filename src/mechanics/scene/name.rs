@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::finding::Findings;
 use super::format::Map;
-use super::path::Trail;
 use super::problem;
+use crate::read::Trail;
 
 /// Reports each key that occurs twice in a map that was built in code. For a file, such keys were reported while
 /// reading.
@@ -13,7 +13,7 @@ pub(super) fn once<T>(findings: &mut Findings, at: &Trail<'_>, map: &Map<T>) {
     let mut seen = BTreeSet::new();
     for (name, _) in &map.0 {
         if !seen.insert(name.as_str()) {
-            findings.add_key(&at.key(name), problem::entry::key_twice(name));
+            findings.add_key(&at.key(name), problem::message::key_twice(name));
         }
     }
 }
@@ -78,9 +78,9 @@ impl<'f> Names<'f> {
 
     fn unknown(&self, findings: &Findings, name: &str) -> problem::Wording {
         if findings.hints() {
-            problem::name::unknown_name(self.sort, name, &self.list)
+            problem::message::unknown_name(self.sort, name, &self.list)
         } else {
-            problem::name::another_unknown_name(self.sort, name)
+            problem::message::another_unknown_name(self.sort, name)
         }
     }
 }

@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 
 use super::finding::Finding;
 use super::format::{HoldEntry, Pair, SceneFile};
-use super::path::{Path, Trail};
-use super::problem::{Wording, codes, note as say};
-use super::source::{Mark, Source};
+use super::problem::{Wording, codes, message as say};
 use super::{BlockId, Body, BodyId, RobotId, Scene};
 use crate::geometry::{Point, Polygon};
+use crate::read::{Mark, Source};
+use crate::read::{Path, Trail};
 
 /// Friction coefficients above this are probably mistakes: those of dry stone, brick, wood and rubber are lower.
 pub(super) const MAX_PLAUSIBLE_FRICTION: f64 = 2.0;

@@ -2,8 +2,8 @@
 //! 10⁻³⁰ in size, and some must not be negative.
 
 use super::finding::Findings;
-use super::path::Trail;
 use super::problem;
+use crate::read::Trail;
 
 /// The largest absolute value of any number in a scene file, in any unit.
 pub(super) const MAX_MAGNITUDE: f64 = 1e12;
@@ -20,11 +20,11 @@ pub(super) const SMALLEST_EXTENT: f64 = 1e-30;
 pub(super) fn is_sane(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]) -> bool {
     for x in numbers {
         if !x.is_finite() {
-            findings.add(at, problem::number::not_finite(*x));
+            findings.add(at, problem::message::not_finite(*x));
             return false;
         }
         if x.abs() > MAX_MAGNITUDE {
-            findings.add(at, problem::number::absurd(*x, MAX_MAGNITUDE, findings.units));
+            findings.add(at, problem::message::absurd(*x, MAX_MAGNITUDE, findings.units));
             return false;
         }
     }
@@ -39,7 +39,7 @@ pub(super) fn is_amount(findings: &mut Findings, at: &Trail<'_>, numbers: &[f64]
     }
     let largest = numbers.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
     if largest > 0.0 && largest < MIN_MAGNITUDE {
-        findings.add(at, problem::number::tiny(largest, MIN_MAGNITUDE, findings.units));
+        findings.add(at, problem::message::tiny(largest, MIN_MAGNITUDE, findings.units));
         return false;
     }
     true
@@ -54,7 +54,7 @@ pub(super) fn at_least_zero(findings: &mut Findings, entry: &Trail<'_>, key: &st
         return None;
     }
     if x < 0.0 {
-        findings.add(&at, problem::number::negative(key, x));
+        findings.add(&at, problem::message::negative(key, x));
         return None;
     }
     Some(x)

@@ -3,9 +3,9 @@
 use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
-use super::path::Trail;
 use super::problem;
 use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
+use crate::read::Trail;
 
 /// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
 /// coordinates are exact.
@@ -47,7 +47,7 @@ pub(super) fn polygon(
             let extent = polygon.bounds().diagonal();
             if extent < SMALLEST_EXTENT {
                 let units = findings.units;
-                findings.add(&outer, problem::number::tiny_extent(extent, SMALLEST_EXTENT, units));
+                findings.add(&outer, problem::message::tiny_extent(extent, SMALLEST_EXTENT, units));
                 return None;
             }
             let centroid = polygon.centroid();

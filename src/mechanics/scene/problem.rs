@@ -4,13 +4,9 @@
 //! was found and what to do about it.
 
 mod code;
-pub(super) mod entry;
-pub(super) mod name;
-pub(super) mod note;
-pub(super) mod number;
+pub(super) mod message;
 pub(super) mod outline;
-pub(super) mod step;
-pub(super) mod text;
+pub(super) mod remedy;
 
 use std::fmt;
 use std::ops::Range;
@@ -19,8 +15,9 @@ pub use code::Code;
 pub(super) use code::codes;
 
 use super::BodyId;
-use super::source::Source;
 use crate::geometry::Point;
+use crate::read::mistake::{write_problem, write_problems};
+use crate::read::{Broken, Kind, Mistake, Source};
 
 /// An error in a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,10 +63,10 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// Creates an error with one problem, for a text that could not be read as a scene. `span` is the range of bytes in
-    /// which the problem lies.
-    pub(super) fn of_text(source: &Source<'_>, span: Range<usize>, wording: Wording) -> SceneError {
-        let problem = Problem::new(String::new(), Some(span), Some(source), wording);
+    /// Creates an error with one problem, for a text that could not be parsed.
+    pub(super) fn broken(text: &str, broken: Broken) -> SceneError {
+        let source = Source::plain(text);
+        let problem = Problem::new(String::new(), Some(broken.span), Some(&source), broken.mistake.into());
         SceneError { text: Some(source.text.to_string()), list: vec![problem] }
     }
 }
@@ -102,30 +99,13 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 {
-            write!(f, "line {}, column {}", self.line, self.column)?;
-            f.write_str(if self.path.is_empty() { ": " } else { ", " })?;
-        }
-        if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
-        }
-        f.write_str(&self.message)?;
-        if !self.help.is_empty() {
-            write!(f, "\n  help: {}", self.help)?;
-        }
-        Ok(())
+        write_problem(f, (self.line, self.column), &self.path, &self.message, &self.help)
     }
 }
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, problem) in self.list.iter().enumerate() {
-            if i > 0 {
-                f.write_str("\n")?;
-            }
-            problem.fmt(f)?;
-        }
-        Ok(())
+        write_problems(f, &self.list)
     }
 }
 
@@ -150,6 +130,29 @@ impl Wording {
     /// Returns the message and the remedy.
     pub(super) fn parts(&self) -> (&str, &str) {
         (&self.message, &self.help)
+    }
+}
+
+/// A mistake of the reader.
+impl From<Mistake> for Wording {
+    fn from(mistake: Mistake) -> Wording {
+        let code = match mistake.kind {
+            Kind::NotUtf8 => Code::NotUtf8,
+            Kind::Empty => Code::EmptyFile,
+            Kind::EndsEarly => Code::EndsEarly,
+            Kind::TooDeep => Code::NestedTooDeep,
+            Kind::OtherFormat => Code::OtherFormat,
+            Kind::Syntax => Code::NotJson,
+            Kind::WrongType => Code::WrongType,
+            Kind::WrongLength => Code::WrongLength,
+            Kind::UnknownKey => Code::UnknownKey,
+            Kind::DuplicateKey => Code::DuplicateKey,
+            Kind::MissingKey => Code::MissingKey,
+            Kind::UnknownChoice => Code::UnknownChoice,
+            Kind::TooLarge => Code::TooLarge,
+            Kind::More => Code::MoreProblems,
+        };
+        new_wording(code, mistake.message, mistake.help)
     }
 }
 
@@ -185,21 +188,6 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
-/// If a text has more than 40 characters, returns its first 37 characters and "…"; otherwise the whole text.
-pub(super) fn shortened(text: &str) -> String {
-    if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(37).chain("…".chars()).collect() }
-}
-
-/// Joins the items into a text such as "a, b or c"; "nothing" if there are no items.
-pub(super) fn choice(items: impl IntoIterator<Item = String>) -> String {
-    let items: Vec<String> = items.into_iter().collect();
-    match items.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-        Some((last, _)) => last.clone(),
-        None => "nothing".into(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,11 +207,5 @@ mod tests {
         ] {
             assert_eq!(digits(x), text);
         }
-    }
-
-    #[test]
-    fn choices_are_joined_with_commas_and_or() {
-        assert_eq!(choice(["a".to_string(), "b".to_string(), "c".to_string()]), "a, b or c");
-        assert_eq!(choice(["a".to_string()]), "a");
     }
 }

@@ -4,20 +4,14 @@
 //! A text is read once, into a syntax tree. The scene file is made from that tree. A value that does not fit is
 //! reported and left out. All other values are still checked.
 
-mod object;
-mod value;
-
-#[cfg(test)]
-pub(super) use self::object::KEYS;
-use self::value::Reader;
 use super::Scene;
 use super::finding::{self, Finding, UnreadParts};
 use super::format::SceneFile;
 use super::note::{self, Lines};
 use super::problem::SceneError;
+use super::problem::remedy::SCENE;
 use super::resolution::resolve;
-use super::source::Source;
-use super::syntax;
+use crate::read::{self, Read, Reader, Source, Trail, syntax};
 
 impl Scene {
     /// Reads and checks a scene file.
@@ -48,7 +42,7 @@ impl Scene {
     /// The same errors as [`Scene::from_json`].
     pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = Source::parse(text).map_err(|fault| syntax::problem(text, fault))?;
+        let source = syntax::json(text, &SCENE).map_err(|broken| SceneError::broken(text, broken))?;
         let (mut file, findings, unread) = read(&source);
         file.tolerate(tolerance);
         let all = match resolve(&file, unread) {
@@ -80,7 +74,10 @@ impl Scene {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match std::str::from_utf8(bytes) {
             Ok(text) => Scene::from_json_within(text, tolerance),
-            Err(error) => Err(syntax::not_utf8(bytes, error.valid_up_to())),
+            Err(error) => {
+                let text = String::from_utf8_lossy(bytes);
+                Err(SceneError::broken(&text, syntax::not_utf8(bytes, error.valid_up_to(), &text)))
+            }
         }
     }
 
@@ -134,22 +131,47 @@ impl Scene {
     }
 }
 
+/// Returns a small example as the text of a scene file. Its structure stands after every step. Users can extend it.
+///
+/// ```
+/// let scene = drystone::scene::Scene::from_json(drystone::scene::starter())?;
+/// assert!(scene.frames().len() > 1);
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn starter() -> &'static str {
+    include_str!("../../../assets/starter.json")
+}
+
+/// Returns the example of [`starter`] with one more step, in which a block tips over because a robot releases it too
+/// early.
+///
+/// ```
+/// let scene = drystone::scene::Scene::from_json(drystone::scene::falling_starter())?;
+/// assert_eq!(drystone::Analysis::new(&scene).verdict(), drystone::analysis::Verdict::Unstable);
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn falling_starter() -> &'static str {
+    include_str!("../../../assets/starter-falls.json")
+}
+
 /// Reads the scene file from the syntax tree of `source`. Returns the file, the problems found while reading, and the
 /// parts that could not be read.
 pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
-    let mut reader = Reader::new(source);
+    let mut reader = Reader::new(source, &SCENE);
     let file = match &source.tree {
-        Some(tree) => object::scene(&mut reader, &tree.root),
+        Some(tree) => SceneFile::read(&mut reader, &tree.root, &Trail::Top).unwrap_or_default(),
         None => SceneFile::default(),
     };
-    (file, reader.findings.list, reader.unread)
+    let finding = |f: read::Finding| Finding { path: f.path, mark: f.mark, wording: f.mistake.into() };
+    (file, reader.findings.into_iter().map(finding).collect(), UnreadParts { paths: reader.unread })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mechanics::scene::format;
-    use crate::mechanics::scene::tree::{Node, NodeKind, Tree};
+    use crate::read::tree::Tree;
+    use crate::read::{Node, NodeKind};
 
     /// Reads a text with serde, which checks only the types of the values.
     fn by_types(text: &str) -> Option<SceneFile> {
@@ -157,7 +179,7 @@ mod tests {
     }
 
     fn by_tree(text: &str) -> Option<SceneFile> {
-        let source = Source::parse(text).ok()?;
+        let source = syntax::json(text, &SCENE).ok()?;
         let (file, findings, _) = read(&source);
         findings.is_empty().then_some(file)
     }
@@ -190,7 +212,7 @@ mod tests {
     #[test]
     fn both_readers_refuse_the_same_texts() {
         // Replace every value in turn, and every key.
-        let source = Source::parse(EVERYTHING).expect("JSON");
+        let source = syntax::json(EVERYTHING, &SCENE).expect("JSON");
         let mut places = Vec::new();
         let tree = source.tree.as_ref().expect("a syntax tree");
         places_of(tree, &tree.root, &mut places);

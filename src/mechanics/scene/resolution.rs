@@ -4,7 +4,6 @@ mod body;
 mod closeness;
 mod contact;
 mod list;
-mod robot;
 mod sketch;
 
 use self::closeness::Closeness;
@@ -12,21 +11,20 @@ use self::list::material_values;
 pub use self::sketch::SketchedBody;
 pub(super) use self::sketch::sketch;
 use super::collision::{self, Comparison, Penetration};
-use super::crowd;
 use super::finding::{Finding, Findings, UnreadParts};
 use super::format::{self, Pair, SceneFile, UnitsEntry};
-use super::frame::{Frame, Hold};
 use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
 use super::outline::Outline;
-use super::path::Trail;
 use super::problem;
 use super::shape;
 use super::steps::{self, StepContext};
 use super::unit;
-use super::{Block, BlockId, BodyId, Ground, Material, Rgb, Robot, RobotId, Scene};
+use super::{Block, BlockId, BodyId, Frame, Ground, Hold, Material, Rgb, Robot, RobotId, Scene};
 use crate::geometry::{Lattice, LatticeKind, Point, Vector};
+use crate::read::Trail;
+use crate::read::reader::unknown_choice;
 
 const DEFAULT_FRICTION: f64 = 0.7;
 const DEFAULT_DENSITY: f64 = 1.0;
@@ -228,7 +226,7 @@ impl<'f> Resolution<'f> {
         }
         let bodies: Vec<_> = grounds.chain(blocks).collect();
         if self.file.corner_contacts == Some(true) && self.file.contacts.is_empty() {
-            crowd::check(findings, &bodies, frames, closeness.tolerance().gap);
+            collision::check_crowding(findings, &bodies, frames, closeness.tolerance().gap);
         }
         let comparison = Comparison {
             bodies,
@@ -252,13 +250,13 @@ struct BodyNames<'s> {
 fn general_values(findings: &mut Findings, file: &SceneFile) -> (Vector, f64) {
     let top = Trail::Top;
     if file.drystone.0 != 1 {
-        findings.add(&top.key("drystone"), problem::number::version(file.drystone.0));
+        findings.add(&top.key("drystone"), problem::message::version(file.drystone.0));
     }
     let gravity = file.gravity.unwrap_or(DEFAULT_GRAVITY);
     is_amount(findings, &top.key("gravity"), &gravity);
     let kernel = file.kernel.unwrap_or(0.0);
     if is_sane(findings, &top.key("kernel"), &[kernel]) && !(0.0..=1.0).contains(&kernel) {
-        findings.add(&top.key("kernel"), problem::number::kernel(kernel));
+        findings.add(&top.key("kernel"), problem::message::kernel(kernel));
     }
     (Vector::new(gravity[0], gravity[1]), kernel)
 }
@@ -289,8 +287,8 @@ fn silenced(findings: &mut Findings, file: &SceneFile) -> Vec<NoteCode> {
         match NoteCode::named(word) {
             Some(code) => codes.push(code),
             None => {
-                let words: Vec<String> = NoteCode::ALL.iter().map(|c| c.to_string()).collect();
-                findings.add(&list.index(i), problem::entry::unknown_choice(word, &words));
+                let words: Vec<&str> = NoteCode::ALL.iter().map(|c| c.word()).collect();
+                findings.add(&list.index(i), unknown_choice(word, &words).into());
             }
         }
     }
@@ -306,11 +304,11 @@ fn lattice(findings: &mut Findings, entry: Option<&format::GridEntry>) -> Option
         return None;
     }
     if side <= 0.0 {
-        findings.add(&at, problem::number::side(side));
+        findings.add(&at, problem::message::side(side));
         return None;
     }
     if side < SMALLEST_EXTENT {
-        let wording = problem::number::tiny_extent(side, SMALLEST_EXTENT, findings.units);
+        let wording = problem::message::tiny_extent(side, SMALLEST_EXTENT, findings.units);
         findings.add(&at, wording);
         return None;
     }

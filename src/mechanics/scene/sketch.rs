@@ -4,11 +4,12 @@
 //! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
 use super::format::UnitsEntry;
+use super::problem::remedy::SCENE;
 use super::problem::{Place, SceneError};
 use super::resolution::{self, SketchedBody};
-use super::source::Source;
 use super::{BlockId, BodyId, Scene, reading};
 use crate::geometry::{Bounds, Point};
+use crate::read::syntax;
 
 /// The outlines of a scene file, and its problems. All coordinates are in the units of the file.
 #[derive(Clone, Debug)]
@@ -63,7 +64,7 @@ impl Sketch {
         };
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = String::from_utf8_lossy(bytes);
-        if let Ok(source) = Source::parse(&text) {
+        if let Ok(source) = syntax::json(&text, &SCENE) {
             let (mut file, _, unread) = reading::read(&source);
             file.tolerate(tolerance);
             sketch.units = file.units.unwrap_or_default();

@@ -8,13 +8,13 @@ use std::collections::BTreeMap;
 
 use super::finding::Findings;
 use super::format::{HoldEntry, Pair, StepEntry};
-use super::frame::{Frame, Hold, Plan};
 use super::name::{self, Names};
 use super::number::is_sane;
-use super::path::Trail;
 use super::problem;
 use super::{BlockId, RobotId};
+use super::{Frame, Hold, Plan};
 use crate::geometry::Point;
+use crate::read::Trail;
 
 /// The largest sum, over all frames, of the number of placed blocks. It allows a wall of almost 4 000 blocks that are
 /// placed in one step each.
@@ -67,7 +67,7 @@ pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &Ste
         placed_total += frame.placed.len();
         frames.push(frame);
         if placed_total > MAX_PLACED_BLOCKS {
-            findings.add(&list.index(k), problem::step::too_many(steps.len(), MAX_PLACED_BLOCKS));
+            findings.add(&list.index(k), problem::message::too_many(steps.len(), MAX_PLACED_BLOCKS));
             break;
         }
     }
@@ -112,7 +112,7 @@ impl StepState {
             let at = list.index(i);
             if let Some(block) = context.blocks.find(findings, &at, name).map(BlockId) {
                 if let Some((placed_in_step, _)) = self.placed_in_step.get(&block) {
-                    findings.add(&at, problem::step::placed_twice(name, *placed_in_step, number));
+                    findings.add(&at, problem::message::placed_twice(name, *placed_in_step, number));
                     continue;
                 }
                 self.placed_in_step.insert(block, (number, self.next));
@@ -148,13 +148,13 @@ impl StepState {
         context: &StepContext<'_>,
     ) {
         let Some((_, place)) = self.placed_in_step.remove(&block) else {
-            findings.add(at, problem::step::removed_unplaced(name));
+            findings.add(at, problem::message::removed_unplaced(name));
             return;
         };
         self.by_placing_order.remove(&place);
         let holders: Vec<RobotId> = self.holds.iter().filter(|(_, held)| held.0 == block).map(|(r, _)| *r).collect();
         if let Some(robot) = holders.first() {
-            findings.add(at, problem::step::removed_held(name, context.robots.name(robot.0)));
+            findings.add(at, problem::message::removed_held(name, context.robots.name(robot.0)));
         }
         for robot in holders {
             self.holds.remove(&robot);
@@ -179,14 +179,14 @@ impl StepState {
         let sound = point.is_none_or(|p| is_sane(findings, &at.key("at"), &p));
         let Some(block) = block else { return };
         if !self.placed_in_step.contains_key(&block) {
-            findings.add(name_at, problem::step::held_unplaced(robot_name, name));
+            findings.add(name_at, problem::message::held_unplaced(robot_name, name));
             return;
         }
         let Some(robot) = robot else { return };
         if let Some((other, _)) = self.holds.get(&robot)
             && *other != block
         {
-            findings.add(at, problem::step::holds_two(robot_name, context.blocks.name(other.0), name));
+            findings.add(at, problem::message::holds_two(robot_name, context.blocks.name(other.0), name));
         }
         if sound {
             self.holds.insert(robot, (block, context.grip(robot, block, point)));
@@ -202,7 +202,7 @@ impl StepState {
             let block = context.blocks.find(findings, &at, name).map(BlockId);
             let Some(block) = block else { continue };
             if self.placed_in_step.contains_key(&block) {
-                findings.add(&at, problem::step::planned_placed(robot_name, name));
+                findings.add(&at, problem::message::planned_placed(robot_name, name));
             } else if let Some(robot) = robot {
                 plans.push(Plan { robot, block });
             }

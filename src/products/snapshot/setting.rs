@@ -1,10 +1,6 @@
-//! [`Settings`]: the settings of a check, read from `drystone-snapshots.toml`. No other file of this folder uses the
-//! toml crate.
+//! [`Settings`]: the settings of a check, read from `drystone-snapshots.toml`.
 
 use std::path::{Path, PathBuf};
-
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
 
 use super::fact::DIGITS;
 use super::layer::Layer;
@@ -12,6 +8,9 @@ use super::picture::PixelTolerance;
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::png::MAX_SIDE;
 use crate::products::figure::Kind;
+use crate::read::{
+    self, Dialect, Expected, Mark, Mistake, Node, NodeKind, Notation, Read, Reader, Trail, from_text, read_keys,
+};
 
 /// The name of the settings file.
 pub const SETTINGS_FILE: &str = "drystone-snapshots.toml";
@@ -59,19 +58,58 @@ impl Default for Settings {
     }
 }
 
-/// All keys of the settings file.
-const KEYS: [&str; 10] = [
-    "layers",
-    "kinds",
-    "themes",
-    "widths",
-    "digits",
-    "channel_tolerance",
-    "perceptual_threshold",
-    "most_kilobytes",
-    "ignore",
-    "scenes",
-];
+read_keys! {
+    Settings {
+        layers as |r, node, at| named(r, node, at, &Layer::ALL.map(|layer| (layer.name(), layer))),
+        kinds as |r, node, at| named(r, node, at, &Kind::ALL.map(|kind| (kind.name(), kind))),
+        themes as |r, node, at| {
+            let names = named(r, node, at, &Theme::NAMES.map(|name| (name, name)))?;
+            Some(names.into_iter().map(String::from).collect())
+        },
+        widths as |r, node, at| distinct(r, node, at, |r, node, at| r.whole_within(node, at, [16, MAX_SIDE])),
+        digits as |r, node, at| r.whole_within(node, at, [2, 12]).map(|n| n as usize),
+        tolerance.channel "channel_tolerance" as |r, node, at| r.whole_within(node, at, [0, 254]).map(|n| n as u8),
+        tolerance.perceptual "perceptual_threshold" as |r, node, at| {
+            r.number_within(node, at, [0.0, 1.0], "a number, usually 0.1,").map(Some)
+        },
+        most_kilobytes as |r, node, at| r.whole_within(node, at, [1, 1_000_000]).map(|n| Some(u64::from(n))),
+        ignore,
+        scenes as |r, node, at| {
+            let paths: Vec<String> = Read::read(r, node, at)?;
+            Some(paths.into_iter().map(PathBuf::from).collect())
+        },
+    }
+}
+
+/// Reads a list of words, each at most once. The list must not be empty.
+fn named<'s, T: PartialEq + Copy>(
+    r: &mut Reader<'s>,
+    node: &'s Node<'s>,
+    at: &Trail<'_>,
+    choices: &[(&str, T)],
+) -> Option<Vec<T>> {
+    if matches!(&node.kind, NodeKind::List(list) if list.len() == 0) {
+        r.wrong(node, at, Expected::Other("a list that is not empty, or no such key for the default"));
+        return None;
+    }
+    distinct(r, node, at, |r, node, at| r.choice(node, at, choices))
+}
+
+/// Reads a list of values, each at most once.
+fn distinct<'s, T: PartialEq>(
+    r: &mut Reader<'s>,
+    node: &'s Node<'s>,
+    at: &Trail<'_>,
+    mut read: impl FnMut(&mut Reader<'s>, &'s Node<'s>, &Trail<'_>) -> Option<T>,
+) -> Option<Vec<T>> {
+    let list = r.entries(node, at, |r, node, at| read(r, node, at).map(Some))?;
+    let list: Vec<T> = list.into_iter().flatten().collect();
+    if (0..list.len()).any(|i| list[..i].contains(&list[i])) {
+        let message = "the list contains a value twice; both would have the same reference file";
+        r.report(at, Mark::Value, Mistake::new(read::Kind::UnknownChoice, message, "remove one of the two"));
+    }
+    Some(list)
+}
 
 impl Settings {
     /// Reads the text of a settings file. Keys that are missing have their default values.
@@ -85,202 +123,17 @@ impl Settings {
     /// let settings = Settings::read("kinds = [\"forces\", \"thrust\"]\nwidths = [640]")?;
     /// assert_eq!((settings.kinds.len(), settings.tolerance.channel), (2, 1));
     /// let wrong = Settings::read("kinds = [\"force\"]\nwidth = 9").expect_err("two problems");
-    /// assert!(wrong[0].starts_with("1:10: kinds: there is no \"force\""));
-    /// assert!(wrong[1].starts_with("2:1: there is no key width"));
+    /// assert!(wrong[0].starts_with("1:10: kinds[0]: expected \"forces\", "));
+    /// assert!(wrong[1].starts_with("2:1: width: unknown key `width`; the nearest known key is `widths`"));
     /// # Ok::<(), Vec<String>>(())
     /// ```
     pub fn read(text: &str) -> Result<Settings, Vec<String>> {
-        let (table, errors) = DeTable::parse_recoverable(text);
-        if !errors.is_empty() {
-            let described = errors.iter().map(|e| {
-                let place = e.span().map_or(0, |span| span.start);
-                format!("{}: not valid TOML: {}", place_in(text, place), e.message())
-            });
-            return Err(described.collect());
-        }
-        let mut reading = SettingsReader { text, settings: Settings::default(), problems: Vec::new() };
-        for (key, value) in table.get_ref() {
-            reading.key(key, value);
-        }
-        // Sort the problems by their position in the file, because the TOML table has another order.
-        reading.problems.sort();
-        if reading.problems.is_empty() {
-            return Ok(reading.settings);
-        }
-        let described = reading.problems.into_iter();
-        Err(described.map(|(at, words)| format!("{}: {words}", place_in(text, at))).collect())
-    }
-}
-
-/// Returns the line and column at a byte offset, both counted from 1, as `2:1`.
-fn place_in(text: &str, at: usize) -> String {
-    let before = text.get(..at).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-    format!("{line}:{column}")
-}
-
-/// The state while a settings file is read.
-struct SettingsReader<'t> {
-    text: &'t str,
-    settings: Settings,
-    /// The problems found so far, each with its byte offset in the text.
-    problems: Vec<(usize, String)>,
-}
-
-type SpannedValue<'v> = Spanned<DeValue<'v>>;
-
-impl SettingsReader<'_> {
-    /// Adds a problem at a byte offset of the text.
-    fn wrong(&mut self, at: usize, words: String) {
-        self.problems.push((at, words));
-    }
-
-    fn key<'v>(&mut self, key: &Spanned<std::borrow::Cow<'v, str>>, value: &SpannedValue<'v>) {
-        let at = key.span().start;
-        match key.get_ref().as_ref() {
-            "layers" => self.settings.layers = self.named("layers", value, &Layer::ALL.map(Layer::name), Layer::named),
-            "kinds" => {
-                let names: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
-                self.settings.kinds = self.named("kinds", value, &names, Kind::from_name);
-            }
-            "themes" => {
-                let known = |name: &str| Theme::named(name).map(|_| name.to_owned());
-                self.settings.themes = self.named("themes", value, &Theme::NAMES, known);
-            }
-            "widths" => {
-                let widths = self.list("widths", value);
-                let widths: Vec<u64> =
-                    widths.iter().filter_map(|w| self.whole("widths", w, 16, u64::from(MAX_SIDE))).collect();
-                self.settings.widths = widths.into_iter().map(|w| w as u32).collect();
-                self.report_duplicates("widths", value, self.settings.widths.clone());
-            }
-            "digits" => {
-                if let Some(digits) = self.whole("digits", value, 2, 12) {
-                    self.settings.digits = digits as usize;
-                }
-            }
-            "channel_tolerance" => {
-                if let Some(channel) = self.whole("channel_tolerance", value, 0, 254) {
-                    self.settings.tolerance.channel = channel as u8;
-                }
-            }
-            "perceptual_threshold" => self.threshold(value),
-            "most_kilobytes" => self.settings.most_kilobytes = self.whole("most_kilobytes", value, 1, 1_000_000),
-            "ignore" => self.settings.ignore = self.texts("ignore", value),
-            "scenes" => {
-                let paths = self.texts("scenes", value);
-                self.settings.scenes = paths.into_iter().map(PathBuf::from).collect();
-            }
-            other => {
-                let other = crate::text::heading(other, 40);
-                self.wrong(at, format!("there is no key {other}; there are {}", KEYS.join(", ")));
-            }
-        }
-    }
-
-    fn list<'v, 'f>(&mut self, key: &str, value: &'f SpannedValue<'v>) -> Vec<&'f SpannedValue<'v>> {
-        match value.get_ref() {
-            DeValue::Array(list) => list.iter().collect(),
-            other => {
-                let found = other.type_str();
-                self.wrong(
-                    value.span().start,
-                    format!("{key} must be a list in square brackets, not a value of type {found}"),
-                );
-                Vec::new()
-            }
-        }
-    }
-
-    fn texts(&mut self, key: &str, value: &SpannedValue<'_>) -> Vec<String> {
-        let mut texts = Vec::new();
-        for entry in self.list(key, value) {
-            match entry.get_ref() {
-                DeValue::String(text) => texts.push(text.to_string()),
-                other => {
-                    let found = other.type_str();
-                    self.wrong(
-                        entry.span().start,
-                        format!("{key} must contain strings in quotation marks, not a value of type {found}"),
-                    );
-                }
-            }
-        }
-        texts
-    }
-
-    /// Reads a list of names, and returns their values. `known` returns the value of a name, or `None` for an unknown
-    /// name. Reports an empty list, unknown names and duplicates as problems.
-    fn named<T: PartialEq + Clone>(
-        &mut self,
-        key: &str,
-        value: &SpannedValue<'_>,
-        names: &[&str],
-        known: impl Fn(&str) -> Option<T>,
-    ) -> Vec<T> {
-        let before = self.problems.len();
-        let mut found = Vec::new();
-        for entry in self.list(key, value) {
-            let name = entry.get_ref().as_str().unwrap_or_default();
-            match known(name) {
-                Some(one) => found.push(one),
-                None => {
-                    let stated = self.text.get(entry.span()).unwrap_or_default();
-                    let stated = crate::text::heading(stated, 40);
-                    self.wrong(
-                        entry.span().start,
-                        format!("{key}: there is no {stated}; there are {}", names.join(", ")),
-                    );
-                }
-            }
-        }
-        if found.is_empty() && self.problems.len() == before {
-            self.wrong(value.span().start, format!("{key} is empty; remove it to use the default"));
-        }
-        self.report_duplicates(key, value, found.clone());
-        found
-    }
-
-    fn report_duplicates<T: PartialEq>(&mut self, key: &str, value: &SpannedValue<'_>, list: Vec<T>) {
-        let again = |i: usize| list[..i].contains(&list[i]);
-        if (0..list.len()).any(again) {
-            self.wrong(
-                value.span().start,
-                format!("{key} contains a value twice; both would have the same reference file"),
-            );
-        }
-    }
-
-    /// Reads a whole number from `least` to `most`. Any other value is reported as a problem.
-    fn whole(&mut self, key: &str, value: &SpannedValue<'_>, least: u64, most: u64) -> Option<u64> {
-        let number = match value.get_ref() {
-            DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),
-            _ => None,
+        let described = |p: read::Problem| {
+            let path = if p.path.is_empty() { String::new() } else { format!("{}: ", p.path) };
+            format!("{}:{}: {path}{}; {}", p.line, p.column, p.message, p.help)
         };
-        if number.is_none_or(|n| n < least || n > most) {
-            let stated = self.text.get(value.span()).unwrap_or_default();
-            let stated = crate::text::heading(stated, 40);
-            self.wrong(value.span().start, format!("{key}: {stated} is not a whole number from {least} to {most}"));
-            return None;
-        }
-        number
-    }
-
-    fn threshold(&mut self, value: &SpannedValue<'_>) {
-        let stated = self.text.get(value.span()).unwrap_or_default();
-        match stated.parse::<f64>() {
-            Ok(threshold) if (0.0..=1.0).contains(&threshold) => {
-                self.settings.tolerance.perceptual = Some(threshold);
-            }
-            _ => {
-                let stated = crate::text::heading(stated, 40);
-                self.wrong(
-                    value.span().start,
-                    format!("perceptual_threshold: {stated} is not a number from 0 to 1; a usual value is 0.1"),
-                );
-            }
-        }
+        from_text(text, Notation::Toml, &Dialect::plain("settings"), <Settings as Read>::read)
+            .map_err(|problems| problems.0.into_iter().map(described).collect())
     }
 }
 

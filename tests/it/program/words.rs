@@ -209,9 +209,9 @@ fn an_invalid_style_is_reported_with_all_other_errors_and_nothing_is_written() {
     let ran = bench.run("render wrong.json -o a.svg --style bad.json");
     assert_eq!(ran.code, 2);
     for words in [
-        "error: bad.json: failur: unknown key",
+        "error: bad.json: line 1, column 3, failur: unknown key",
         "the nearest known key is `failure`",
-        "error: bad.json: ink: the text \"blak\" is not a colour",
+        "error: bad.json: line 1, column 28, ink: expected a colour such as \"#d55e00\" or \"#d50\", found the string \"blak\"",
         "negative weight -3",
     ] {
         assert!(ran.err.contains(words), "{words}\n{}", ran.err);

@@ -121,7 +121,7 @@ fn invalid_input_is_reported_completely_and_nothing_is_written() {
     assert!(
         ran.code == 2
             && ran.err.contains("drystone-snapshots.toml:1:11: ")
-            && ran.err.contains("toml:2:1: there is no key kind"),
+            && ran.err.contains("toml:2:1: kind: unknown key `kind`"),
         "{}",
         ran.err
     );

@@ -15,6 +15,8 @@ use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::read::{Node, Read, Reader, Trail};
+
 /// Entries by name, in the order of the file. Each name may occur only once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map<T>(pub Vec<(String, T)>);
@@ -67,6 +69,13 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for MapVisitor<T> {
             entries.push((key, value));
         }
         Ok(Map(entries))
+    }
+}
+
+/// If a name occurs twice, this is reported, and only the first entry counts.
+impl<T: Read + Default> Read for Map<T> {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Map<T>> {
+        r.names(node, at, T::read).map(Map)
     }
 }
 

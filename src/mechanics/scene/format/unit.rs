@@ -1,25 +1,18 @@
 //! The types of the scene file for units of length and force.
 
-#[cfg(feature = "schema")]
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::declare::{entry, word};
 
-/// The units of the file. Figures, tables and reports also use the units of the file; results in JSON are in metres and
-/// newtons.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[serde(deny_unknown_fields)]
-#[non_exhaustive]
-pub struct UnitsEntry {
-    /// Unit of all lengths: coordinates, positions, the thickness, the edge length of grid cells and the contact
-    /// tolerance. Default "m".
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = "m")))]
-    pub length: Option<LengthUnit>,
-    /// Unit of all forces and weights. The unit of torques is this unit times the unit of lengths. Default "N".
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(extend("default" = "N")))]
-    pub force: Option<ForceUnit>,
+entry! {
+    /// The units of the file. Figures, tables and reports also use the units of the file; results in JSON are in metres
+    /// and newtons.
+    #[derive(Copy, Eq)]
+    pub struct UnitsEntry {
+        /// Unit of all lengths: coordinates, positions, the thickness, the edge length of grid cells and the contact
+        /// tolerance. Default "m".
+        length: bare Option<LengthUnit> [extend("default" = "m")],
+        /// Unit of all forces and weights. The unit of torques is this unit times the unit of lengths. Default "N".
+        force: bare Option<ForceUnit> [extend("default" = "N")],
+    }
 }
 
 impl UnitsEntry {
@@ -36,47 +29,40 @@ impl UnitsEntry {
     }
 }
 
-/// A unit of length.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[non_exhaustive]
-pub enum LengthUnit {
-    /// Metres.
-    #[default]
-    #[serde(rename = "m")]
-    Metre,
-    /// Centimetres.
-    #[serde(rename = "cm")]
-    Centimetre,
-    /// Millimetres.
-    #[serde(rename = "mm")]
-    Millimetre,
-    /// Inches, 0.0254 m.
-    #[serde(rename = "in")]
-    Inch,
-    /// Feet, 0.3048 m.
-    #[serde(rename = "ft")]
-    Foot,
+word! {
+    /// A unit of length.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum LengthUnit {
+        /// Metres.
+        #[default]
+        Metre = "m",
+        /// Centimetres.
+        Centimetre = "cm",
+        /// Millimetres.
+        Millimetre = "mm",
+        /// Inches, 0.0254 m.
+        Inch = "in",
+        /// Feet, 0.3048 m.
+        Foot = "ft",
+    }
 }
 
-/// A unit of force.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
-#[non_exhaustive]
-pub enum ForceUnit {
-    /// Newtons.
-    #[default]
-    #[serde(rename = "N")]
-    Newton,
-    /// Kilonewtons.
-    #[serde(rename = "kN")]
-    Kilonewton,
-    /// Meganewtons.
-    #[serde(rename = "MN")]
-    Meganewton,
-    /// Pounds-force, 4.4482216152605 N.
-    #[serde(rename = "lbf")]
-    PoundForce,
+word! {
+    /// A unit of force.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum ForceUnit {
+        /// Newtons.
+        #[default]
+        Newton = "N",
+        /// Kilonewtons.
+        Kilonewton = "kN",
+        /// Meganewtons.
+        Meganewton = "MN",
+        /// Pounds-force, 4.4482216152605 N.
+        PoundForce = "lbf",
+    }
 }
 
 impl LengthUnit {

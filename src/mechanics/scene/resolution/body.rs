@@ -6,9 +6,9 @@ use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::{self, Pair};
 use crate::mechanics::scene::number::{MAX_MAGNITUDE, at_least_zero, is_sane};
 use crate::mechanics::scene::outline::{self, Outline};
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::problem;
 use crate::mechanics::scene::{Block, Body, Ground, Rgb};
+use crate::read::Trail;
 
 /// The keys that blocks and ground share.
 pub(super) struct BodyEntry<'f> {
@@ -162,7 +162,7 @@ impl Resolution<'_> {
             None => mass.unwrap_or_else(|| density * volume()) * self.gravity.norm(),
         };
         if !weight.is_finite() || weight > MAX_MAGNITUDE {
-            findings.add(at, problem::number::too_heavy(weight, MAX_MAGNITUDE));
+            findings.add(at, problem::message::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
         Some(Block { id: self.ids[i].clone(), centroid: body.polygon.centroid(), body, weight, weighs_by_area })
@@ -202,7 +202,7 @@ impl Resolution<'_> {
         let is_sound = is_sane(findings, &at.key("centre"), &centre);
         let weight = weight.filter(|_| is_sound && other.is_none())?;
         if !weight.is_finite() || weight > MAX_MAGNITUDE {
-            findings.add(at, problem::number::too_heavy(weight, MAX_MAGNITUDE));
+            findings.add(at, problem::message::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
         let centroid = Point::new(centre[0], centre[1]);
@@ -232,7 +232,7 @@ pub(super) fn colour(findings: &mut Findings, at: &Trail<'_>, text: &str) -> Opt
         Some([r, g, b]) => Some(Rgb([r * 17, g * 17, b * 17])),
         Some([a, b, c, d, e, f]) => Some(Rgb([a * 16 + b, c * 16 + d, e * 16 + f])),
         _ => {
-            findings.add(at, problem::number::colour(text));
+            findings.add(at, problem::message::colour(text));
             None
         }
     }

@@ -6,9 +6,9 @@ use crate::geometry::{Bounds, Polygon, Tolerance};
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::heal::{self, Healed, HealingReach, ToleranceSource};
 use crate::mechanics::scene::number::at_least_zero;
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::rounding::{self, Rounding};
 use crate::mechanics::scene::{Block, Ground};
+use crate::read::Trail;
 
 /// Returns the largest distance by which rounding can move a corner off the edge that it touches, in the units of the
 /// file. The corner and both ends of the edge can each have the error of a coordinate.

@@ -5,9 +5,9 @@ use crate::geometry::{Bounds, Point, Polygon, Vector, convex_hull, quarter_turn,
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_sane};
-use crate::mechanics::scene::path::Trail;
 use crate::mechanics::scene::problem;
 use crate::mechanics::scene::{Block, BlockId, Body, BodyId, Ground, ListedContact};
+use crate::read::Trail;
 
 /// The radius of a schematic disc, and half the width of a schematic support, as a fraction of the diagonal of the
 /// rectangle around all centres and contacts.
@@ -44,7 +44,7 @@ impl Resolution<'_> {
             if let [Some(a), Some(b)] = bodies
                 && a == b
             {
-                findings.add(&names, problem::entry::contact_of_one());
+                findings.add(&names, problem::message::contact_of_one());
                 bodies[0] = None;
             }
             let ([Some(a), Some(b)], true) = (bodies, sound) else {

@@ -1,17 +1,18 @@
-//! Resolves the lists to which the bodies of a file refer: materials, friction pairs and shapes. Also checks the ids of
-//! blocks and robots.
+//! Resolves the lists of a file besides its bodies: materials, friction pairs, shapes, robots and loads. Also checks the
+//! ids of blocks and robots.
 
 use std::collections::BTreeMap;
 
 use super::body::colour;
 use super::{MaterialValues, Resolution};
-use crate::geometry::LatticeKind;
+use crate::geometry::{LatticeKind, Point, Vector};
 use crate::mechanics::scene::finding::Findings;
-use crate::mechanics::scene::format::SceneFile;
-use crate::mechanics::scene::number::at_least_zero;
+use crate::mechanics::scene::format::{LimitsEntry, SceneFile};
+use crate::mechanics::scene::name::Names;
+use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
 use crate::mechanics::scene::outline::Outline;
-use crate::mechanics::scene::path::Trail;
-use crate::mechanics::scene::{problem, shape};
+use crate::mechanics::scene::{BlockId, Grip, Limits, Load, Robot, problem, shape};
+use crate::read::Trail;
 
 impl Resolution<'_> {
     /// Returns the outlines of the file's shapes, followed by those of the built-in shapes. An outline is `None` if it
@@ -23,7 +24,7 @@ impl Resolution<'_> {
         for (name, entry) in &self.file.shapes.0 {
             let at = list.key(name);
             if shape::BUILT_IN.contains(&name.as_str()) {
-                findings.add_key(&at, problem::name::built_in_shape(name));
+                findings.add_key(&at, problem::message::built_in_shape(name));
             }
             outlines.push(match (&entry.polygon, &entry.cells) {
                 (Some(_), Some(_)) => {
@@ -60,7 +61,7 @@ impl Resolution<'_> {
             let (Some(a), Some(b)) = (a, b) else { continue };
             let pair = [a.min(b), a.max(b)];
             if let Some(first) = seen.get(&pair) {
-                findings.add(&between, problem::name::pair_twice(&entry.between, *first));
+                findings.add(&between, problem::message::pair_twice(&entry.between, *first));
                 continue;
             }
             seen.insert(pair, i);
@@ -104,14 +105,76 @@ fn ids(findings: &mut Findings, list: &Trail<'_>, sort: &str, ids: &[String], gi
         let inner = entry.key("id");
         let at = if given { &inner } else { &entry };
         if id.is_empty() {
-            findings.add(at, problem::name::empty_id(sort));
+            findings.add(at, problem::message::empty_id(sort));
         } else if sort == "block" && id == "ground" {
-            findings.add(at, problem::name::reserved_id());
+            findings.add(at, problem::message::reserved_id());
         }
         if let Some(first) = first.get(id.as_str()) {
-            findings.add(at, problem::name::id_twice(sort, id, &list.index(*first).path().to_string()));
+            findings.add(at, problem::message::id_twice(sort, id, &list.index(*first).path().to_string()));
         } else {
             first.insert(id, i);
         }
+    }
+}
+
+impl Resolution<'_> {
+    pub(super) fn robots(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Robot> {
+        let top = Trail::Top;
+        let list = top.key("robots");
+        let mut robots = Vec::new();
+        for (i, entry) in self.file.robots.iter().enumerate() {
+            let at = list.index(i);
+            let block = entry.holds.as_ref().and_then(|b| blocks.find(findings, &at.key("holds"), b)).map(BlockId);
+            if let Some(point) = entry.at {
+                is_sane(findings, &at.key("at"), &point);
+            }
+            let grip = |block: BlockId| entry.at.map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
+            robots.push(Robot {
+                id: self.robot_ids[i].clone(),
+                limits: limits(findings, &at.key("limits"), entry.limits.as_ref()),
+                holds: block.map(|block| Grip { block, at: grip(block) }),
+            });
+        }
+        robots
+    }
+
+    pub(super) fn loads(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Load> {
+        let top = Trail::Top;
+        let list = top.key("loads");
+        let mut loads = Vec::new();
+        for (i, entry) in self.file.loads.iter().enumerate() {
+            let at = list.index(i);
+            let force = entry.force.unwrap_or([0.0, 0.0]);
+            let torque = entry.torque.unwrap_or(0.0);
+            is_amount(findings, &at.key("force"), &force);
+            is_amount(findings, &at.key("torque"), &[torque]);
+            if let Some(point) = entry.at {
+                is_sane(findings, &at.key("at"), &point);
+            }
+            let Some(block) = blocks.find(findings, &at.key("block"), &entry.block).map(BlockId) else {
+                continue;
+            };
+            let point = entry.at.map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
+            loads.push(Load {
+                block,
+                force: Vector::new(force[0], force[1]),
+                at: point,
+                torque,
+                at_centroid: entry.at.is_none(),
+            });
+        }
+        loads
+    }
+}
+
+fn limits(findings: &mut Findings, at: &Trail<'_>, entry: Option<&LimitsEntry>) -> Limits {
+    let Some(entry) = entry else {
+        return Limits::default();
+    };
+    let force = at_least_zero(findings, at, "force", entry.force);
+    Limits {
+        fx: at_least_zero(findings, at, "fx", entry.fx).or(force).unwrap_or(f64::INFINITY),
+        fy: at_least_zero(findings, at, "fy", entry.fy).or(force).unwrap_or(f64::INFINITY),
+        torque: at_least_zero(findings, at, "torque", entry.torque).unwrap_or(0.0),
     }
 }

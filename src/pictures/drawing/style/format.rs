@@ -4,43 +4,24 @@
 //! The keys are the names of the fields of [`Theme`]. The key `theme` names the theme that the file changes. All keys
 //! are optional. All problems are reported at once.
 
-mod reading;
-mod value;
-
-use core::fmt;
-
 use super::super::colour::Colour;
 use super::super::ramp;
 use super::{Sizes, Theme, Widths};
-use reading::ThemeReader;
-use value::Value;
+use crate::read::{Cause, Dialect, Expected, Node, NodeKind, Read, Reader, Trail, from_text};
 
-/// The format of a style file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Notation {
-    /// JSON.
-    Json,
-    /// TOML.
-    #[cfg(feature = "toml")]
-    Toml,
-}
+pub use crate::read::{Notation, Problem as StyleProblem, Problems as StyleProblems};
 
-/// A problem of a style file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct StyleProblem {
-    /// The path to the value, such as `widths.force` or `arrows[2]`; empty for the file as a whole.
-    pub path: String,
-    /// What is wrong.
-    pub message: String,
-    /// What is expected; empty if the message says it.
-    pub help: String,
-}
-
-/// All problems of a style file, in the order of the file; never empty.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StyleProblems(pub Vec<StyleProblem>);
+/// The dialect of style files.
+const STYLE: Dialect = Dialect {
+    noun: "style",
+    remedy: |cause| match cause {
+        Cause::NotToml => Some("correct the text here; the name of a style file in JSON must end in .json".into()),
+        Cause::OtherFormat(_) => {
+            Some("write JSON, which begins with `{`; the name of a style file in TOML must end in .toml".into())
+        }
+        _ => None,
+    },
+};
 
 impl Theme {
     /// Reads the theme that a style file describes. Values that are not in the file come from the theme `base`. If
@@ -48,7 +29,7 @@ impl Theme {
     /// none.
     ///
     /// # Errors
-    /// Returns all problems of the file.
+    /// Returns all problems of the file, each with its line, column and path.
     ///
     /// # Example
     /// ```
@@ -62,22 +43,7 @@ impl Theme {
     /// # Ok::<(), drystone::drawing::style::format::StyleProblems>(())
     /// ```
     pub fn read(text: &str, notation: Notation, base: Option<&Theme>) -> Result<Theme, StyleProblems> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let value = match notation {
-            Notation::Json => value::json(text),
-            #[cfg(feature = "toml")]
-            Notation::Toml => value::toml(text),
-        };
-        let value = value.map_err(|problem| StyleProblems(vec![problem]))?;
-        let mut reading = ThemeReader::default();
-        let Value::Table(entries) = value else {
-            reading.note("", format!("{} is not a style", value.stated()), "give a table of keys and values".into());
-            return Err(StyleProblems(reading.problems));
-        };
-        let named = reading.base(&entries);
-        let mut theme = base.cloned().or(named).unwrap_or_default();
-        reading.theme(&entries, &mut theme);
-        if reading.problems.is_empty() { Ok(theme) } else { Err(StyleProblems(reading.problems)) }
+        from_text(text, notation, &STYLE, |r, node, at| theme(r, node, at, base))
     }
 
     /// Writes the whole theme as a style file in JSON. Reading this file gives the same theme.
@@ -189,29 +155,90 @@ fn stops(ramp: &[Colour]) -> Vec<Colour> {
     ramp.to_vec()
 }
 
-impl fmt::Display for StyleProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.path.is_empty() {
-            write!(f, "{}: ", self.path)?;
+/// Reads a theme. Values that the text does not give come from `base`, or else from the theme that it names.
+fn theme<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>, base: Option<&Theme>) -> Option<Theme> {
+    let lists = LIST_FIELDS.iter().map(|l| l.0);
+    let others = ["theme", AMPLITUDES_KEY, "widths", "sizes"];
+    let keys: Vec<&str> = COLOUR_FIELDS.iter().map(|c| c.0).chain(lists).chain(others).collect();
+    let fields = r.object(node, at, &keys)?;
+    let named = r.optional(fields, at, "theme", |r, node, at| r.choice(node, at, &Theme::NAMES.map(|n| (n, n))));
+    let mut theme = base.cloned().or(named.and_then(Theme::named)).unwrap_or_default();
+    for (key, field) in COLOUR_FIELDS {
+        if let Some(colour) = r.optional(fields, at, key, Colour::read) {
+            *field(&mut theme) = colour;
         }
-        f.write_str(&self.message)?;
-        if !self.help.is_empty() {
-            write!(f, "\n  help: {}", self.help)?;
+    }
+    for (key, field) in LIST_FIELDS {
+        if let Some(list) = r.optional(fields, at, key, |r, node, at| colours(r, node, at, 1)) {
+            *field(&mut theme) = list;
         }
-        Ok(())
+    }
+    if let Some(colours) = r.optional(fields, at, AMPLITUDES_KEY, amplitudes) {
+        theme.amplitudes = colours;
+    }
+    let known = WIDTH_FIELDS.map(|(key, _, range, unit)| (key, range, unit));
+    let widths = r.optional(fields, at, "widths", |r, node, at| numbers(r, node, at, &known)).unwrap_or_default();
+    for (width, (_, field, ..)) in widths.into_iter().zip(WIDTH_FIELDS) {
+        let field = field(&mut theme.widths);
+        *field = width.unwrap_or(*field);
+    }
+    let known = SIZE_FIELDS.map(|(key, _)| (key, FONT_SIZE_LIMITS, PIXEL_UNIT));
+    let sizes = r.optional(fields, at, "sizes", |r, node, at| numbers(r, node, at, &known)).unwrap_or_default();
+    for (size, (_, field)) in sizes.into_iter().zip(SIZE_FIELDS) {
+        let field = field(&mut theme.sizes);
+        *field = size.unwrap_or(*field);
+    }
+    Some(theme)
+}
+
+impl Read for Colour {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Colour> {
+        let colour = match &node.kind {
+            NodeKind::Text(text) => Colour::from_css(text),
+            _ => None,
+        };
+        if colour.is_none() {
+            r.wrong(node, at, Expected::Other("a colour such as \"#d55e00\" or \"#d50\""));
+        }
+        colour
     }
 }
 
-impl fmt::Display for StyleProblems {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (number, problem) in self.0.iter().enumerate() {
-            if number > 0 {
-                f.write_str("\n")?;
-            }
-            problem.fmt(f)?;
+/// Reads a list of at least `least` colours.
+fn colours<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>, least: usize) -> Option<Vec<Colour>> {
+    match &node.kind {
+        NodeKind::List(list) if list.len() >= least => {
+            let colours = r.entries(node, at, |r, node, at| Colour::read(r, node, at).map(Some))?;
+            colours.into_iter().collect()
         }
-        Ok(())
+        _ => {
+            let expected = format!("a list of at least {least} colours, such as [\"#0072b2\", \"#56b4e9\"]");
+            r.wrong(node, at, Expected::Other(&expected));
+            None
+        }
     }
 }
 
-impl std::error::Error for StyleProblems {}
+fn amplitudes<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Vec<Colour>> {
+    if let NodeKind::Text(_) = node.kind {
+        return ramp::named(r.choice(node, at, &ramp::NAMES.map(|n| (n, n)))?);
+    }
+    colours(r, node, at, 2).map(|stops| ramp::between(&stops))
+}
+
+/// Reads an object of numbers. `known` lists its possible keys, each with the range and the unit of its number. Returns
+/// the number of each key; `None` if the key is absent or its number is out of range.
+fn numbers<'s>(
+    r: &mut Reader<'s>,
+    node: &'s Node<'s>,
+    at: &Trail<'_>,
+    known: &[(&str, [f64; 2], &str)],
+) -> Option<Vec<Option<f64>>> {
+    let keys: Vec<&str> = known.iter().map(|k| k.0).collect();
+    let fields = r.object(node, at, &keys)?;
+    let number = |&(key, range, unit): &(&str, [f64; 2], &str)| {
+        let what = format!("a number of {unit}");
+        r.optional(fields, at, key, |r, node, at| r.number_within(node, at, range, &what))
+    };
+    Some(known.iter().map(number).collect())
+}

@@ -229,15 +229,14 @@ fn all_problems_of_a_style_file_are_reported_at_once_with_their_paths() {
     );
     let described = problems.to_string();
     for words in [
-        "the nearest is dark",
+        "did you mean \"dark\"?",
         "the nearest known key is `failure`",
-        "the text \"white\" is not a colour",
-        "the number 7 is not a colour",
-        "the nearest is viridis",
+        "line 1, column 43, page: expected a colour such as \"#d55e00\" or \"#d50\", found the string \"white\"",
+        "found the number 7",
+        "did you mean \"viridis\"?",
         "the nearest known key is `force`",
-        "the number 0 cannot be drawn",
-        "from 0.005 to 0.5",
-        "given twice",
+        "expected a number of unit lengths from 0.005 to 0.5, found the number 0",
+        "occurs twice",
     ] {
         assert!(described.contains(words), "{words}\n{described}");
     }
@@ -248,11 +247,13 @@ fn texts_that_are_not_a_style_are_refused_with_a_reason() {
     for (text, notation, words) in [
         ("{ \"page\": }", Notation::Json, "line 1"),
         ("a = 1\nb = ", Notation::Toml, "line 2"),
-        ("[]", Notation::Json, "not a style"),
-        ("", Notation::Json, "not JSON"),
-        ("ink = 2020-01-01", Notation::Toml, "not a colour"),
-        ("[widths]\nforce = nan", Notation::Toml, "cannot be drawn"),
-        ("{ \"sizes\": { \"key\": 1e999 } }", Notation::Json, "not JSON"),
+        ("[]", Notation::Json, "expected an object"),
+        ("", Notation::Json, "empty"),
+        ("ink = '#fff'", Notation::Json, "must end in .toml"),
+        ("{ \"ink\": 1 }", Notation::Toml, "must end in .json"),
+        ("ink = 2020-01-01", Notation::Toml, "found the date 2020-01-01"),
+        ("[widths]\nforce = nan", Notation::Toml, "line 2, column 9, widths.force"),
+        ("{ \"sizes\": { \"key\": 1e999 } }", Notation::Json, "from 8 to 100"),
     ] {
         let described = Theme::read(text, notation, None).expect_err(text).to_string();
         assert!(described.contains(words), "{text}: {described}");

@@ -1,4 +1,4 @@
-//! [`Path`]: the position of a value in a scene file, such as `blocks[3].polygon[1]`.
+//! [`Path`]: the position of a value in a text, such as `blocks[3].polygon[1]`.
 //!
 //! A [`Trail`] is a path on the stack: each step borrows the path above it, so that a valid file needs no allocation.
 
@@ -6,21 +6,21 @@ use std::fmt;
 
 /// One part of a path: it leads from an object or a list to one of its values.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Segment {
+pub enum Segment {
     /// Into an object, by key.
     Key(String),
     /// Into a list, by number from 0.
     Index(usize),
 }
 
-/// The position of a value in a scene file, as a list of segments that begins at the top level.
+/// The position of a value in a text, as a list of segments that begins at the top level.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Path(pub(super) Vec<Segment>);
+pub struct Path(pub Vec<Segment>);
 
-/// The position of a value in a scene file while the file is traversed: a path that borrows the path above it.
-#[derive(Clone, Copy)]
-pub(super) enum Trail<'a> {
-    /// The whole file.
+/// The position of a value in a text while the text is traversed: a path that borrows the path above it.
+#[derive(Clone, Copy, Debug)]
+pub enum Trail<'a> {
+    /// The whole text.
     Top,
     /// A key of an object.
     Key(&'a Trail<'a>, &'a str),
@@ -30,29 +30,29 @@ pub(super) enum Trail<'a> {
 
 impl Path {
     /// True if this path equals `other`, or is the path of something inside the value at `other`.
-    pub(super) fn starts_with(&self, other: &[Segment]) -> bool {
+    pub fn starts_with(&self, other: &[Segment]) -> bool {
         self.0.starts_with(other)
     }
 }
 
 impl<'a> Trail<'a> {
     /// Returns the path of the value of the key `name` in the object at this path.
-    pub(super) fn key(&'a self, name: &'a str) -> Trail<'a> {
+    pub fn key(&'a self, name: &'a str) -> Trail<'a> {
         Trail::Key(self, name)
     }
 
     /// Returns the path of an entry of the list at this path. `number` is the index of the entry, counted from 0.
-    pub(super) fn index(&'a self, number: usize) -> Trail<'a> {
+    pub fn index(&'a self, number: usize) -> Trail<'a> {
         Trail::Index(self, number)
     }
 
     /// True if the last part of the path is the key `name`.
-    pub(super) fn ends_in(&self, name: &str) -> bool {
+    pub fn ends_in(&self, name: &str) -> bool {
         matches!(self, Trail::Key(_, key) if *key == name)
     }
 
     /// Returns the trail as an owned [`Path`].
-    pub(super) fn path(&self) -> Path {
+    pub fn path(&self) -> Path {
         let mut segments = Vec::new();
         let mut here = self;
         loop {

@@ -1,4 +1,4 @@
-//! [`Tree`]: the syntax tree of a JSON text, with the position of every value and key.
+//! [`Tree`]: the syntax tree of a JSON or TOML text, with the position of every value and key, and the parser of JSON.
 //!
 //! The entries of all lists are stored in one vector, and those of all objects in another. A file with many points
 //! therefore needs few allocations.
@@ -7,64 +7,63 @@
 //! number that is too large for a float is not an error here, but is reported later. The parser stops at the first
 //! error, and [`SyntaxError`] describes what was expected at this place.
 
-mod string;
-
 use std::borrow::Cow;
 use std::ops::Range;
 
 /// The largest number of brackets that may be open at the same time.
-pub(super) const MAX_DEPTH: usize = 127;
+pub const MAX_DEPTH: usize = 127;
 
-/// The syntax tree of a JSON text.
+/// The syntax tree of a text.
 #[derive(Debug)]
-pub(super) struct Tree<'t> {
+pub struct Tree<'t> {
     /// The topmost value.
-    pub(super) root: Node<'t>,
+    pub root: Node<'t>,
     /// The entries of all lists.
-    items: Vec<Node<'t>>,
+    pub(super) items: Vec<Node<'t>>,
     /// The entries of all objects.
-    entries: Vec<Entry<'t>>,
+    pub(super) entries: Vec<Entry<'t>>,
 }
 
 impl<'t> Tree<'t> {
     /// Returns the entries of a list.
-    pub(super) fn items(&self, list: &List) -> &[Node<'t>] {
+    pub fn items(&self, list: &List) -> &[Node<'t>] {
         &self.items[list.0.clone()]
     }
 
     /// Returns the entries of an object, in the order of the text. A key may occur twice.
-    pub(super) fn entries(&self, object: &Object) -> &[Entry<'t>] {
+    pub fn entries(&self, object: &Object) -> &[Entry<'t>] {
         &self.entries[object.0.clone()]
     }
 }
 
 /// The range of a list's entries within the entries of all lists.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct List(Range<usize>);
+pub struct List(pub(super) Range<usize>);
 
 impl List {
     /// Returns the number of entries in the list.
-    pub(super) fn len(&self) -> usize {
+    #[expect(clippy::len_without_is_empty, reason = "messages need the length only")]
+    pub fn len(&self) -> usize {
         self.0.len()
     }
 }
 
 /// The range of an object's entries within the entries of all objects.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Object(Range<usize>);
+pub struct Object(pub(super) Range<usize>);
 
-/// A JSON value with its position in the text.
+/// A value with its position in the text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node<'t> {
+pub struct Node<'t> {
     /// The range of its bytes in the text.
-    pub(super) range: Range<usize>,
+    pub range: Range<usize>,
     /// Its kind and content.
-    pub(super) kind: NodeKind<'t>,
+    pub kind: NodeKind<'t>,
 }
 
-/// The kind and content of a JSON value.
+/// The kind and content of a value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum NodeKind<'t> {
+pub enum NodeKind<'t> {
     /// `null`
     Null,
     /// `true` or `false`
@@ -75,33 +74,35 @@ pub(super) enum NodeKind<'t> {
     Text(Cow<'t, str>),
     /// A list.
     List(List),
-    /// An object.
+    /// An object; TOML calls it a table.
     Object(Object),
+    /// A date or time of TOML.
+    Date,
 }
 
 /// A key and its value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry<'t> {
+pub struct Entry<'t> {
     /// The key, with its escape sequences resolved.
-    pub(super) name: Cow<'t, str>,
+    pub name: Cow<'t, str>,
     /// The range of the key's bytes in the text, including the quotes.
-    pub(super) name_range: Range<usize>,
+    pub name_range: Range<usize>,
     /// The value.
-    pub(super) value: Node<'t>,
+    pub value: Node<'t>,
 }
 
 /// The place and the reason of an error in a JSON text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct SyntaxError {
+pub struct SyntaxError {
     /// The index of the byte at which the error lies.
-    pub(super) at: usize,
+    pub at: usize,
     /// The reason.
-    pub(super) why: Why,
+    pub why: Why,
 }
 
 /// The reason why a text is not JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Why {
+pub enum Why {
     /// The text ends too early. Contains the innermost open bracket or quote, with the index of its byte; `None` if
     /// nothing is open.
     End(Option<(char, usize)>),
@@ -128,7 +129,7 @@ pub(super) enum Why {
 }
 
 /// Parses a text that must contain exactly one JSON value.
-pub(super) fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
+pub fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
     let mut reader = Parser {
         text,
         bytes: text.as_bytes(),
@@ -317,10 +318,130 @@ impl<'t> Parser<'t> {
     }
 }
 
+impl<'t> Parser<'t> {
+    /// Reads a JSON string and replaces its escape sequences. A string without escape sequences is borrowed from the
+    /// text.
+    fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
+        let quote = self.at;
+        self.at += 1;
+        let mut start = self.at;
+        let mut resolved: Option<String> = None;
+        loop {
+            match self.peek() {
+                Some(b'"') => break,
+                Some(b'\\') => {
+                    let before = &self.text[start..self.at];
+                    let c = self.escape(quote)?;
+                    let text = resolved.get_or_insert_default();
+                    text.push_str(before);
+                    text.push(c);
+                    start = self.at;
+                }
+                Some(0..0x20) => return Err(self.fault(Why::Control(quote))),
+                Some(_) => self.at += 1,
+                None => return Err(self.cut(quote)),
+            }
+        }
+        let rest = &self.text[start..self.at];
+        self.at += 1;
+        Ok(match resolved {
+            None => Cow::Borrowed(rest),
+            Some(text) => Cow::Owned(text + rest),
+        })
+    }
+
+    /// Returns the error for a text that ends within a string. `quote` is the byte at which the string begins.
+    fn cut(&self, quote: usize) -> SyntaxError {
+        SyntaxError { at: self.at, why: Why::End(Some(('"', quote))) }
+    }
+
+    fn escape(&mut self, quote: usize) -> Result<char, SyntaxError> {
+        let start = self.at;
+        let wrong = |why| SyntaxError { at: start, why };
+        self.at += 1;
+        let c = match self.peek() {
+            Some(b'"') => '"',
+            Some(b'\\') => '\\',
+            Some(b'/') => '/',
+            Some(b'b') => '\u{8}',
+            Some(b'f') => '\u{c}',
+            Some(b'n') => '\n',
+            Some(b'r') => '\r',
+            Some(b't') => '\t',
+            Some(b'u') => {
+                self.at += 1;
+                let first = self.hex(quote, start)?;
+                let is_first = (0xD800..0xDC00).contains(&first);
+                if is_first && self.bytes[self.at..].starts_with(b"\\u") {
+                    self.at += 2;
+                    let second = self.hex(quote, start)?;
+                    if !(0xDC00..0xE000).contains(&second) {
+                        return Err(wrong(Why::Surrogate));
+                    }
+                    let code = 0x10000 + ((first - 0xD800) << 10) + (second - 0xDC00);
+                    return char::from_u32(code).ok_or(wrong(Why::Surrogate));
+                }
+                return char::from_u32(first).ok_or(wrong(Why::Surrogate));
+            }
+            Some(_) => return Err(wrong(Why::Escape)),
+            None => return Err(self.cut(quote)),
+        };
+        self.at += 1;
+        Ok(c)
+    }
+
+    /// Reads the four hexadecimal digits of a `\u` escape sequence and returns their value.
+    fn hex(&mut self, quote: usize, start: usize) -> Result<u32, SyntaxError> {
+        let mut code = 0;
+        for _ in 0..4 {
+            let digit = match self.peek() {
+                None => return Err(self.cut(quote)),
+                Some(c) => char::from(c).to_digit(16),
+            };
+            code = 16 * code + digit.ok_or(SyntaxError { at: start, why: Why::Escape })?;
+            self.at += 1;
+        }
+        Ok(code)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::scene::format::agrees;
+
+    /// True if the parser of this module and serde_json read the same values from a text, or both reject it.
+    fn agrees(text: &str) -> bool {
+        fn value(tree: &Tree<'_>, node: &Node<'_>) -> serde_json::Value {
+            match &node.kind {
+                NodeKind::Null => serde_json::Value::Null,
+                NodeKind::Flag(flag) => (*flag).into(),
+                NodeKind::Number(x) => (*x).into(),
+                NodeKind::Text(text) => text.as_ref().into(),
+                NodeKind::Date => unreachable!("JSON has no dates"),
+                NodeKind::List(list) => (tree.items(list).iter().map(|n| value(tree, n))).collect(),
+                NodeKind::Object(object) => (tree.entries(object).iter())
+                    .map(|e| (e.name.clone().into_owned(), value(tree, &e.value)))
+                    .collect(),
+            }
+        }
+        /// Converts every number to a float, because the syntax tree stores all numbers as floats.
+        fn floats(value: serde_json::Value) -> serde_json::Value {
+            match value {
+                serde_json::Value::Number(x) => x.as_f64().into(),
+                serde_json::Value::Array(list) => list.into_iter().map(floats).collect(),
+                serde_json::Value::Object(map) => map.into_iter().map(|(k, v)| (k, floats(v))).collect(),
+                other => other,
+            }
+        }
+        match (parse(text), serde_json::from_str(text)) {
+            (Ok(tree), Ok(other)) => value(&tree, &tree.root) == floats(other),
+            (Err(_), Err(_)) => true,
+            // A number that is too large for a float is an error for serde_json, but not for the syntax tree. It is
+            // reported later, when values are read.
+            (Ok(_), Err(error)) => error.to_string().contains("number out of range"),
+            (Err(_), Ok(_)) => false,
+        }
+    }
 
     #[test]
     fn the_same_texts_are_accepted_as_by_serde_json_with_the_same_values() {

@@ -1,24 +1,36 @@
-//! [`Source`]: the text of a scene file, with the position of every value in the text. The line and the column of each
-//! problem are computed from it.
+//! [`Source`]: a text with the position of every value. The line and the column of each problem are computed from it.
 
 use std::ops::Range;
 
+use super::mistake::{Mistake, Problem};
 use super::path::{Path, Segment};
-use super::tree::{Entry, NodeKind, SyntaxError, Tree, parse};
+use super::tree::{Entry, NodeKind, Tree};
 
-/// A text and its JSON values.
-pub(super) struct Source<'t> {
+/// The notation of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Notation {
+    /// JSON.
+    Json,
+    /// TOML.
+    #[cfg(feature = "toml")]
+    Toml,
+}
+
+/// A text and its values.
+#[derive(Debug)]
+pub struct Source<'t> {
     /// The text, to which all ranges of bytes refer.
-    pub(super) text: &'t str,
-    /// The values; `None` if the text is not JSON.
-    pub(super) tree: Option<Tree<'t>>,
+    pub text: &'t str,
+    /// The values; `None` if the text could not be parsed.
+    pub tree: Option<Tree<'t>>,
     /// The index of the first byte of each line.
     lines: Vec<usize>,
 }
 
 /// The part of an entry to which a problem refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mark {
+pub enum Mark {
     /// Its value.
     Value,
     /// Its key.
@@ -26,14 +38,13 @@ pub(super) enum Mark {
 }
 
 impl<'t> Source<'t> {
-    /// Parses a JSON text. The error contains the index of the byte at which the text stops being valid JSON.
-    pub(super) fn parse(text: &'t str) -> Result<Source<'t>, SyntaxError> {
-        let tree = Some(parse(text)?);
-        Ok(Source { tree, ..Source::plain(text) })
+    /// Stores a text with its values.
+    pub fn new(text: &'t str, tree: Tree<'t>) -> Source<'t> {
+        Source { tree: Some(tree), ..Source::plain(text) }
     }
 
-    /// Stores a text without parsing it, for messages about text that is not JSON.
-    pub(super) fn plain(text: &'t str) -> Source<'t> {
+    /// Stores a text without parsing it, for messages about text that cannot be parsed.
+    pub fn plain(text: &'t str) -> Source<'t> {
         let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let lines = std::iter::once(0).chain(ends.map(|(i, _)| i + 1)).collect();
         Source { text, tree: None, lines }
@@ -41,7 +52,7 @@ impl<'t> Source<'t> {
 
     /// Returns the line and the column in which the byte with this index lies. Both are counted from 1, the column in
     /// characters.
-    pub(super) fn place(&self, byte: usize) -> (usize, usize) {
+    pub fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.line(byte);
         let start = self.lines[line - 1];
         let before = self.text.get(start..byte).unwrap_or("");
@@ -49,12 +60,20 @@ impl<'t> Source<'t> {
     }
 
     /// Returns the line in which the byte with this index lies, counted from 1.
-    pub(super) fn line(&self, byte: usize) -> usize {
+    pub fn line(&self, byte: usize) -> usize {
         self.lines.partition_point(|start| *start <= byte).max(1)
     }
 
+    /// Creates the problem that a mistake at the byte with this index makes. Control characters in the message, which
+    /// may come from the text, are replaced.
+    pub fn problem(&self, byte: usize, path: &str, mistake: Mistake) -> Problem {
+        let (line, column) = self.place(byte);
+        let [path, message, help] = [path, &mistake.message, &mistake.help].map(crate::text::line);
+        Problem { path, line, column, message, help }
+    }
+
     /// Returns the index of the first byte of each entry in the top-level list with the key `list`.
-    pub(super) fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
+    pub fn starts(&self, list: &str) -> impl Iterator<Item = usize> + '_ {
         let items = self.tree.as_ref().and_then(|tree| {
             let NodeKind::Object(top) = &tree.root.kind else {
                 return None;
@@ -70,8 +89,8 @@ impl<'t> Source<'t> {
 
     /// Returns the range of bytes of the value or key at this path. For a value with several lines, returns only the
     /// range of its first line. If the text does not contain the whole path, returns the range of the deepest value on
-    /// the path that the text contains. `None` if the text is not JSON.
-    pub(super) fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
+    /// the path that the text contains. `None` if the text could not be parsed.
+    pub fn find(&self, path: &Path, mark: Mark) -> Option<Range<usize>> {
         let tree = self.tree.as_ref()?;
         let mut node = &tree.root;
         for (i, segment) in path.0.iter().enumerate() {
@@ -110,12 +129,13 @@ impl<'t> Source<'t> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::scene::path::Trail;
+    use crate::read::path::Trail;
+    use crate::read::tree::parse;
 
     #[test]
     fn values_and_keys_are_found_at_their_place_in_the_text() {
         let text = "{\n  \"é\": [1, {\"b\": 22}],\n  \"a\": 1, \"a\": 2\n}";
-        let source = Source::parse(text).expect("JSON");
+        let source = Source::new(text, parse(text).expect("JSON"));
         let top = Trail::Top;
         let e = top.key("é");
         let one = e.index(1);

@@ -1,0 +1,293 @@
+//! Messages about names, numbers, keys and steps of a scene, and the messages of notes, which point out input that is
+//! allowed but probably not intended.
+
+use super::{Code, Wording, digits, new_wording, pair};
+use crate::mechanics::scene::format::UnitsEntry;
+use crate::text::{nearest, shortened};
+
+pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("the nearest known {sort} is `{near}`"),
+        None if known.is_empty() => format!("the scene has no {sort}s"),
+        None if known.len() <= 12 => {
+            format!("known {sort}s are {}", known.iter().map(|n| shortened(n)).collect::<Vec<_>>().join(", "))
+        }
+        None => format!("the scene has {} {sort}s, but none with a similar name", known.len()),
+    };
+    new_wording(Code::UnknownName, format!("unknown {sort} `{}`", shortened(name)), help)
+}
+
+pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) -> Wording {
+    new_wording(
+        Code::UnknownName,
+        format!("unknown {sort} `{}`", shortened(name)),
+        "the first problem of this kind lists the known names or the nearest one",
+    )
+}
+
+pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -> Wording {
+    new_wording(
+        Code::DuplicateId,
+        format!("the {sort} id `{}` is used twice; first by {first}", shortened(id)),
+        format!("give each {sort} a different id"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
+    new_wording(
+        Code::ReservedName,
+        "the id `ground` is reserved for the ground in results",
+        "give the block another id",
+    )
+}
+
+pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
+    new_wording(Code::EmptyId, format!("the {sort}'s id is empty"), "write an id of at least one character")
+}
+
+pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {
+    new_wording(Code::ReservedName, format!("`{name}` is the name of a built-in shape"), "give the shape another name")
+}
+
+pub(in crate::mechanics::scene) fn pair_twice(names: &[String; 2], first: usize) -> Wording {
+    new_wording(
+        Code::DuplicatePair,
+        format!(
+            "the pair {}, {} is listed twice; first in friction_pairs[{first}]",
+            shortened(&names[0]),
+            shortened(&names[1])
+        ),
+        "remove one of the two entries; the order of the names does not matter",
+    )
+}
+
+pub(in crate::mechanics::scene) fn version(found: i64) -> Wording {
+    new_wording(
+        Code::UnknownVersion,
+        format!("version {found} of the scene format is not known"),
+        "write `\"drystone\": 1`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn not_finite(x: f64) -> Wording {
+    new_wording(Code::NotFinite, format!("the number is {x}"), "give a finite number")
+}
+
+pub(in crate::mechanics::scene) fn absurd(x: f64, largest: f64, units: UnitsEntry) -> Wording {
+    new_wording(
+        Code::TooLarge,
+        format!("the number {} exceeds the limit of ±{}", digits(x), digits(largest)),
+        check_units(units),
+    )
+}
+
+/// Returns the remedy for a number that is too large or too small: it asks the author to check the units.
+fn check_units(units: UnitsEntry) -> String {
+    format!(
+        "check the units: {}, kilograms, {}",
+        units.length.unwrap_or_default().name(),
+        units.force.unwrap_or_default().name()
+    )
+}
+
+pub(in crate::mechanics::scene) fn tiny(x: f64, smallest: f64, units: UnitsEntry) -> Wording {
+    new_wording(
+        Code::TooSmall,
+        format!("the number {} is too close to 0: its size must be 0 or at least {}", digits(x), digits(smallest)),
+        format!("write 0, or {}", check_units(units)),
+    )
+}
+
+pub(in crate::mechanics::scene) fn tiny_extent(extent: f64, smallest: f64, units: UnitsEntry) -> Wording {
+    let unit = units.length().symbol();
+    new_wording(
+        Code::TooSmall,
+        format!("the extent is {} {unit}, which is less than the limit of {} {unit}", digits(extent), digits(smallest)),
+        format!("check the units: lengths are in {}", units.length.unwrap_or_default().name()),
+    )
+}
+
+pub(in crate::mechanics::scene) fn negative(what: &str, x: f64) -> Wording {
+    new_wording(Code::Negative, format!("negative {what} {}", digits(x)), format!("`{what}` must be at least 0"))
+}
+
+pub(in crate::mechanics::scene) fn kernel(x: f64) -> Wording {
+    new_wording(
+        Code::OutOfRange,
+        format!("the kernel {} is not between 0 and 1", digits(x)),
+        "give the fraction of each contact that must stay free of force: 0 for none, 0.2 for a fifth",
+    )
+}
+
+pub(in crate::mechanics::scene) fn side(x: f64) -> Wording {
+    new_wording(
+        Code::OutOfRange,
+        format!("the edge length of the grid cells is {}, but it must be more than 0", digits(x)),
+        "give the edge length of a cell, more than 0",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_heavy(weight: f64, largest: f64) -> Wording {
+    new_wording(
+        Code::TooLarge,
+        format!("the block's weight would be {} N, more than the limit of {} N", digits(weight), digits(largest)),
+        "check the units of density, thickness, gravity and polygon",
+    )
+}
+
+pub(in crate::mechanics::scene) fn colour(text: &str) -> Wording {
+    new_wording(
+        Code::NoColour,
+        format!("\"{}\" is not a colour", shortened(text)),
+        "write a colour as \"#8b6b3d\" or \"#863\"",
+    )
+}
+
+/// Returns the message about a key that occurs twice in an object built in code.
+pub(in crate::mechanics::scene) fn key_twice(key: &str) -> Wording {
+    new_wording(Code::DuplicateKey, format!("the key `{}` occurs twice", shortened(key)), "remove one of the two keys")
+}
+
+pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {
+    new_wording(
+        Code::UnknownChoice,
+        "both bodies of the contact are the same body",
+        "name two different bodies; `ground` is the ground",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
+    new_wording(
+        Code::TooManySteps,
+        format!("the frames of {steps} steps contain more than {most} blocks in total"),
+        "use fewer steps, or split the scene into several scenes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
+    let when = if since == now { "earlier in this step".into() } else { format!("by steps[{since}]") };
+    new_wording(
+        Code::PlacedTwice,
+        format!("the block `{}` is already placed, {when}", shortened(block)),
+        "place each block only once; to place a block again, `remove` it first",
+    )
+}
+
+pub(in crate::mechanics::scene) fn removed_unplaced(block: &str) -> Wording {
+    new_wording(
+        Code::NotPlaced,
+        format!("the block `{}` is removed, but it is not placed", shortened(block)),
+        "remove only blocks that an earlier step placed",
+    )
+}
+
+pub(in crate::mechanics::scene) fn removed_held(block: &str, robot: &str) -> Wording {
+    new_wording(
+        Code::RemovedWhileHeld,
+        format!("the block `{}` is removed while the robot `{}` holds it", shortened(block), shortened(robot)),
+        format!("add \"{}\" to `release` of this step or of an earlier step", shortened(robot)),
+    )
+}
+
+pub(in crate::mechanics::scene) fn held_unplaced(robot: &str, block: &str) -> Wording {
+    new_wording(
+        Code::NotPlaced,
+        format!("the robot `{}` holds the block `{}`, which is not placed", shortened(robot), shortened(block)),
+        format!("add \"{}\" to `place` of this step or of an earlier step", shortened(block)),
+    )
+}
+
+pub(in crate::mechanics::scene) fn holds_two(robot: &str, held: &str, block: &str) -> Wording {
+    let (robot, held, block) = (shortened(robot), shortened(held), shortened(block));
+    new_wording(
+        Code::HoldsTwo,
+        format!("the robot `{robot}` takes hold of the block `{block}` while it still holds `{held}`"),
+        format!("a robot can hold only one block; add \"{robot}\" to `release` of this step first"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn planned_placed(robot: &str, block: &str) -> Wording {
+    new_wording(
+        Code::PlacedTwice,
+        format!(
+            "`plan` says that the robot `{}` will place the block `{}`, which is already placed",
+            shortened(robot),
+            shortened(block)
+        ),
+        "plan only blocks that are not placed",
+    )
+}
+
+/// Creates the wording of a note. A wording needs a problem code, but this code is never shown, because notes have
+/// codes of their own.
+fn note(message: String, hint: impl Into<String>) -> Wording {
+    new_wording(Code::OutOfRange, message, hint)
+}
+
+pub(in crate::mechanics::scene) fn friction_high(mu: f64) -> Wording {
+    note(
+        format!("a friction coefficient of {} is probably a mistake", digits(mu)),
+        "dry stone has 0.5 to 0.8; a coefficient is the tangent of the angle of friction, not degrees or percent",
+    )
+}
+
+pub(in crate::mechanics::scene) fn grip_outside(block: &str, at: [f64; 2], distance: f64, unit: &str) -> Wording {
+    note(
+        format!(
+            "the grip point {} lies {} {unit} outside the block `{}`",
+            pair(at),
+            digits(distance),
+            shortened(block)
+        ),
+        "give a point inside the block, or leave out `at` to use the centroid of the block",
+    )
+}
+
+pub(in crate::mechanics::scene) fn load_outside(block: &str, at: [f64; 2], distance: f64, unit: &str) -> Wording {
+    note(
+        format!("the load acts at {}, {} {unit} outside the block `{}`", pair(at), digits(distance), shortened(block)),
+        "give a point inside the block, or leave out `at` to use the centroid of the block",
+    )
+}
+
+pub(in crate::mechanics::scene) fn unused_robot(robot: &str, no_steps: bool) -> Wording {
+    let hint = if no_steps {
+        "give the robot a block that it `holds`, or remove the robot"
+    } else {
+        "let the robot `hold` a block in a step, or remove the robot; in a scene with `steps`, `holds` is ignored"
+    };
+    note(format!("the robot `{}` never holds a block", shortened(robot)), hint)
+}
+
+pub(in crate::mechanics::scene) fn unused_block(block: &str) -> Wording {
+    note(
+        format!("no step places the block `{}`", shortened(block)),
+        "add the block to `place` of a step, or remove the block",
+    )
+}
+
+pub(in crate::mechanics::scene) fn default_density(blocks: usize, beside: Option<&str>, force: &str) -> Wording {
+    let weight = match blocks {
+        1 => "the weight of 1 block comes".to_owned(),
+        _ => format!("the weights of {blocks} blocks come"),
+    };
+    let beside = beside.map_or(String::new(), |beside| format!(", but the {beside} are in {force}"));
+    note(
+        format!("{weight} from the default density of 1 kg/m³{beside}"),
+        format!("give `density` in kg/m³ (stone has about 2500), or `weight` in {force}"),
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_ground() -> Wording {
+    note(
+        "the scene has no ground, so only robots can support the blocks".into(),
+        "add at least one polygon to `ground`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn angle_radians(angle: f64, degrees: f64) -> Wording {
+    note(
+        format!("the angle {} looks like {}° written in radians", digits(angle), digits(degrees)),
+        format!("angles are in degrees: give {}", digits(degrees)),
+    )
+}
