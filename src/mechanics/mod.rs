@@ -11,6 +11,8 @@ pub mod program;
 
 pub mod solve;
 
+pub mod wedge;
+
 pub mod proof;
 
 pub mod analysis;

@@ -77,6 +77,32 @@ fn structures_that_fall_at_every_load_factor_have_no_interval() {
     }
 }
 
+/// A clamp without friction on the edge of a ledge stands if gravity points down, or anywhere to the left of down and up.
+/// These directions are a half-plane, which ends at half a turn. It is not unbounded: to the right the clamp slides off.
+#[test]
+fn a_half_plane_of_stable_directions_of_gravity_ends_at_half_a_turn() {
+    let (_, margins) = known("tilt-half-plane");
+    near(ends(&margins.intervals.tilt), [-180.0, 0.0]);
+    near(ends(&margins.intervals.horizontal_load), [f64::NEG_INFINITY, 0.0]);
+}
+
+/// Without its loads this structure stands. By its mechanism, it falls at every larger factor, but rounding puts the
+/// first of them at −3·10⁻¹⁹.
+#[test]
+fn rounding_does_not_exclude_the_load_factor_zero() {
+    let (_, margins) = known("load-factor-zero");
+    near(ends(&margins.intervals.load_factor), [0.0, 0.0]);
+}
+
+/// Gravity points up in this scene, and the blocks stand on the ground if it is turned by exactly 180°. At every other
+/// tilt, blocks without friction slide.
+#[test]
+fn a_frame_that_stands_at_one_tilt_only_has_an_interval() {
+    let (_, margins) = known("tilt-at-half-a-turn");
+    let [low, high] = ends(&margins.intervals.tilt).expect("the interval is not empty");
+    assert!((low.abs() - 180.0).abs() < 1e-6 && (high.abs() - 180.0).abs() < 1e-6, "{low}, {high}");
+}
+
 /// One group of blocks stands only with a push to the left as large as its weight. The other carries at most a push
 /// of half of its weight.
 #[test]

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::cost::{SolveReport, Stages};
-use super::decide::{self, Findings, Method, decide_component};
+use super::decide::{self, Method, Outcome, decide_component};
 use super::frame::complete_frame;
 use super::gather::{add_component, unloaded_frame};
 use super::key::{Key, key};
@@ -32,7 +32,7 @@ const MIN_PARALLEL_COMPONENTS: usize = 17;
 /// Results for the components of earlier frames.
 #[derive(Default)]
 pub(super) struct ResultCache {
-    findings: BTreeMap<Key, Findings>,
+    findings: BTreeMap<Key, Outcome>,
     intervals: BTreeMap<Key, ComponentIntervals>,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct ResultCache {
 struct SolvedComponent<'a> {
     component: &'a Assembly,
     key: &'a Key,
-    findings: &'a Findings,
+    findings: &'a Outcome,
 }
 
 /// Finds the interfaces of a scene and analyses every frame. Gaps and overlaps between blocks stay as they are drawn.
@@ -120,7 +120,7 @@ fn decide_fresh(
     components: &[Assembly],
     keys: &[Key],
     options: Options,
-    known: &mut BTreeMap<Key, Findings>,
+    known: &mut BTreeMap<Key, Outcome>,
 ) -> (Effort, usize) {
     let fresh: Vec<usize> = (0..components.len()).filter(|k| !known.contains_key(&keys[*k])).collect();
     let decide_one = |k: &usize| {
@@ -130,13 +130,13 @@ fn decide_fresh(
     };
     // The results keep the order of the components, even if several threads compute them.
     #[cfg(feature = "parallel")]
-    let findings: Vec<Findings> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
+    let findings: Vec<Outcome> = if fresh.len() >= MIN_PARALLEL_COMPONENTS {
         fresh.par_iter().map(decide_one).collect()
     } else {
         fresh.iter().map(decide_one).collect()
     };
     #[cfg(not(feature = "parallel"))]
-    let findings: Vec<Findings> = fresh.iter().map(decide_one).collect();
+    let findings: Vec<Outcome> = fresh.iter().map(decide_one).collect();
     let effort = findings.iter().fold(Effort::default(), |sum, f| sum.plus(f.effort));
     for (k, findings) in fresh.iter().zip(findings) {
         known.insert(keys[*k].clone(), findings);

@@ -2,8 +2,8 @@
 //! and for a whole frame. The routes are tried in the order of their numbers.
 //!
 //! A verdict needs a proof ([`crate::mechanics::proof`]): forces that balance every body, or a motion that no admissible forces
-//! can stop. A route may save time, but it never decides without a proof. All routes for one component return a
-//! [`Decision`] or [`Findings`].
+//! can stop. A route may save time, but it never decides without a proof. All routes for one component return an
+//! [`Outcome`].
 //!
 //! For one component, by [`decide_component`]:
 //!
@@ -13,7 +13,7 @@
 //! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these limits the program is smaller |
 //! | 3 | programs in order | `programs.rs`, `strategy/` | each may find forces or a motion, whose proof is then computed |
 //! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the component as a whole may leave light bodies unbalanced; these bodies are solved again in their own scale |
-//! | 3b | – remove the solver's error from a motion | `motion.rs`, `pieces.rs` | a motion must not violate any contact, not even by rounding |
+//! | 3b | – remove the solver's error from a motion | `motion.rs` | a motion must not violate any contact, not even by rounding |
 //! | 4 | complete | `complete.rs` | forces of least sum if the component stands, least adhesion if it falls |
 //!
 //! Route 4 can change *unstable* to *stable*, but only if the program of least adhesion finds forces that balance
@@ -32,32 +32,29 @@
 mod complete;
 mod failure;
 mod forces;
-mod limit_proof;
 mod proof_cache;
 mod candidate;
 mod programs;
 mod rebalance;
 mod motion;
-mod pieces;
 mod verdict_only;
 mod wedging;
 mod strategy;
-mod parallel_joints;
 
 pub(super) use candidate::Candidate;
-pub(super) use limit_proof::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
 pub(super) use proof_cache::ProofCache;
 pub(super) use verdict_only::{
-    LimitResults, add_limit_to_cache, decide_verdict, least_force_error, verdict_from_cache,
+    LimitResults, add_limit_to_cache, decide_verdict, decided_forces, least_force_error, proved_exact_motion,
+    proved_forces, proved_motion, verdict_from_cache,
 };
 pub(super) use wedging::only_by_wedging;
 
 use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::mechanics::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
 use crate::mechanics::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
-use crate::mechanics::solve::{Amounts, Effort, SolverSettings, determinate};
+use crate::mechanics::solve::{Amounts, Effort, LeastAdhesion, SolverSettings, determinate};
 use crate::mechanics::statics::assembly::Assembly;
-use programs::Decision;
+use forces::ProvedForces;
 pub(super) use strategy::LimitDistance;
 pub use strategy::Method;
 
@@ -70,25 +67,82 @@ const MIN_SHOWN_SPEED: f64 = 1e-7;
 /// solver.
 const SPEED_NOISE: f64 = 1e-9;
 
-/// The results for one component. Forces are in the order of its contacts and grips.
+/// The verdict on one component, its proof, and all other results. Forces are in the order of its contacts and grips.
+///
+/// A route creates it, and later routes improve it. The amounts are in program units, everything else in metres and
+/// newtons.
 #[derive(Clone, Debug)]
-pub(super) struct Findings {
+pub(super) struct Outcome {
     pub verdict: Verdict,
+    /// The reason if the verdict is *undecided*; `None` otherwise.
     pub doubt: Option<UndecidedReason>,
+    /// Forces that balance, or that balance together with the missing adhesion.
     pub forces: Forces,
+    /// The same forces, before rounding errors were corrected.
+    amounts: Amounts,
     /// A proved lower bound for the sum of balancing forces, N; `None` if none was proved.
     pub force_bound: Option<f64>,
     /// Whether the forces are proved to have the least sum.
     pub least_force: bool,
+    /// The adhesion that is missing for a balance; `None` if the component stands or no adhesion was computed.
+    adhesion: Option<Amounts>,
+    /// The missing adhesion as forces at contacts and robots.
     pub failures: Vec<Failure>,
     pub total_sticking: f64,
+    /// Whether no adhesion at the application points could hold the component.
     pub unsupported: bool,
     pub mechanism: Vec<Motion>,
     pub proof: Proof,
+    /// The strategy that decided.
     pub method: Method,
     pub effort: Effort,
     /// For each effect, the number of unknowns in the component's program, including the unknowns for adhesion.
     pub count: UnknownCounts,
+    /// Whether a program of least force ended without a result.
+    least_force_failed: bool,
+    /// The answer of the program of least adhesion, if it was solved before the failures are computed.
+    least_adhesion: Option<LeastAdhesion>,
+    /// Whether only some bodies fall, and the adhesion that these lack is known.
+    only_some_fall: bool,
+}
+
+impl Outcome {
+    /// Creates an outcome with the verdict *undecided* and zero forces.
+    fn undecided(assembly: &Assembly, program: &Program) -> Outcome {
+        Outcome {
+            verdict: Verdict::Undecided,
+            doubt: None,
+            forces: Forces::zero(assembly),
+            amounts: Amounts::zero(program),
+            force_bound: None,
+            least_force: false,
+            adhesion: None,
+            failures: Vec::new(),
+            total_sticking: 0.0,
+            unsupported: false,
+            mechanism: Vec::new(),
+            proof: Proof::Mechanism { power: 0.0, worst_violation: 0.0 },
+            method: Method::LeastForce,
+            effort: Effort::default(),
+            count: UnknownCounts::default(),
+            least_force_failed: false,
+            least_adhesion: None,
+            only_some_fall: false,
+        }
+    }
+
+    /// Sets the verdict *stable*, with the forces that prove it.
+    fn stand(&mut self, proved: ProvedForces) {
+        self.verdict = Verdict::Stable;
+        self.proof = proved.proof;
+        (self.amounts, self.forces) = (proved.amounts, proved.forces);
+    }
+
+    /// Sets the verdict *unstable*, with the mechanism that proves it.
+    fn fall(&mut self, mechanism: Vec<Motion>, proof: Proof) {
+        self.verdict = Verdict::Unstable;
+        (self.mechanism, self.proof) = (mechanism, proof);
+    }
 }
 
 /// One component of a frame with everything that its decision depends on.
@@ -107,25 +161,23 @@ struct Component<'a> {
 }
 
 /// Decides whether one component stands, and computes its forces, or its failures and its mechanism.
-pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Findings {
+pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Outcome {
     let component = Component::new(assembly, options);
     let program = Program::new(assembly, component.scale);
     // Count the unknowns first: they are reported for each effect, even if no program is solved.
     let count = UnknownCounts::new(&program, &columns(&program))
         .plus(&UnknownCounts::new(&program, &adhesion_columns(&program)));
-    if let Some(found) = component.in_closed_form(&program) {
-        return Findings { count, ..found };
+    if let Some(outcome) = component.in_closed_form(&program) {
+        return Outcome { count, ..outcome };
     }
     // First leave out those limits of robots that are far above the loads. If the resulting forces exceed such a limit,
     // or if the result is undecided, decide again with all limits.
-    if let Some(generous) = program.without_non_binding_limits() {
-        let decision = component.complete(&generous, component.decide_by_programs(&generous));
-        if decision.verdict != Verdict::Undecided && program.allows(&decision.amounts.grip) {
-            return Findings { count, ..component.findings(decision) };
-        }
-    }
-    let decision = component.complete(&program, component.decide_by_programs(&program));
-    Findings { count, ..component.findings(decision) }
+    let generous = program.without_non_binding_limits();
+    let generous = generous.map(|program| component.complete(&program, component.decide_by_programs(&program)));
+    let outcome = generous
+        .filter(|outcome| outcome.verdict != Verdict::Undecided && program.allows(&outcome.amounts.grip))
+        .unwrap_or_else(|| component.complete(&program, component.decide_by_programs(&program)));
+    Outcome { count, ..component.finish(outcome) }
 }
 
 impl<'a> Component<'a> {
@@ -148,90 +200,63 @@ impl<'a> Component<'a> {
 
     /// Route 1: decides a component in closed form, without a solver. `None` if no closed form applies, or if the
     /// forces that the balance equations determine have no proof.
-    fn in_closed_form(&self, program: &Program) -> Option<Findings> {
-        let found = if self.assembly.heaviest_load() == 0.0 {
+    fn in_closed_form(&self, program: &Program) -> Option<Outcome> {
+        let falls_freely = self.falls_freely();
+        let amounts = match falls_freely {
             // Without loads, zero forces balance every body.
-            self.stands(self.prove_forces(&Amounts::zero(program)))
-        } else if let Some((mechanism, proof)) = self.falls_freely() {
-            Findings {
-                verdict: Verdict::Unstable,
-                unsupported: true,
-                mechanism,
-                proof,
-                ..self.stands(self.prove_forces(&Amounts::zero(program)))
-            }
-        } else {
+            _ if self.assembly.heaviest_load() == 0.0 => Amounts::zero(program),
+            Some(_) => Amounts::zero(program),
             // The balance equations alone determine the forces, as in a stack.
-            let proved = self.prove_forces(&determinate(program)?);
-            if !self.accepts(&proved.proof) {
-                return None;
-            }
-            self.stands(proved)
+            None => determinate(program)?,
         };
-        Some(found)
-    }
-
-    /// Returns the findings of a stable component whose forces were computed in closed form.
-    fn stands(&self, proved: forces::ProvedForces) -> Findings {
-        Findings {
-            verdict: Verdict::Stable,
-            doubt: None,
+        let proved = self.prove_forces(amounts);
+        if falls_freely.is_none() && !self.accepts(&proved.proof) {
+            return None;
+        }
+        let mut outcome = Outcome {
             force_bound: Some(proved.forces.sum(self.assembly.length)),
-            forces: proved.forces,
             least_force: true,
-            failures: Vec::new(),
-            total_sticking: 0.0,
-            unsupported: false,
-            mechanism: Vec::new(),
-            proof: proved.proof,
             method: Method::ClosedForm,
-            effort: Effort::default(),
-            count: UnknownCounts::default(),
+            ..Outcome::undecided(self.assembly, program)
+        };
+        outcome.stand(proved);
+        if let Some((mechanism, proof)) = falls_freely {
+            outcome.fall(mechanism, proof);
+            outcome.unsupported = true;
         }
+        Some(outcome)
     }
 
-    /// Converts a decision from program units to findings in metres and newtons.
-    fn findings(&self, decision: Decision) -> Findings {
-        // Convert the missing adhesion to failures in newtons. Amounts that are only solver noise are left out.
-        let (mut failures, mut total_sticking) = (Vec::new(), 0.0);
-        if let (Some(adhesion), Verdict::Unstable) = (&decision.adhesion, decision.verdict) {
-            failures = self.failures(adhesion);
-            total_sticking = failure::total(&failures, self.assembly.length);
+    /// Adds what is reported of an outcome: the failures in newtons, the mechanism without bodies at rest, and the
+    /// forces of a component that falls.
+    fn finish(&self, mut outcome: Outcome) -> Outcome {
+        if outcome.verdict != Verdict::Unstable {
+            outcome.mechanism.clear();
+            outcome.unsupported = false;
+            return outcome;
         }
-        let mut mechanism = decision.mechanism;
-        if decision.verdict != Verdict::Unstable {
-            mechanism.clear();
+        // Convert the missing adhesion to failures in newtons. Amounts that are only solver noise are left out.
+        if let Some(adhesion) = &outcome.adhesion {
+            outcome.failures = self.failures(adhesion);
+            outcome.total_sticking = failure::total(&outcome.failures, self.assembly.length);
         }
         // The mechanism is proved with all bodies, but bodies slower than MIN_SHOWN_SPEED are not reported.
         let mut bodies = self.assembly.bodies.iter();
-        mechanism.retain(|m| bodies.next().is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED));
-        for motion in &mut mechanism {
+        outcome.mechanism.retain(|m| bodies.next().is_some_and(|body| fastest(body, m) > MIN_SHOWN_SPEED));
+        for motion in &mut outcome.mechanism {
             // Set velocities that are only rounding of the solver to 0. The spin is measured as the speed of a point
             // at distance L.
             let plain = |v: f64| if v.abs() < SPEED_NOISE { 0.0 } else { v };
             motion.velocity = motion.velocity.map(plain);
             motion.spin = plain(motion.spin * self.assembly.length) / self.assembly.length;
         }
-        // If a component falls, its contact forces balance it only together with the missing adhesion.
-        let forces = match (decision.verdict, &decision.adhesion) {
-            (Verdict::Unstable, _) if !self.complete_result => Forces::zero(self.assembly),
-            (Verdict::Unstable, Some(adhesion)) => self.prove_with_adhesion(&decision.amounts, adhesion).0,
-            _ => self.prove_forces(&decision.amounts).forces,
+        // The contact forces of a component that falls balance it only together with the missing adhesion.
+        let amounts = outcome.amounts.clone();
+        outcome.forces = match &outcome.adhesion {
+            _ if !self.complete_result => Forces::zero(self.assembly),
+            Some(adhesion) => self.prove_with_adhesion(amounts, adhesion).0,
+            None => self.prove_forces(amounts).forces,
         };
-        Findings {
-            verdict: decision.verdict,
-            doubt: decision.doubt,
-            forces,
-            force_bound: decision.force_bound,
-            least_force: decision.least_force,
-            failures,
-            total_sticking,
-            unsupported: decision.adhesion_cannot_hold && decision.verdict == Verdict::Unstable,
-            mechanism,
-            proof: decision.proof,
-            method: decision.method,
-            effort: decision.effort,
-            count: UnknownCounts::default(),
-        }
+        outcome
     }
 }

@@ -1,6 +1,6 @@
 //! Collects the results of all components of a frame in one [`FrameAnalysis`].
 
-use super::decide::{Findings, Method};
+use super::decide::{Method, Outcome};
 use super::frame::weaker_proof;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::geometry::Vector;
@@ -76,7 +76,7 @@ fn unloaded_robot(hold: &Hold) -> RobotForce {
 }
 
 /// Adds the results of one component to the frame.
-pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Findings, kernel: f64) {
+pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Outcome, kernel: f64) {
     add_forces(analysis, component, findings, kernel);
     // The bounds of the components add up, because no force acts between two components. If one bound is unknown,
     // or one component is not stable, the sum is unknown.
@@ -104,7 +104,7 @@ pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, 
 }
 
 /// Sets the forces of one component at its contacts and robots, and adds their magnitudes to `total_force`.
-fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Findings, kernel: f64) {
+fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Outcome, kernel: f64) {
     // Set the normal forces, the friction and the resultant of each contact.
     for (assembled, forces) in component.contacts.iter().zip(&findings.forces.contacts) {
         let contact = &mut analysis.contacts[assembled.interface];

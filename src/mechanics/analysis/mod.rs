@@ -31,13 +31,13 @@ use std::sync::Arc;
 #[doc(inline)]
 pub use crate::mechanics::proof::{Motion, Proof, ProofThreshold};
 use crate::mechanics::scene::{BlockId, Note, Scene};
-pub use crate::mechanics::solve::Slide;
 #[doc(inline)]
 pub use crate::mechanics::statics::effect::{EffectName, EffectReport};
 #[doc(inline)]
 pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 #[doc(inline)]
 pub use crate::mechanics::statics::resultant::Resultant;
+pub use crate::mechanics::wedge::Slide;
 pub(crate) use capacity::capacity_of;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;

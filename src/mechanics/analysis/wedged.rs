@@ -3,8 +3,8 @@
 use super::Motion;
 use crate::geometry::Vector;
 use crate::mechanics::program::Scale;
-use crate::mechanics::solve::{self, SelfStress, Slide};
 use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::wedge::{self, SelfStress, Slide};
 
 /// The proof that a frame does not stand without a self-stress.
 ///
@@ -91,7 +91,7 @@ impl Wedged {
 }
 
 /// Converts a case that the solver ruled out: replaces contact indices of the component by those of the frame.
-fn with_frame_indices(assembly: &Assembly, case: &solve::RuledOut) -> RuledOut {
+fn with_frame_indices(assembly: &Assembly, case: &wedge::RuledOut) -> RuledOut {
     let interface = |contact: usize| assembly.contacts[contact].interface;
     let points = case.points.iter();
     let faces = case.faces.iter();

@@ -10,14 +10,12 @@
 //! | `column` | the coefficients of each force in the equilibrium equations |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `parallel_joints` | simplified programs: nearly parallel joints made parallel, or slight loads omitted |
 //! | `vallat` | the program of Vallat (2023), for comparison |
 
 mod column;
 mod pose;
 mod scale;
 mod vallat;
-mod parallel_joints;
 #[cfg(test)]
 mod tests;
 
@@ -107,6 +105,16 @@ impl Program {
             limits: [grip.limits.fx / scale.force, grip.limits.fy / scale.force, grip.limits.torque / scale.moment()],
         });
         Program { blocks: assembly.bodies.len(), loads, contacts: contacts.collect(), grips: grips.collect(), scale }
+    }
+
+    /// Programs of at least this many blocks have many blocks. A short first attempt decides most of them, extra
+    /// solutions cost too much, and near the limit of stability they need wider tolerances. A wall of 200 bricks is the
+    /// smallest with which this was measured.
+    const MANY_BLOCKS: usize = 200;
+
+    /// True if the program has many blocks, so that other orders and tolerances of solvers suit it.
+    pub fn has_many_blocks(&self) -> bool {
+        self.blocks >= Self::MANY_BLOCKS
     }
 
     /// A robot's limit above this multiple of the sum of all loads counts as non-binding.

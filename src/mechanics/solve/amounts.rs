@@ -1,9 +1,9 @@
-//! [`Amounts`]: the forces at all contacts and grips of a structure. [`Effort`]: how many optimisation programs were
-//! solved for a result, and how many iterations they took.
+//! [`Amounts`]: the forces at all contacts and grips of a structure. [`Balance`] and [`LeastAdhesion`]: the results of
+//! programs that look for such forces. [`Effort`]: how many programs were solved for a result, and how many iterations
+//! they took.
 
-use super::residual_norm::largest;
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::mechanics::program::{Force, Program};
+use crate::mechanics::program::{Column, Force, Program};
 
 /// The forces at all contacts and grips of a program, in program units.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,4 +100,56 @@ impl Effort {
     pub fn plus(self, other: Effort) -> Effort {
         Effort { iterations: self.iterations + other.iterations, programs: self.programs + other.programs }
     }
+}
+
+/// The result of a program that looks for forces that balance every block.
+#[derive(Clone, Debug, Default)]
+pub struct Balance {
+    /// Forces that balance every block, if there are any.
+    pub forces: Option<Amounts>,
+    /// If no forces balance every block: a motion that no contact resists, three velocities for each block. Along it,
+    /// the loads do more work than the robots can absorb. If both `forces` and `motion` are `None`, the solver ended
+    /// without a result.
+    pub motion: Option<Vec<f64>>,
+    /// If forces of least sum were found: a motion, three velocities for each block, that proves a lower bound of their sum. The
+    /// work against each unit force is at most its cost, except for robots at their limits. The bound is the work of
+    /// the loads, minus the excess work against these robots.
+    pub witness: Option<Vec<f64>>,
+    /// The number of programs and iterations that were needed.
+    pub effort: Effort,
+}
+
+/// The least adhesion with which every block of a program is balanced, with the forces of that balance and a motion.
+#[derive(Clone, Debug)]
+pub struct LeastAdhesion {
+    /// True if admissible forces and adhesion together can balance every block; `None` if the solver ended without a
+    /// result.
+    pub balanced: Option<bool>,
+    /// The admissible forces (pressure, friction and robot forces within their limits) of the balance with the least
+    /// adhesion. All are 0 if there is no such balance.
+    pub forces: Amounts,
+    /// The adhesion (tension, and friction and robot forces beyond their limits) of the balance with the least
+    /// adhesion. All are 0 if there is no such balance.
+    pub adhesion: Amounts,
+    /// A motion that no contact resists: three velocities for each block. If the structure needs adhesion, the loads do
+    /// more work along it than the robots can absorb. `None` if the solver ended without a result.
+    pub motion: Option<Vec<f64>>,
+    /// True if admissible forces had a small cost in the program. The contacts may then resist the motion slightly.
+    pub priced: bool,
+    /// The number of programs and iterations that were needed.
+    pub effort: Effort,
+}
+
+/// Returns the residual loads − Σ amount·column, one number for each row.
+pub(super) fn remainder(loads: &[f64], columns: &[Column], amounts: &[f64]) -> Vec<f64> {
+    let mut rest: Vec<f64> = loads.to_vec();
+    for (column, amount) in columns.iter().zip(amounts) {
+        column.add_to(&mut rest, -amount);
+    }
+    rest
+}
+
+/// Returns the largest absolute value in a list, 0 for an empty list.
+pub(super) fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
 }

@@ -11,28 +11,11 @@
 
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::{
-    Amounts, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, balance_by_least_change,
+    Balance, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, balance_by_least_change,
     from_kinematic_answer, largest, least_squares_amounts, refine_balance, remainder, solve_once_within,
     solve_with_retry,
 };
 use crate::mechanics::program::{Program, QuadraticProgram, columns, kinematic_dual};
-
-/// The result of the program of least force.
-#[derive(Clone, Debug)]
-pub struct Balance {
-    /// Forces that balance every block, if there are any.
-    pub forces: Option<Amounts>,
-    /// If no forces balance every block: a motion that no contact resists, three velocities for each block. Along it,
-    /// the loads do more work than the robots can absorb. If both `forces` and `motion` are `None`, the solver ended
-    /// without a result.
-    pub motion: Option<Vec<f64>>,
-    /// If forces were found: a motion, three velocities for each block, that proves a lower bound of their sum. The
-    /// work against each unit force is at most its cost, except for robots at their limits. The bound is the work of
-    /// the loads, minus the excess work against these robots.
-    pub witness: Option<Vec<f64>>,
-    /// The number of programs and iterations that were needed.
-    pub effort: Effort,
-}
 
 /// Margins of [`Dual::active`] that are tried in turn for the face of optima, dimensionless.
 ///
@@ -58,10 +41,6 @@ const ROUGH_COST_TOL: f64 = 1e-6;
 /// The largest residual that a balance may leave after the least-squares problem, relative to the largest load: half of
 /// what a proof allows.
 const BALANCE_TOL: f64 = 5e-8;
-
-/// From this number of blocks on, an attempt with plain conditioning stops after fewer iterations, and is not followed
-/// by an attempt with full conditioning.
-const MANY_BLOCKS: usize = 200;
 
 /// The largest number of iterations for a program of many blocks with plain conditioning.
 ///
@@ -179,7 +158,7 @@ fn balance_by_levels(
 ) -> Option<Balance> {
     let light = lightest(&whole.loads);
     let has_wide_range = light < WIDE_LOAD_RATIO * largest(&whole.loads);
-    if !has_wide_range || program.blocks >= MANY_BLOCKS || settings.choice == Choice::Any {
+    if !has_wide_range || program.has_many_blocks() || settings.choice == Choice::Any {
         return None;
     }
     // Refine the optimum level by level, from the largest loads to the smallest. Then choose the forces of least
@@ -208,7 +187,7 @@ fn solve_dual(
     let (dual, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
     let read =
         |dual: &QuadraticProgram, answer| from_kinematic_answer(&whole.loads, &whole.columns, dual, &row_of, answer);
-    let has_many_blocks = program.blocks >= MANY_BLOCKS;
+    let has_many_blocks = program.has_many_blocks();
     let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
         solve_once_within(&dual, settings, max_iterations, effort)
     } else {

@@ -5,7 +5,7 @@
 //! iteration. If elimination cannot prove its result, the caller uses the solver. Reference: Golub and Van Loan,
 //! Matrix Computations, 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
 
-use super::residual_norm::largest;
+use super::amounts::largest;
 use crate::mechanics::program::{Column, product};
 
 /// The largest number of rows. Larger systems are solved by the sparse solver, because the work of dense elimination

@@ -17,10 +17,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::basis_factor::{elimination_order, placed};
 use super::dual::from_kinematic_answer;
-use super::limit::columns_in;
-use super::reduced_columns::ReducedColumns;
+use super::limit::farthest_cost;
+use super::scaled_program::{ReducedColumns, columns_in};
 use super::simplex::{Move, Simplex, Variable};
-use super::support::farthest_cost;
 use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, kinematic_dual};

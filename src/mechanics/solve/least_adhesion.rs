@@ -13,8 +13,7 @@
 //!    therefore keeps symmetric forces, and the figure of a mirrored scene is the mirrored figure;
 //! 4. least Σ force² on the remaining columns, which is unique.
 
-use super::limit::columns_in;
-use super::reduced_columns::ReducedColumns;
+use super::scaled_program::{ReducedColumns, columns_in};
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings, Status, TOLERANCE,
     determinate, dual, from_kinematic_answer, largest, least_adhesion_levels, least_squares_amounts, refine_balance,
@@ -61,14 +60,8 @@ enum Size {
 }
 
 impl Size {
-    /// A program with at least this number of blocks has many blocks.
-    const MANY_BLOCKS: usize = 200;
-
     fn new(program: &Program) -> Size {
-        match program.blocks {
-            0..Self::MANY_BLOCKS => Size::Few,
-            _ => Size::Many,
-        }
+        if program.has_many_blocks() { Size::Many } else { Size::Few }
     }
 }
 

@@ -13,28 +13,12 @@
 //!   within the tolerance of the proofs.
 
 use super::dual::amounts_of_rows;
-use super::limit::columns_in;
-use super::reduced_columns::ReducedColumns;
+use super::scaled_program::ScaledProgram;
 use super::{
-    Amounts, Conditioning, Effort, Face, Status, balance_by_least_change, largest, remainder, solve_static_form,
+    Amounts, Balance, Conditioning, Status, balance_by_least_change, largest, remainder, solve_static_form,
     solve_with_retry,
 };
-use crate::mechanics::program::{Column, Program, least_residual_dual};
-
-/// Forces and a motion. A proof may accept one of them: the forces if they balance the loads, otherwise the motion.
-#[derive(Clone, Debug)]
-pub struct Residual {
-    /// The admissible forces.
-    pub forces: Amounts,
-    /// The motion along which the loads do work, if the forces do not balance them: three velocities per block.
-    /// [`any_balance`] returns velocities of 0 if it finds forces.
-    pub motion: Vec<f64>,
-    /// True if the forces balance the loads, if the loads' power along the motion is well above the tolerance of the
-    /// proofs, or if the residual is the least possible.
-    pub is_reliable: bool,
-    /// The number of programs and iterations that were needed.
-    pub effort: Effort,
-}
+use crate::mechanics::program::{Program, least_residual_dual};
 
 /// A motion is a reliable proof of the fall if its power exceeds this multiple of Σ |velocity| times the largest load.
 ///
@@ -44,87 +28,43 @@ const MIN_POWER: f64 = 1e-6;
 /// The residual up to which forces count as a balance, relative to the largest load: the solver's tolerance.
 const BALANCE_TOL: f64 = 1e-9;
 
-/// A program scaled to a largest load of 1.
-///
-/// For a wall of 410 bricks pushed to its limit, the solver ends without a result with loads of 300; with loads of 1 it
-/// finds the optimum after about 70 iterations.
-struct ScaledProgram<'p> {
-    program: &'p Program,
-    load: f64,
-    loads: Vec<f64>,
-    columns: Vec<Column>,
-    reduced_columns: ReducedColumns,
-}
-
-impl ScaledProgram<'_> {
-    fn new(program: &Program) -> ScaledProgram<'_> {
-        let load = match largest(&program.loads) {
-            0.0 => 1.0,
-            load => load,
-        };
-        let columns = columns_in(program, load);
-        ScaledProgram {
-            program,
-            load,
-            loads: program.loads.iter().map(|v| v / load).collect(),
-            reduced_columns: ReducedColumns::new(&columns),
-            columns,
-        }
-    }
-
-    /// Converts the amounts of the scaled program to forces in the units of the original program.
-    fn forces(&self, amounts: &[f64]) -> Amounts {
-        let mut face = Face::whole(&self.program.loads, self.columns.clone());
-        face.amounts = self.reduced_columns.expand_amounts(&self.columns, amounts);
-        face.amounts.iter_mut().for_each(|amount| *amount *= self.load);
-        face.to_forces(self.program).0
-    }
-}
-
-/// Finds forces that balance the loads, or a motion that proves that no forces balance them. The forces and the motion
-/// are 0 if the solver ends without a result.
-pub fn any_balance(program: &Program) -> Residual {
+/// Finds forces that balance the loads, or a motion that proves that no forces balance them. With this motion, the
+/// forces are zero if the motion is strong enough to exclude a balance, otherwise `None`.
+pub fn any_balance(program: &Program) -> Balance {
     let scaled = ScaledProgram::new(program);
-    let (loads, columns) = (&scaled.loads, &scaled.reduced_columns.columns);
-    let mut effort = Effort::default();
+    let (loads, columns) = (&scaled.loads, &scaled.columns);
+    let mut found = Balance::default();
     // Solve the static form without a cost: every admissible balance is an optimum.
-    let balance = solve_static_form(loads, columns, Conditioning::Plain, &mut effort, |_| 0.0);
-    let mut found =
-        Residual { forces: Amounts::zero(program), motion: vec![0.0; loads.len()], is_reliable: false, effort };
+    let balance = solve_static_form(loads, columns, Conditioning::Plain, &mut found.effort, |_| 0.0);
     match balance.status {
         Status::Solved => {
             let settings = Conditioning::Plain.into();
             let amounts = balance_by_least_change(loads, columns, balance.amounts, settings, &mut found.effort);
-            found.is_reliable = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
-            found.forces = scaled.forces(&amounts);
+            let is_balanced = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
+            found.forces = is_balanced.then(|| scaled.forces(amounts));
         }
         Status::Unbounded => {
             // No forces balance the loads. The motion is the certificate of infeasibility.
             let power: f64 = loads.iter().zip(&balance.y).map(|(n, v)| n * v).sum();
             let speed_sum: f64 = balance.y.iter().map(|v| v.abs()).sum();
-            found.is_reliable = power > MIN_POWER * speed_sum;
-            found.motion = balance.y.iter().map(|v| -v).collect();
+            found.forces = (power > MIN_POWER * speed_sum).then(|| Amounts::zero(program));
+            found.motion = Some(balance.y.iter().map(|v| -v).collect());
         }
         _ => {}
     }
     found
 }
 
-/// Finds the forces of least residual, and the motion that proves that no smaller residual is possible. `None` if the
-/// solver finds no optimum.
-pub fn least_residual(program: &Program) -> Option<Residual> {
+/// Finds the forces of least residual, and the motion that proves that no smaller residual is possible. Both are `None`
+/// if the solver finds no optimum.
+pub fn least_residual(program: &Program) -> Balance {
     let scaled = ScaledProgram::new(program);
-    let mut effort = Effort::default();
-    let (conic, row_of) = least_residual_dual(&scaled.loads, &scaled.reduced_columns.columns);
-    let answer = solve_with_retry(&conic, Conditioning::Plain, &mut effort);
-    if answer.status != Status::Solved {
-        return None;
+    let mut found = Balance::default();
+    let (conic, row_of) = least_residual_dual(&scaled.loads, &scaled.columns);
+    let answer = solve_with_retry(&conic, Conditioning::Plain, &mut found.effort);
+    if answer.status == Status::Solved {
+        found.forces = Some(scaled.forces(amounts_of_rows(&answer, &row_of)));
+        found.motion = Some(scaled.motion(&answer));
     }
-    let amounts = amounts_of_rows(&answer, &row_of);
-    Some(Residual {
-        forces: scaled.forces(&amounts),
-        motion: answer.x[..scaled.loads.len()].iter().map(|v| -v).collect(),
-        is_reliable: true,
-        effort,
-    })
+    found
 }

@@ -1,5 +1,6 @@
-//! Limit analysis: computes the largest load factor, the load factor nearest to 0, or the least limit of a robot's
-//! force or torque with which the loads can be balanced. Each value is the optimum of one linear program.
+//! Limit analysis: computes the largest load factor, the load factor nearest to 0, the least limit of a robot's force or
+//! torque with which the loads can be balanced, or the largest force of a grip without limits in a direction. Each value
+//! is the optimum of one linear program.
 //!
 //! The static theorem: the largest load factor is max λ s.t. Σ amount·column = loads + λ·direction. Its dual is the
 //! kinematic theorem. Compared with the dual of the program of least force, the dual has one more row, directionᵀy ≥ 1,
@@ -8,11 +9,14 @@
 //! [Livesley78](crate::doc::references).
 
 use super::dual::amounts_of_rows;
-use super::reduced_columns::ReducedColumns;
+use super::scaled_program::{ReducedColumns, ScaledProgram};
 use super::{
     Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest, solve,
 };
-use crate::mechanics::program::{Column, Force, Program, columns, load_factor_dual, nearest_factor_dual};
+use crate::geometry::Vector;
+use crate::mechanics::program::{
+    Column, Force, Program, QuadraticProgram, columns, kinematic_dual, load_factor_dual, nearest_factor_dual,
+};
 
 /// The extreme value of a load factor or of a robot's limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,10 +49,6 @@ impl From<Limit> for ExtremeValue {
         ExtremeValue { limit, forces: None, motion: None }
     }
 }
-
-/// From this number of blocks on, the finest of [`TOLERANCES`] is not tried: with it, a wall of 410 bricks ends
-/// without a result.
-const MANY_BLOCKS: usize = 200;
 
 /// The right-hand side of the row directionᵀy ≥ 1 for many blocks, instead of 1. It scales the velocities.
 ///
@@ -104,128 +104,96 @@ impl Extremum {
 
 /// Finds the largest λ, or the λ nearest to 0, for which admissible forces balance `program.loads + λ·direction`.
 fn factor_along(program: &Program, direction: &[f64], extremum: Extremum) -> ExtremeValue {
-    let Some(scaled) = ScaledLoads::new(program, direction) else {
+    let Some(line) = ScaledLine::new(program, direction) else {
         return Limit::Unbounded.into();
     };
-    let columns = scaled.columns(program);
+    let scaled = &line.scaled;
     let (mut problem, row_of) = match extremum {
-        Extremum::Largest => load_factor_dual(&scaled.loads, &scaled.direction, &columns),
-        Extremum::Nearest => nearest_factor_dual(&scaled.loads, &scaled.direction, &columns),
+        Extremum::Largest => load_factor_dual(&scaled.loads, &line.direction, &scaled.columns),
+        Extremum::Nearest => nearest_factor_dual(&scaled.loads, &line.direction, &scaled.columns),
     };
-    if program.blocks >= MANY_BLOCKS {
+    if program.has_many_blocks() {
         let work_rows = problem.bound.iter_mut().rev().take(extremum.rows());
         work_rows.for_each(|b| *b *= WORK_OF_MANY_BLOCKS);
     }
-    // Try the tolerances in turn until the solver ends with a result.
-    for (tolerance, conditioning) in attempts(program) {
-        let answer = solve(&problem, tolerance, conditioning);
-        match (answer.status, extremum.factor(&answer.z)) {
-            (Status::Solved, Some(factor)) => {
-                let total = scaled.total(factor);
-                let amounts = scaled.amounts(&total, &columns, &answer, &row_of);
-                let face = Face::whole(&total, columns).with_amounts(amounts);
-                return ExtremeValue {
-                    limit: Limit::At(scaled.factor(factor)),
-                    forces: Some(face.to_forces(program).0),
-                    motion: Some(scaled.motion(&answer)),
-                };
-            }
-            (Status::Infeasible, _) => return Limit::Unbounded.into(),
-            // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do positive work for
-            // each of these λ.
-            (Status::Unbounded, _) => {
-                return ExtremeValue { motion: Some(scaled.motion(&answer)), ..Limit::Infeasible.into() };
-            }
-            _ => {}
-        }
+    let answer = solve_in_turn(&problem, attempts(program));
+    match (answer.status, extremum.factor(&answer.z)) {
+        (Status::Solved, Some(factor)) => ExtremeValue {
+            limit: Limit::At(line.factor(factor)),
+            forces: Some(scaled.forces(line.amounts(factor, &answer, &row_of))),
+            motion: Some(scaled.motion(&answer)),
+        },
+        (Status::Infeasible, _) => Limit::Unbounded.into(),
+        // No λ allows a balance (for the largest λ: no λ ≥ 0). Along this motion, the loads do positive work for
+        // each of these λ.
+        (Status::Unbounded, _) => ExtremeValue { motion: Some(scaled.motion(&answer)), ..Limit::Infeasible.into() },
+        _ => Limit::Unsolved.into(),
     }
-    Limit::Unsolved.into()
 }
 
-/// The loads of a program and the direction in which they grow, both scaled to a largest entry of 1.
-pub(super) struct ScaledLoads {
-    pub(super) loads: Vec<f64>,
-    pub(super) direction: Vec<f64>,
-    /// The largest entry of the loads before scaling, or 1 if there are no loads.
-    load_size: f64,
+/// A scaled program, and the direction in which its loads grow, also scaled to a largest entry of 1.
+struct ScaledLine<'p> {
+    scaled: ScaledProgram<'p>,
+    direction: Vec<f64>,
     /// The largest entry of the direction before scaling.
-    pub(super) direction_size: f64,
+    size: f64,
 }
 
-impl ScaledLoads {
-    /// Scales the loads of a program and a direction; `None` if the direction is zero.
-    pub(super) fn new(program: &Program, direction: &[f64]) -> Option<ScaledLoads> {
-        let direction_size = largest(direction);
-        if direction_size == 0.0 {
-            return None;
-        }
-        let load_size = match largest(&program.loads) {
-            0.0 => 1.0,
-            size => size,
-        };
-        let scaled = |list: &[f64], by: f64| list.iter().map(|v| v / by).collect();
-        Some(ScaledLoads {
-            loads: scaled(&program.loads, load_size),
-            direction: scaled(direction, direction_size),
-            load_size,
-            direction_size,
+impl<'p> ScaledLine<'p> {
+    /// Scales a program and a direction; `None` if the direction is zero.
+    fn new(program: &'p Program, direction: &[f64]) -> Option<ScaledLine<'p>> {
+        let size = largest(direction);
+        (size != 0.0).then(|| ScaledLine {
+            scaled: ScaledProgram::new(program),
+            direction: direction.iter().map(|v| v / size).collect(),
+            size,
         })
     }
 
-    /// Returns the columns of the program without redundant columns ([`ReducedColumns`]), with limits in the unit of
-    /// the scaled loads.
-    pub(super) fn columns(&self, program: &Program) -> Vec<Column> {
-        ReducedColumns::new(&columns_in(program, self.load_size)).columns
-    }
-
     /// Converts a factor of the scaled direction to the factor of the original direction.
-    pub(super) fn factor(&self, scaled: f64) -> f64 {
-        scaled * self.load_size / self.direction_size
+    fn factor(&self, scaled: f64) -> f64 {
+        scaled * self.scaled.load / self.size
     }
 
-    /// Returns the scaled loads plus `factor` times the scaled direction.
-    pub(super) fn total(&self, factor: f64) -> Vec<f64> {
-        let pairs = self.loads.iter().zip(&self.direction);
-        pairs.map(|(load, along)| load + factor * along).collect()
-    }
-
-    /// Returns the amount of each column under the scaled loads `total`, in program units. The solver's residual is
-    /// removed first.
-    pub(super) fn amounts(&self, total: &[f64], columns: &[Column], answer: &Answer, row_of: &[usize]) -> Vec<f64> {
-        let mut amounts = rebalanced(total, columns, amounts_of_rows(answer, row_of));
-        amounts.iter_mut().for_each(|amount| *amount *= self.load_size);
-        amounts
-    }
-
-    /// Returns the mechanism of an answer: three velocities for each block.
-    pub(super) fn motion(&self, answer: &Answer) -> Vec<f64> {
-        answer.x[..self.loads.len()].iter().map(|v| -v).collect()
+    /// Returns the amount of each column under the scaled loads plus `factor` times the scaled direction. The solver's
+    /// residual is removed first.
+    fn amounts(&self, factor: f64, answer: &Answer, row_of: &[usize]) -> Vec<f64> {
+        let pairs = self.scaled.loads.iter().zip(&self.direction);
+        let total: Vec<f64> = pairs.map(|(load, along)| load + factor * along).collect();
+        rebalanced(&total, &self.scaled.columns, amounts_of_rows(answer, row_of))
     }
 }
 
+/// Solves a program with one tolerance and conditioning after the other, until the solver ends with a result.
+fn solve_in_turn(problem: &QuadraticProgram, attempts: impl Iterator<Item = (f64, Conditioning)>) -> Answer {
+    let mut answer = Answer::without_status(problem);
+    for (tolerance, conditioning) in attempts {
+        answer = solve(problem, tolerance, conditioning);
+        if answer.status != Status::Unsolved {
+            break;
+        }
+    }
+    answer
+}
+
 /// Returns the tolerances and conditionings in the order in which they are tried. For many blocks, the faster plain
-/// conditioning is tried first, and the finest tolerance is not tried.
-pub(super) fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
-    let has_many_blocks = program.blocks >= MANY_BLOCKS;
-    let plain = has_many_blocks.then_some((TOLERANCES[1], Conditioning::Plain));
-    let finest = usize::from(has_many_blocks);
-    let full = TOLERANCES.into_iter().skip(finest);
-    plain.into_iter().chain(full.map(|tolerance| (tolerance, Conditioning::Full)))
+/// conditioning is tried first. The finest tolerance is then not tried: with it, a wall of 410 bricks ends without a
+/// result.
+fn attempts(program: &Program) -> impl Iterator<Item = (f64, Conditioning)> {
+    let is_coarse = program.has_many_blocks();
+    let plain = is_coarse.then_some((TOLERANCES[1], Conditioning::Plain));
+    plain.into_iter().chain(full_attempts().skip(usize::from(is_coarse)))
+}
+
+/// Returns all tolerances with full conditioning, in the order in which they are tried.
+fn full_attempts() -> impl Iterator<Item = (f64, Conditioning)> {
+    TOLERANCES.into_iter().map(|tolerance| (tolerance, Conditioning::Full))
 }
 
 /// Returns the amounts after the least change that removes the solver's residual.
 pub(super) fn rebalanced(loads: &[f64], columns: &[Column], amounts: Vec<f64>) -> Vec<f64> {
     let settings = Conditioning::Plain.into();
     balance_by_least_change(loads, columns, amounts, settings, &mut Effort::default())
-}
-
-/// Returns the columns of a program, with limits in multiples of the load `unit`.
-pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
-    let mut columns = columns(program);
-    for column in &mut columns {
-        column.limit /= unit;
-    }
-    columns
 }
 
 /// Finds the least limit of one component of one grip with which admissible forces balance the loads. All other limits
@@ -257,5 +225,97 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
         }
         Status::Unbounded => Limit::Infeasible.into(),
         _ => Limit::Unsolved.into(),
+    }
+}
+
+/// The optimum of the program of the largest load factor.
+#[derive(Clone, Debug)]
+pub struct LimitState {
+    /// The largest factor.
+    pub factor: f64,
+    /// The columns of the program without the redundant pure normal forces (see `scaled_program`).
+    pub columns: Vec<Column>,
+    /// The amount of each column at the limit, in program units, at least 0.
+    pub amounts: Vec<f64>,
+    /// The collapse mechanism: three velocities for each block. Along it, the additional load of a factor of 1 has
+    /// power 1.
+    pub motion: Vec<f64>,
+}
+
+/// Finds the largest λ ≥ 0 for which admissible forces balance `program.loads + λ·direction`, and the forces and the
+/// mechanism at this λ. To find out whether they are unique, the amount of every single column is needed; it is not
+/// added up to the forces of contacts and grips.
+///
+/// `None` if λ has no largest value, if no λ ≥ 0 allows a balance, or if the solver ends without a result.
+pub fn limit_state(program: &Program, direction: &[f64]) -> Option<LimitState> {
+    let line = ScaledLine::new(program, direction)?;
+    let scaled = &line.scaled;
+    let (problem, row_of) = load_factor_dual(&scaled.loads, &line.direction, &scaled.columns);
+    let answer = solve_in_turn(&problem, attempts(program));
+    if answer.status != Status::Solved {
+        return None;
+    }
+    let factor = answer.z.last()?.max(0.0);
+    let amounts = line.amounts(factor, &answer, &row_of);
+    Some(LimitState {
+        factor: line.factor(factor),
+        // The limits of these columns are in program units, not scaled to the loads.
+        columns: ReducedColumns::new(&columns(program)).columns,
+        amounts: amounts.iter().map(|amount| amount * scaled.load).collect(),
+        motion: scaled.motion(&answer).iter().map(|v| v / line.size).collect(),
+    })
+}
+
+/// The largest force of a grip in a direction.
+#[derive(Clone, Debug)]
+pub enum Support {
+    /// The largest force is finite.
+    At {
+        /// Forces that balance the loads, in program units. The force of the grip is the largest one in the direction.
+        forces: Amounts,
+        /// The mechanism: three velocities for each block, in units of the program.
+        motion: Vec<f64>,
+    },
+    /// Forces of any size are possible.
+    Unbounded,
+    /// No force of the grip balances the loads.
+    Infeasible,
+    /// The solver ended without a result.
+    Unsolved,
+}
+
+/// Finds the force of `grip` with the largest component along `direction`, a unit vector.
+///
+/// The program is max d·F s.t. Σ amount·column = loads, where F is the force of the grip and d the direction. The dual
+/// is kinematic: max loadsᵀy s.t. columnᵀy ≤ 0, and in the motion −y the grip point has the velocity d. The motion −y is
+/// the mechanism by which the structure fails under a larger force. Plain conditioning is tried first, because it is
+/// faster. If `is_retry` is true, the result of an earlier call could not be proved; only full conditioning is then
+/// tried.
+pub fn support(program: &Program, grip: usize, direction: Vector, is_retry: bool) -> Support {
+    let scaled = ScaledProgram::new(program);
+    let (problem, row_of) = kinematic_dual(&scaled.loads, &scaled.columns, farthest_cost(grip, direction));
+    let plain = (!is_retry).then_some((TOLERANCE, Conditioning::Plain));
+    let answer = solve_in_turn(&problem, plain.into_iter().chain(full_attempts()));
+    match answer.status {
+        Status::Solved => {
+            let amounts = rebalanced(&scaled.loads, &scaled.columns, amounts_of_rows(&answer, &row_of));
+            Support::At { forces: scaled.forces(amounts), motion: scaled.motion(&answer) }
+        }
+        // No mechanism moves the grip point with the velocity `direction`, so nothing limits the force.
+        Status::Infeasible => Support::Unbounded,
+        Status::Unbounded => Support::Infeasible,
+        Status::Unsolved => Support::Unsolved,
+    }
+}
+
+/// Returns the cost function of the program that finds the force of a grip with the largest component along a
+/// direction. For the force components of this grip, the cost is minus the component along the direction; for all other
+/// columns it is 0.
+pub(super) fn farthest_cost(grip: usize, direction: Vector) -> impl Fn(&Column) -> f64 {
+    move |column| match column.force {
+        Force::Grip { grip: column_grip, component, sign } if column_grip == grip && component < 2 => {
+            -sign * direction[component]
+        }
+        _ => 0.0,
     }
 }

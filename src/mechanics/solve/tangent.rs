@@ -10,9 +10,9 @@
 //! Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
 use super::dual::amounts_of_rows;
-use super::limit::{columns_in, rebalanced};
-use super::reduced_columns::ReducedColumns;
-use super::{Amounts, Conditioning, Effort, Face, Status, largest, solve_with_retry};
+use super::limit::rebalanced;
+use super::scaled_program::ScaledProgram;
+use super::{Amounts, Conditioning, Effort, Status, largest, solve_with_retry};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, least_residual_dual};
 
@@ -25,7 +25,6 @@ pub struct Tangent {
     columns: Vec<Column>,
     amounts: Vec<f64>,
     y: Vec<f64>,
-    load: f64,
     /// The work of the contact forces along y.
     work: f64,
 }
@@ -33,13 +32,10 @@ pub struct Tangent {
 impl Tangent {
     /// Solves the program of least residual. `None` if there are no loads, or if the solver finds no optimum.
     pub fn new(program: &Program) -> Option<Tangent> {
-        let load = match largest(&program.loads) {
-            0.0 => return None,
-            load => load,
-        };
-        let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-        // The loads are scaled to a largest load of 1, as in `least_residual`.
-        let columns = ReducedColumns::new(&columns_in(program, load)).columns;
+        if largest(&program.loads) == 0.0 {
+            return None;
+        }
+        let ScaledProgram { loads, columns, .. } = ScaledProgram::new(program);
         let (conic, row_of) = least_residual_dual(&loads, &columns);
         let answer = solve_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
         if answer.status != Status::Solved {
@@ -52,7 +48,6 @@ impl Tangent {
             amounts: amounts_of_rows(&answer, &row_of),
             columns,
             y: answer.x[..loads.len()].to_vec(),
-            load,
             work: 0.0,
         };
         tangent.work = tangent.work_in(program);
@@ -73,11 +68,8 @@ impl Tangent {
     /// Returns the forces of least residual, corrected by the least change that removes the residual. Amounts that
     /// would become negative are set to 0, so a residual may remain.
     pub fn forces(&self, program: &Program) -> Amounts {
-        let loads: Vec<f64> = program.loads.iter().map(|v| v / self.load).collect();
-        let mut amounts = rebalanced(&loads, &self.columns, self.amounts.clone());
-        amounts.iter_mut().for_each(|amount| *amount *= self.load);
-        let face = Face::whole(&loads, self.columns.clone()).with_amounts(amounts);
-        face.to_forces(program).0
+        let scaled = ScaledProgram::new(program);
+        scaled.forces(rebalanced(&scaled.loads, &scaled.columns, self.amounts.clone()))
     }
 
     /// Returns the work of the contact forces along the velocities y. Each contact has full friction, and has the

@@ -124,7 +124,7 @@ impl Component<'_> {
 
     /// Converts the forces `amounts` to newtons. Also returns whether they balance every body together with the
     /// adhesion.
-    pub(super) fn prove_with_adhesion(&self, amounts: &Amounts, adhesion: &Amounts) -> (Forces, bool) {
+    pub(super) fn prove_with_adhesion(&self, amounts: Amounts, adhesion: &Amounts) -> (Forces, bool) {
         let held = self.with_adhesion(adhesion);
         let component = Component { assembly: &held, settings: self.settings.clone(), ..*self };
         let proved = component.prove_forces(amounts);

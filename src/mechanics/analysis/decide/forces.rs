@@ -20,8 +20,10 @@ enum Noise {
 /// A sum of forces counts as the least if it exceeds its lower bound by at most this fraction.
 const SUM_TOL: f64 = 1e-6;
 
-/// Forces in newtons with their proof.
+/// Forces in program units and in newtons, with their proof.
+#[derive(Clone)]
 pub(super) struct ProvedForces {
+    pub amounts: Amounts,
     pub forces: Forces,
     pub proof: Proof,
 }
@@ -33,38 +35,41 @@ impl Component<'_> {
     /// Noise is set to 0 and friction is limited to μN. The rest of the solver's error is then only an imbalance, which
     /// the proof measures. A force that is noise among heavy blocks may hold a light block. If the proof fails, fewer
     /// forces are therefore set to 0.
-    pub fn prove_forces(&self, amounts: &Amounts) -> ProvedForces {
+    pub fn prove_forces(&self, amounts: Amounts) -> ProvedForces {
         // Try again with fewer forces set to 0. If no attempt gives a proof, return the forces that balance the most
         // bodies.
-        let mut best: Option<(usize, ProvedForces)> = None;
+        let mut best: Option<(usize, Forces, Proof)> = None;
         for noise in [Noise::OfTheWhole, Noise::OfEachBody, Noise::None] {
-            let forces = self.in_newtons(amounts, noise);
+            let forces = self.in_newtons(&amounts, noise);
             let proof = proof::check_forces(self.assembly, &forces);
-            let proved = ProvedForces { forces, proof };
             // After the deadline return the first result.
             if self.accepts(&proof) || is_late() {
-                return proved;
+                return ProvedForces { amounts, forces, proof };
             }
-            let imbalances = proof::imbalances(self.assembly, &proved.forces);
-            let unbalanced_count = imbalances.iter().filter(|imbalances| **imbalances > self.threshold.imbalance);
-            let unbalanced_count = unbalanced_count.count();
+            let unbalanced_count = self.unbalanced(&forces).iter().filter(|is_unbalanced| **is_unbalanced).count();
             if best.as_ref().is_none_or(|best| unbalanced_count < best.0) {
-                best = Some((unbalanced_count, proved));
+                best = Some((unbalanced_count, forces, proof));
             }
         }
         match best {
-            Some((_, proved)) => proved,
+            Some((_, forces, proof)) => ProvedForces { amounts, forces, proof },
             None => {
                 let forces = Forces::zero(self.assembly);
                 let proof = proof::check_forces(self.assembly, &forces);
-                ProvedForces { forces, proof }
+                ProvedForces { amounts, forces, proof }
             }
         }
     }
 
-    /// Returns a lower bound on the sum of balancing forces, N, and whether the forces `amounts` reach this bound. The
+    /// Returns, for each body, whether the forces leave it unbalanced by more than a proof allows.
+    pub fn unbalanced(&self, forces: &Forces) -> Vec<bool> {
+        let imbalances = proof::imbalances(self.assembly, forces);
+        imbalances.iter().map(|imbalance| *imbalance > self.threshold.imbalance).collect()
+    }
+
+    /// Returns a lower bound on the sum of balancing forces, N, and whether the sum of `forces` reaches this bound. The
     /// bound follows from the motion `witness` (program units); without `witness` it is `None`.
-    pub fn bound_force_sum(&self, witness: Option<&[f64]>, amounts: &Amounts) -> (Option<f64>, bool) {
+    pub fn bound_force_sum(&self, witness: Option<&[f64]>, forces: &Forces) -> (Option<f64>, bool) {
         let Some(witness) = witness else {
             return (None, false);
         };
@@ -77,7 +82,7 @@ impl Component<'_> {
             })
             .collect();
         let bound = proof::force_sum_lower_bound(self.assembly, &motion);
-        let sum = self.prove_forces(amounts).forces.sum(self.assembly.length);
+        let sum = forces.sum(self.assembly.length);
         (Some(bound), sum <= (1.0 + SUM_TOL) * bound)
     }
 
@@ -199,15 +204,16 @@ mod tests {
         };
         // A motion downwards with speed 1: a sum below 2 N cannot balance 2 N.
         let witness = [0.0, -1.0, 0.0];
-        let found = |robot: f64| component.bound_force_sum(Some(&witness), &pressed(robot));
+        let proved = |robot: f64| component.prove_forces(pressed(robot));
+        let found = |robot: f64| component.bound_force_sum(Some(&witness), &proved(robot).forces);
         for robot in [0.0, 2.0] {
-            assert!(component.accepts(&component.prove_forces(&pressed(robot)).proof));
+            assert!(component.accepts(&proved(robot).proof));
         }
         for (robot, is_least) in [(0.0, true), (2.0, false), (1e-5, false)] {
             let (bound, found_least) = found(robot);
             assert!((bound.expect("a bound") - 2.0).abs() < 1e-12);
             assert_eq!(found_least, is_least, "{robot}");
         }
-        assert_eq!(component.bound_force_sum(None, &pressed(0.0)), (None, false));
+        assert_eq!(component.bound_force_sum(None, &proved(0.0).forces), (None, false));
     }
 }

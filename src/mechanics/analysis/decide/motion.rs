@@ -2,7 +2,6 @@
 //! forces can stop this motion (route 3b).
 
 use super::Component;
-use super::strategy::LARGE_PROGRAM_BLOCKS;
 use crate::geometry::Vector;
 use crate::mechanics::program::Program;
 use crate::mechanics::proof::{self, Motion, Proof, fastest};
@@ -31,14 +30,8 @@ impl Component<'_> {
         if speed == 0.0 {
             return None;
         }
-        // If the motion violates contacts, remove the solver's error. For a large component, first try a motion of a
-        // few rigid pieces, which is faster and more accurate.
+        // If the motion violates contacts, remove the solver's error.
         if proof.excluded_force_sum().is_finite() {
-            let many = motion.len() >= LARGE_PROGRAM_BLOCKS;
-            let in_pieces = || self.prove_motion_in_pieces(&motion, effort);
-            if let Some(found) = many.then(in_pieces).flatten() {
-                return Some(found);
-            }
             let unit: Vec<f64> = y.iter().map(|v| v / speed).collect();
             (_, motion) = self.to_motions(&repair_motion(program, &unit, effort)?);
             proof = self.check_mechanism(&motion);

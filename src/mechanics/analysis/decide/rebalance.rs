@@ -16,11 +16,11 @@
 //! Each round balances lighter bodies. Unbalanced sets within a set are treated in the same way.
 
 use super::forces::ProvedForces;
-use super::{Component, LimitDistance};
+use super::{Component, LimitDistance, Outcome};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::{Program, Scale};
-use crate::mechanics::proof::{self, Motion, Proof};
+use crate::mechanics::proof::{self, Motion};
 use crate::mechanics::solve::{Amounts, Effort, is_late, rebalance_absolute, rebalance_relative};
 use crate::mechanics::statics::assembly::Substructure;
 
@@ -36,80 +36,59 @@ const MAX_SMALL_SET: usize = 12;
 /// load.
 const MAX_WHOLE_IMBALANCE: f64 = 1e-6;
 
-/// The result of correcting forces that balance the component as a whole.
-pub(super) enum RebalanceOutcome {
-    /// The forces balance each body.
-    Stands(Amounts, Proof),
-    /// Some bodies fall while all others rest.
-    Falls(FallingPart),
-    /// Neither is proved.
-    Undecided,
-}
-
-/// Bodies that fall while all others rest.
-pub(super) struct FallingPart {
-    /// The motion of every body of the component.
-    pub mechanism: Vec<Motion>,
-    pub proof: Proof,
-    /// The forces on the resting bodies, and the admissible forces on the falling bodies, which act together with the
-    /// adhesion.
-    pub amounts: Amounts,
-    /// The adhesion that the falling bodies lack; `None` if no adhesion can hold them or none was computed.
-    pub adhesion: Option<Amounts>,
+/// The result of correcting forces that balance a component as a whole, or of correcting the forces on a part.
+pub(super) enum Rebalanced {
+    /// Corrected forces. For a component they balance each body.
+    Forces(ProvedForces),
+    /// Some bodies fall while all others rest. The outcome has their mechanism, and if they are known, their missing
+    /// adhesion and the forces that act together with it.
+    Falls(Box<Outcome>),
 }
 
 impl Component<'_> {
-    /// Corrects forces until they balance every body, or proves that some bodies fall. Returns
-    /// [`RebalanceOutcome::Undecided`] if neither succeeds.
-    pub fn rebalance_locally(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> RebalanceOutcome {
+    /// Returns forces with a proof that they balance every body: the given forces, if they do, otherwise corrected
+    /// forces. Or proves that some bodies fall. `None` if neither succeeds.
+    pub fn balance_every_body(&self, program: &Program, amounts: &Amounts, effort: &mut Effort) -> Option<Rebalanced> {
+        let mut proved = self.prove_forces(amounts.clone());
+        if self.accepts(&proved.proof) {
+            return Some(Rebalanced::Forces(proved));
+        }
         let largest_load = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if amounts.unbalanced(program) > MAX_WHOLE_IMBALANCE * largest_load {
-            return RebalanceOutcome::Undecided;
+            return None;
         }
-        let mut amounts = amounts.clone();
-        let failing = |proved: &ProvedForces| -> Vec<bool> {
-            let imbalance = proof::imbalances(self.assembly, &proved.forces);
-            imbalance.iter().map(|imbalance| *imbalance > self.threshold.imbalance).collect()
-        };
-        let count = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
+        let count = |proved: &ProvedForces| self.unbalanced(&proved.forces).iter().filter(|fails| **fails).count();
         let mut all_at_once = true;
         for _ in 0..MAX_ROUNDS {
-            let proved = self.prove_forces(&amounts);
-            if self.accepts(&proved.proof) {
-                return RebalanceOutcome::Stands(amounts, proved.proof);
-            }
             if is_late() {
-                break;
+                return None;
             }
-            let fails = failing(&proved);
+            let improved = |amounts: Option<Amounts>| {
+                amounts.map(|amounts| self.prove_forces(amounts)).filter(|improved| count(improved) < count(&proved))
+            };
             // Step 1: change each force by a small fraction of itself.
-            if let Some(improved) = rebalance_relative(program, &amounts, effort)
-                && count(&failing(&self.prove_forces(&improved))) < count(&fails)
-            {
-                amounts = improved;
-                continue;
-            }
+            let mut better = improved(rebalance_relative(program, &proved.amounts, effort));
             // Step 2: change all forces as little as possible. If this fails once, do not try it again.
-            if all_at_once {
-                match rebalance_absolute(program, &amounts, effort) {
-                    Some(improved) if count(&failing(&self.prove_forces(&improved))) < count(&fails) => {
-                        amounts = improved;
-                        continue;
-                    }
-                    _ => all_at_once = false,
-                }
+            if better.is_none() && all_at_once {
+                better = improved(rebalance_absolute(program, &proved.amounts, effort));
+                all_at_once = better.is_some();
             }
             // Steps 3 and 4: correct or decide each connected set of unbalanced bodies separately.
-            let sets = self.assembly.connected(&fails);
-            let (falling, has_changed) = self.rebalance_sets(sets, &mut amounts, effort);
-            if !falling.is_empty() {
-                return self.combine_falling_parts(program, amounts, &falling);
+            if better.is_none() {
+                let sets = self.assembly.connected(&self.unbalanced(&proved.forces));
+                let mut amounts = proved.amounts.clone();
+                let (falling, has_changed) = self.rebalance_sets(sets, &mut amounts, effort);
+                if !falling.is_empty() {
+                    return self.combine_falling_parts(program, amounts, falling);
+                }
+                better = has_changed.then(|| self.prove_forces(amounts));
             }
-            if !has_changed {
-                break;
+            proved = better?;
+            if self.accepts(&proved.proof) {
+                return Some(Rebalanced::Forces(proved));
             }
         }
-        RebalanceOutcome::Undecided
+        None
     }
 
     /// Corrects the forces on each set of bodies, while all other bodies are fixed. Returns the sets that fall, and
@@ -119,26 +98,26 @@ impl Component<'_> {
         sets: Vec<Vec<usize>>,
         amounts: &mut Amounts,
         effort: &mut Effort,
-    ) -> (Vec<(Substructure, PartFall)>, bool) {
+    ) -> (Vec<(Substructure, Outcome)>, bool) {
         let mut falling = Vec::new();
         let mut has_changed = false;
         for set in sets {
             let part = self.assembly.substructure(&set);
             match self.rebalance_part(&part, amounts, effort) {
-                PartOutcome::Changed(changed) => {
-                    self.insert_part(amounts, &part, &changed);
+                Some(Rebalanced::Forces(changed)) => {
+                    self.insert_part(amounts, &part, &changed.amounts);
                     has_changed = true;
                 }
-                PartOutcome::Falls(found) => falling.push((part, found)),
-                PartOutcome::Undecided => {}
+                Some(Rebalanced::Falls(found)) => falling.push((part, *found)),
+                None => {}
             }
         }
         (falling, has_changed)
     }
 
     /// Corrects the forces on one set of bodies, while all other bodies are fixed. If this fails, decides whether the
-    /// set falls.
-    fn rebalance_part(&self, part: &Substructure, amounts: &Amounts, effort: &mut Effort) -> PartOutcome {
+    /// set falls. The amounts of the result are in the units of the whole component.
+    fn rebalance_part(&self, part: &Substructure, amounts: &Amounts, effort: &mut Effort) -> Option<Rebalanced> {
         let component = Component {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
@@ -150,69 +129,63 @@ impl Component<'_> {
         // Loads near the smallest floating-point numbers cannot be scaled, so leave this set undecided.
         let ratio = self.scale.force / component.scale.force;
         if !component.scale.force.is_normal() || !ratio.is_normal() {
-            return PartOutcome::Undecided;
+            return None;
         }
         let program = Program::new(&part.assembly, component.scale);
-        let part_amounts_before = self.part_amounts(amounts, part, component.scale);
-        let imbalance = |amounts: &Amounts| {
-            let imbalance = proof::imbalances(&part.assembly, &component.prove_forces(amounts).forces);
-            imbalance.into_iter().fold(0.0, f64::max)
+        let in_whole_units = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
+        let changed = |proved: ProvedForces| {
+            Some(Rebalanced::Forces(ProvedForces { amounts: in_whole_units(&proved.amounts), ..proved }))
         };
-        if let Some(improved) = rebalance_absolute(&program, &part_amounts_before, effort)
-            && imbalance(&improved) < 0.5 * imbalance(&part_amounts_before)
-        {
-            return PartOutcome::Changed(in_units(&improved, component.scale, self.scale));
+        let before = component.prove_forces(self.part_amounts(amounts, part, component.scale));
+        let imbalance =
+            |proved: &ProvedForces| proof::imbalances(&part.assembly, &proved.forces).into_iter().fold(0.0, f64::max);
+        if let Some(improved) = rebalance_absolute(&program, &before.amounts, effort) {
+            let improved = component.prove_forces(improved);
+            if imbalance(&improved) < 0.5 * imbalance(&before) {
+                return changed(improved);
+            }
         }
         // Do not decide a part that contains all bodies, or a large part that contains more than half of them. This
         // would take about as long as deciding the whole component, which is already in progress.
         let (part_count, body_count) = (part.bodies.len(), self.assembly.bodies.len());
         if part_count == body_count || (part_count > MAX_SMALL_SET && 2 * part_count > body_count) {
-            return PartOutcome::Undecided;
+            return None;
         }
-        if let Some(found) = component.in_closed_form(&program) {
-            return match found.verdict {
-                Verdict::Unstable => {
-                    PartOutcome::Falls(PartFall { mechanism: found.mechanism, amounts: None, adhesion: None })
-                }
-                _ => PartOutcome::Undecided,
-            };
-        }
-        let decision = component.complete(&program, component.decide_by_programs(&program));
-        *effort = effort.plus(decision.effort);
-        let in_whole_units = |amounts: &Amounts| in_units(amounts, component.scale, self.scale);
-        match decision.verdict {
-            Verdict::Stable => PartOutcome::Changed(in_whole_units(&decision.amounts)),
-            Verdict::Unstable => PartOutcome::Falls(PartFall {
-                amounts: Some(in_whole_units(&decision.amounts)),
-                adhesion: decision.adhesion.as_ref().map(in_whole_units),
-                mechanism: decision.mechanism,
-            }),
-            Verdict::Undecided => PartOutcome::Undecided,
+        let mut outcome = component
+            .in_closed_form(&program)
+            .unwrap_or_else(|| component.complete(&program, component.decide_by_programs(&program)));
+        *effort = effort.plus(outcome.effort);
+        match outcome.verdict {
+            Verdict::Stable => {
+                changed(ProvedForces { amounts: outcome.amounts, forces: outcome.forces, proof: outcome.proof })
+            }
+            Verdict::Unstable => {
+                outcome.amounts = in_whole_units(&outcome.amounts);
+                outcome.adhesion = outcome.adhesion.as_ref().map(in_whole_units);
+                Some(Rebalanced::Falls(Box::new(outcome)))
+            }
+            Verdict::Undecided => None,
         }
     }
 
     /// Combines the motions of the falling parts into one motion, in which all other bodies are at rest, and proves it
-    /// for the whole component. Returns [`RebalanceOutcome::Undecided`] if the proof is too weak.
+    /// for the whole component. `None` if the proof is too weak.
     fn combine_falling_parts(
         &self,
         program: &Program,
-        mut amounts: Amounts,
-        falling: &[(Substructure, PartFall)],
-    ) -> RebalanceOutcome {
-        let mut mechanism: Vec<Motion> = self
-            .assembly
-            .bodies
-            .iter()
-            .map(|body| Motion { block: body.block, velocity: Vector::zeros(), spin: 0.0 })
-            .collect();
+        amounts: Amounts,
+        falling: Vec<(Substructure, Outcome)>,
+    ) -> Option<Rebalanced> {
+        let bodies = self.assembly.bodies.iter();
+        let mut mechanism: Vec<Motion> =
+            bodies.map(|body| Motion { block: body.block, velocity: Vector::zeros(), spin: 0.0 }).collect();
+        let mut outcome = Outcome { amounts, ..Outcome::undecided(self.assembly, program) };
         let mut adhesion = Some(Amounts::zero(program));
-        for (part, fall) in falling {
+        for (part, fall) in &falling {
             for (body, motion) in part.bodies.iter().zip(&fall.mechanism) {
                 mechanism[*body] = *motion;
             }
-            if let Some(held) = &fall.amounts {
-                self.insert_part(&mut amounts, part, held);
-            }
+            self.insert_part(&mut outcome.amounts, part, &fall.amounts);
             match (&mut adhesion, &fall.adhesion) {
                 (Some(adhesion), Some(missing)) => self.insert_part(adhesion, part, missing),
                 _ => adhesion = None,
@@ -220,9 +193,11 @@ impl Component<'_> {
         }
         let proof = self.check_mechanism(&mechanism);
         if !self.accepts_motion(&mechanism, &proof) {
-            return RebalanceOutcome::Undecided;
+            return None;
         }
-        RebalanceOutcome::Falls(FallingPart { mechanism, proof, amounts, adhesion })
+        outcome.fall(mechanism, proof);
+        outcome.adhesion = adhesion;
+        Some(Rebalanced::Falls(Box::new(outcome)))
     }
 
     /// Selects the forces that act on a part, and converts them to the units of `scale`.
@@ -245,21 +220,6 @@ impl Component<'_> {
             amounts.grip[*number] = part_amounts.grip[position];
         }
     }
-}
-
-/// The result for a part. Forces are in the units of the whole component.
-enum PartOutcome {
-    Changed(Amounts),
-    Falls(PartFall),
-    Undecided,
-}
-
-/// A part that falls. Forces and adhesion are in the units of the whole component; `None` if they were not computed.
-struct PartFall {
-    /// One motion for each body of the part.
-    mechanism: Vec<Motion>,
-    amounts: Option<Amounts>,
-    adhesion: Option<Amounts>,
 }
 
 /// Converts forces from the units of one scale to those of another.

@@ -1,11 +1,11 @@
-//! Computes only the verdict of a component, for margins and capacities. A margin needs the verdicts of many similar
-//! components, most of them near the limit of stability.
+//! Computes only the verdict of a component, for margins and capacities, and proves the forces and motions of linear
+//! programs at the limit of stability. A margin needs the verdicts of many similar components, most of them near this
+//! limit.
 
-use super::programs::Decision;
-use super::{Component, LimitDistance, ProofCache};
+use super::{Component, LimitDistance, Outcome, ProofCache};
 use crate::mechanics::analysis::{Options, Verdict};
 use crate::mechanics::program::Program;
-use crate::mechanics::proof::{Forces, Motion};
+use crate::mechanics::proof::{Forces, Motion, Proof};
 use crate::mechanics::solve::{Amounts, Effort, is_late};
 use crate::mechanics::statics::assembly::Assembly;
 
@@ -28,13 +28,13 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     if let Some(found) = component.in_closed_form(&program) {
         return (found.verdict, found.mechanism);
     }
-    let decision = decide_without_non_binding_limits(&component, &program);
-    match decision.verdict {
-        Verdict::Stable => cache.add_forces(assembly, component.prove_forces(&decision.amounts).forces),
-        Verdict::Unstable => cache.add_motion(decision.mechanism.clone()),
+    let found = decide_without_non_binding_limits(&component, &program);
+    match found.verdict {
+        Verdict::Stable => cache.add_forces(assembly, found.forces),
+        Verdict::Unstable => cache.add_motion(found.mechanism.clone()),
         Verdict::Undecided => {}
     }
-    (decision.verdict, decision.mechanism)
+    (found.verdict, found.mechanism)
 }
 
 /// Returns the error of the most accurate known forces that balance an assembly, as `Proof::force_error` defines it.
@@ -69,18 +69,17 @@ pub(in crate::mechanics::analysis) fn verdict_from_cache(
 }
 
 /// The options for margins and capacities, which need only the verdict.
-pub(super) const VERDICT_ONLY: Options = Options { verdict_only: true, ..Options::PLAIN };
+const VERDICT_ONLY: Options = Options { verdict_only: true, ..Options::PLAIN };
 
 /// Computes only the verdict of a component. First ignores the limits of robots that are far above the loads. Uses all
 /// limits if this gives no decision.
-pub(super) fn decide_without_non_binding_limits(component: &Component, program: &Program) -> Decision {
+fn decide_without_non_binding_limits(component: &Component, program: &Program) -> Outcome {
     // A motion that stronger robots cannot stop is a mechanism with the real limits, too.
     if let Some(generous) = program.without_non_binding_limits() {
-        let decision = component.decide_by_programs(&generous);
-        let allowed = || program.allows(&decision.amounts.grip);
-        match decision.verdict {
-            Verdict::Unstable => return decision,
-            Verdict::Stable if allowed() => return decision,
+        let found = component.decide_by_programs(&generous);
+        match found.verdict {
+            Verdict::Unstable => return found,
+            Verdict::Stable if program.allows(&found.amounts.grip) => return found,
             _ => {}
         }
     }
@@ -104,7 +103,7 @@ pub(in crate::mechanics::analysis) fn add_limit_to_cache(
     results: &LimitResults,
     cache: &mut ProofCache,
 ) -> Option<Forces> {
-    let component = |assembly| Component { scale: results.program.scale, ..Component::new(assembly, VERDICT_ONLY) };
+    let component = |assembly| in_scale_of(assembly, results.program);
     if let Some((y, assembly)) = results.motion {
         let mut effort = Effort::default();
         let found = component(assembly).prove_motion(results.program, y, &mut effort);
@@ -113,7 +112,66 @@ pub(in crate::mechanics::analysis) fn add_limit_to_cache(
         }
     }
     let (amounts, assembly) = results.forces?;
-    let forces = component(assembly).prove_forces(amounts).forces;
+    let forces = component(assembly).prove_forces(amounts.clone()).forces;
     cache.add_forces(assembly, forces.clone());
     Some(forces)
+}
+
+/// Converts `amounts`, the forces of a linear program, to newtons. Returns them with the proof that they balance every
+/// body; `None` if this proof fails.
+///
+/// `program` is the linear program of `assembly`, in any scale.
+pub(in crate::mechanics::analysis) fn proved_forces(
+    assembly: &Assembly,
+    program: &Program,
+    amounts: &Amounts,
+) -> Option<(Forces, Proof)> {
+    let component = in_scale_of(assembly, program);
+    let found = component.prove_forces(amounts.clone());
+    component.accepts(&found.proof).then_some((found.forces, found.proof))
+}
+
+/// Decides a component, and returns forces in newtons that balance it, with their proof. `None` if the component falls
+/// or is undecided.
+pub(in crate::mechanics::analysis) fn decided_forces(assembly: &Assembly) -> Option<(Forces, Proof)> {
+    let component = Component::new(assembly, VERDICT_ONLY);
+    let program = Program::new(assembly, component.scale);
+    let found = decide_without_non_binding_limits(&component, &program);
+    (found.verdict == Verdict::Stable).then_some((found.forces, found.proof))
+}
+
+/// Corrects the velocities `y`, the result of a linear program, so that they violate no contact. Returns the corrected
+/// motion, with one entry for each body, and the proof that the component falls by it. `None` if no such motion is
+/// found, or if its proof is too weak.
+pub(in crate::mechanics::analysis) fn proved_motion(
+    assembly: &Assembly,
+    program: &Program,
+    y: &[f64],
+) -> Option<(Vec<Motion>, Proof)> {
+    in_scale_of(assembly, program).prove_motion(program, y, &mut Effort::default())
+}
+
+/// Converts the velocities `y`, the result of a linear program, to a motion of each body, without correction. Returns
+/// the motion with the proof that the component falls by it. `None` if the motion violates a contact by more than
+/// rounding, or if the proof is too weak.
+pub(in crate::mechanics::analysis) fn proved_exact_motion(
+    assembly: &Assembly,
+    program: &Program,
+    y: &[f64],
+) -> Option<(Vec<Motion>, Proof)> {
+    let component = in_scale_of(assembly, program);
+    let (_, motion) = component.to_motions(y);
+    let proof = component.check_mechanism(&motion);
+    let is_exact = matches!(proof, Proof::Mechanism { worst_violation, .. } if worst_violation <= MAX_ROUNDING);
+    (is_exact && component.accepts_motion(&motion, &proof)).then_some((motion, proof))
+}
+
+/// A motion violates contacts only by rounding if the violation is at most this; the fastest point has speed 1. Forces
+/// of a thousand times the loads could then change a limit by at most 1e-10 of the loads. Long chains of blocks have a
+/// rounding of 1e-14, so with a tenth of this value more motions would need a correction. With ten times this value,
+/// errors as large as the openings that [`repair_motion`](crate::mechanics::solve::repair_motion) adds would count as rounding.
+const MAX_ROUNDING: f64 = 1e-13;
+
+fn in_scale_of<'a>(assembly: &'a Assembly, program: &Program) -> Component<'a> {
+    Component { scale: program.scale, ..Component::new(assembly, VERDICT_ONLY) }
 }

@@ -1,19 +1,19 @@
 //! Checks whether a component stands only by wedging: by a self-stress that its loads do not cause when the contacts
 //! are unstressed at first.
 
-use super::{Component, Findings};
+use super::{Component, Outcome};
 use crate::mechanics::analysis::{Options, Wedged};
 use crate::mechanics::program::Program;
 use crate::mechanics::scene::Scene;
-use crate::mechanics::solve::{SelfStress, SelfStressCheck, check_self_stress};
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::wedging::Wedging;
+use crate::mechanics::wedge::{SelfStress, SelfStressCheck, check_self_stress};
 
 /// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
 /// the proof. The answer is `None` if some components are undecided and none is proved to stand only by wedging.
 pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
     scene: &Scene,
-    components: impl Iterator<Item = (&'a Assembly, &'a Findings)>,
+    components: impl Iterator<Item = (&'a Assembly, &'a Outcome)>,
 ) -> (Option<bool>, Wedging, Option<Wedged>) {
     let mut answer = (Some(false), Wedging::FromRest, None);
     for (assembly, found) in components {

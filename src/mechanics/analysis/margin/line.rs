@@ -68,6 +68,9 @@ const UNKNOWN_ERROR: f64 = 0.5 * Proof::IMBALANCE_TOL;
 /// The relative error of known forces counts as at least this value. Without this minimum, one end in a random scene
 /// was too far out by 2·10⁻⁶ of its value.
 const LEAST_ERROR: f64 = 2e-10;
+/// A value that differs from 0 by at most this fraction of [`Line::typical_small`] differs only by the rounding of the
+/// solver.
+const ROUNDING_TOL: f64 = 1e-9;
 /// Distances from an end grow by this factor while verdicts stay undecided.
 const OFFSET_GROWTH: f64 = 16.0;
 /// The largest number of steps of one search.
@@ -285,7 +288,11 @@ impl Line<'_> {
         let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
         // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
         let slope = (with - without) / self.typical_large;
-        let bound = -without / slope;
+        let mut bound = -without / slope;
+        // Rounding must not exclude the least meaningful value, such as the load factor 0.
+        if (bound - self.min_value).abs() < ROUNDING_TOL * self.typical_small {
+            bound = self.min_value;
+        }
         if !bound.is_finite() || bound.abs() > MAX_VANISHING_VALUE * self.typical_large {
             return ExcludedRange::All;
         }
@@ -304,6 +311,6 @@ impl Line<'_> {
 
     /// Returns `value`, or 0 if `value` differs from 0 only by rounding.
     fn without_rounding(&self, value: f64) -> f64 {
-        if value.abs() < 1e-9 * self.typical_small { 0.0 } else { value }
+        if value.abs() < ROUNDING_TOL * self.typical_small { 0.0 } else { value }
     }
 }

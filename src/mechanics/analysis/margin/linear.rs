@@ -8,8 +8,7 @@ use super::interval::{End, Interval};
 use super::line::Line;
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
-use crate::mechanics::program::Program;
-use crate::mechanics::solve::{ExtremeValue, Limit, largest_factor, nearest_factor};
+use crate::mechanics::solve::{Limit, largest_factor, nearest_factor};
 
 /// A value at which the component stands.
 struct Start {
@@ -66,16 +65,12 @@ pub(super) fn linear(
 /// the interval: empty or undecided.
 fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the nearest value.
-    let (mut program, toward) =
-        trial.direction(&(line.setting)(present), &(line.setting)(present + line.typical_large));
-    let mut found = nearest_factor(&program, &toward);
-    let mut at = match found.limit {
+    let (program, toward) = trial.direction(&(line.setting)(present), &(line.setting)(present + line.typical_large));
+    let found = nearest_factor(&program, &toward);
+    let at = match found.limit {
         Limit::At(change) => (present + change * line.typical_large).max(line.min_value),
         _ => present,
     };
-    if let Some(closer) = solved_closer(trial, line, [present, at], nearest_factor) {
-        (at, program, found) = closer;
-    }
     // Add the forces and the motion of this program to the cache: they often prove later verdicts. If the component
     // stands at no value, the motion proves the fall at `present`.
     let toward_present = (present - at).signum();
@@ -87,41 +82,6 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
     // Verdicts confirm the predicted value.
     let facing_end = matches!(found.limit, Limit::At(_)).then_some(at);
     Ok(Start { value: line.nearest(trial, present, facing_end)?, facing_end })
-}
-
-/// A program is solved again if its result is smaller than this fraction of its distance from the value at which the
-/// program begins.
-const SMALL: f64 = 0.1;
-
-/// The distance from the first result to the value at which the second program begins, as a fraction of the result.
-const CLOSE: f64 = 0.1;
-
-/// Solves a program for an end again, from a value close to the first result `at`. Returns the end, the program and its
-/// result. `None` if the first result is accurate enough, or if the second program has no result.
-///
-/// The accuracy of a program is relative to the loads at the value `from`, at which it begins. If these are a thousand
-/// times the loads at the end, three digits of the end are lost.
-fn solved_closer(
-    trial: &mut Trial,
-    line: &Line,
-    [from, at]: [f64; 2],
-    solve: fn(&Program, &[f64]) -> ExtremeValue,
-) -> Option<(f64, Program, ExtremeValue)> {
-    let size = line.size(at);
-    if size >= SMALL * (from - at).abs() {
-        return None;
-    }
-    let back = (from - at).signum();
-    let begin = at + back * CLOSE * size;
-    let (program, toward) = trial.direction(&(line.setting)(begin), &(line.setting)(begin - back * size));
-    let found = solve(&program, &toward);
-    match found.limit {
-        Limit::At(change) => {
-            let at = (begin - back * size * change).max(line.min_value);
-            Some((at, program, found))
-        }
-        _ => None,
-    }
 }
 
 /// Finds the end of the interval in the direction `outward` from `start`, a value at which the component stands. `base`
@@ -146,8 +106,6 @@ fn end(
         Limit::Unbounded if trial.decide(&alone(outward)).0 == Verdict::Stable => End::Unbounded,
         Limit::At(change) => {
             let at = (start + step * change).max(line.min_value);
-            let closer = solved_closer(trial, line, [start, at], largest_factor);
-            let (at, program, found) = closer.unwrap_or((at, program, found));
             let around = line.test_values(at, outward);
             trial.cache_extreme(&program, &found, around, line.setting, base);
             line.end(trial, start, outward, Some(at))

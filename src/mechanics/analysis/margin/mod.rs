@@ -33,7 +33,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::Verdict;
-use super::decide::Findings;
+use super::decide::Outcome;
 use super::key::Key;
 use crate::mechanics::solve::{DeadlineGuard, deadline};
 use crate::mechanics::statics::assembly::Assembly;
@@ -48,7 +48,7 @@ pub use trial::trials;
 pub(super) struct Part<'a> {
     pub component: &'a Assembly,
     pub key: &'a Key,
-    pub findings: &'a Findings,
+    pub findings: &'a Outcome,
 }
 
 impl Part<'_> {

@@ -16,6 +16,9 @@ use crate::mechanics::analysis::decide::LimitDistance;
 const SLOW_GAIN: f64 = 1e-2;
 /// How far the search looks ahead, as a multiple of the gain.
 const LOOKAHEAD_FACTOR: f64 = 16.0;
+/// The tilt at which two excluded arcs meet is rounded to a multiple of this, degrees. It is a power of 2, so that 180° is
+/// such a multiple, and it changes the loads by less than the tolerance of the proofs.
+const MEETING_ROUNDING: f64 = 1.0 / 16_777_216.0;
 /// Returns the interval of tilts at which a frame stands, in degrees, for a frame that does not stand without tilt. If
 /// there are several such intervals, it returns the interval nearest to 0.
 pub(super) fn nearest_stable_tilts(trials: &mut [Trial]) -> Interval {
@@ -55,7 +58,11 @@ fn first_standing(trials: &mut [Trial]) -> Result<f64, Interval> {
                         excluded.low = excluded.low.min(at - MIN_ARC);
                     }
                     if excluded.is_full_turn() {
-                        return Err(excluded.interval());
+                        // The ends of the range meet. At this one tilt the frame may stand.
+                        return match excluded.meeting_tilt() {
+                            Some(at) if matches!(decide_frame(trials, at), FrameVerdict::Stands) => Ok(at),
+                            _ => Err(excluded.interval()),
+                        };
                     }
                     let next = excluded.nearest_end();
                     let gain = (next - tilt) * outward;
@@ -107,6 +114,16 @@ impl Excluded {
 
     fn is_full_turn(&self) -> bool {
         self.high - self.low >= 360.0
+    }
+
+    /// Returns the tilt at which the ends of a range of a full turn meet, in degrees, without the rounding of the ends.
+    /// `None` if the ends overlap, so that mechanisms exclude every tilt.
+    fn meeting_tilt(&self) -> Option<f64> {
+        let first = self.arcs.iter().filter_map(|arc| arc.from).fold(f64::INFINITY, f64::min);
+        let last = self.arcs.iter().filter_map(|arc| arc.to).fold(f64::NEG_INFINITY, f64::max);
+        let gap = first + 360.0 - last;
+        let middle = last + 0.5 * gap;
+        (gap.abs() <= MIN_ARC).then(|| (middle / MEETING_ROUNDING).round() * MEETING_ROUNDING)
     }
 
     /// Returns the end of the excluded range that is nearer to 0, in degrees.

@@ -37,9 +37,30 @@ pub(super) fn around_present(trial: &mut Trial, horizontal: &Interval) -> Interv
         Interval::Between { low, high } if !trial.is_loaded() && !trial.is_limited() => {
             let low = limit_of_weights(trial, -1.0, low);
             let high = limit_of_weights(trial, 1.0, high);
-            Interval::Between { low, high }
+            // The stable directions of gravity form a convex cone. A cone that reaches half a turn on one side, but not
+            // on the other, is a half-plane: it ends at half a turn, where the mechanism of the other end begins.
+            match (low, high) {
+                (End::Unbounded, high) if high != End::Unbounded => {
+                    Interval::Between { low: end_of_half_plane(-1.0, &high), high }
+                }
+                (low, End::Unbounded) if low != End::Unbounded => {
+                    Interval::Between { high: end_of_half_plane(1.0, &low), low }
+                }
+                (low, high) => Interval::Between { low, high },
+            }
         }
         _ => around(trial, 0.0),
+    }
+}
+
+/// Returns the end of a half-plane of stable directions of gravity on one side (`side` is −1 or 1), in degrees. Its
+/// other end is `other`, at tilt 0.
+fn end_of_half_plane(side: f64, other: &End) -> End {
+    let half_turn = side * 180.0;
+    match other {
+        End::Unbounded => End::Unbounded,
+        End::At { mechanism, .. } => End::At { value: half_turn, mechanism: mechanism.clone() },
+        End::Unconfirmed { beyond, .. } => End::Unconfirmed { stands: half_turn, beyond: beyond + side * 360.0 },
     }
 }
 

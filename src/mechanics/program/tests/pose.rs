@@ -164,26 +164,3 @@ fn the_force_program_minimises_costs_and_can_limit_another_sum() {
     let expected: Vec<f64> = (0..12).map(|k| if k < 6 { 0.0 } else { 1.0 }).collect();
     assert_eq!(row(&capped, last), expected);
 }
-
-/// Joints that are parallel up to a few millionths, a joint perpendicular to them, and a joint that is inclined on
-/// purpose.
-#[test]
-fn joints_that_are_nearly_parallel_or_perpendicular_are_aligned() {
-    let turned = |angle: f64| Vector::new(libm::cos(angle), libm::sin(angle));
-    let mut program = stacked();
-    let (up, side) = (core::f64::consts::FRAC_PI_2, 0.0);
-    let both = [up, up + 1e-13].map(turned);
-    (program.contacts.iter_mut().zip(both)).for_each(|(c, n)| c.normal = n);
-    assert!(program.with_parallel_joints().is_none());
-    let more = program.contacts.clone();
-    program.contacts.extend(more);
-    let normals = [up + 3e-6, up - 1e-6, side + 1e-6, 0.01].map(turned);
-    (program.contacts.iter_mut().zip(normals)).for_each(|(c, n)| c.normal = n);
-    let straight = program.with_parallel_joints().expect("some joints rotate");
-    // The first three rotate to the mean of 3, −1 and 1 millionths. The last joint stays.
-    let expected = [up + 1e-6, up + 1e-6, side + 1e-6, 0.01].map(turned);
-    for (contact, normal) in straight.contacts.iter().zip(expected) {
-        assert!((contact.normal - normal).norm() < 1e-15, "{contact:?}");
-    }
-    assert_eq!(straight.loads, program.loads);
-}

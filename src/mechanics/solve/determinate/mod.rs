@@ -16,8 +16,7 @@ mod joint;
 #[cfg(test)]
 mod tests;
 
-use super::adhesion_result::LeastAdhesion;
-use super::amounts::{Amounts, Effort};
+use super::amounts::{Amounts, Effort, LeastAdhesion};
 use crate::geometry::{Vector, cross};
 use crate::mechanics::program::Program;
 use joint::{ContactForces, Joint, JointSpeeds, Wrench, joints};

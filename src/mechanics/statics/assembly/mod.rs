@@ -9,7 +9,6 @@
 //! never the ground. Each load vector is the sum of weight and listed loads ([`Assembly::with_summed_loads`]).
 
 mod component;
-mod merge;
 mod substructure;
 mod variation;
 

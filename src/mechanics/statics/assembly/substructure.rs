@@ -1,6 +1,6 @@
 //! [`Substructure`]: a selection of the bodies of an assembly. All other bodies are fixed.
 
-use super::{Assembly, AssemblyGrip};
+use super::{Assembly, AssemblyContact, AssemblyGrip};
 
 /// Some bodies of an assembly, with all other bodies fixed as if they were ground.
 #[derive(Clone, Debug)]
@@ -88,5 +88,26 @@ impl Assembly {
             sets.push(set);
         }
         sets
+    }
+}
+
+impl AssemblyContact {
+    /// Returns this contact for another assembly, in which its two bodies have the indices `on` and `from`. The index
+    /// `None` means the ground. Returns `None` if both are the same body or both are the ground.
+    ///
+    /// If the first body becomes ground, the two bodies are exchanged, because the first body is never the ground.
+    fn with_bodies(&self, on: Option<usize>, from: Option<usize>) -> Option<AssemblyContact> {
+        match (on, from) {
+            _ if on == from => None,
+            (Some(on), from) => Some(AssemblyContact { on, from, ..*self }),
+            (None, Some(from)) => Some(AssemblyContact {
+                on: from,
+                from: None,
+                bodies: [self.bodies[1], self.bodies[0]],
+                normal: -self.normal,
+                ..*self
+            }),
+            (None, None) => None,
+        }
     }
 }

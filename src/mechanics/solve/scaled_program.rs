@@ -1,12 +1,63 @@
-//! [`ReducedColumns`]: the columns of a program, without the pure normal forces that are sums of two rays of a
-//! friction cone.
+//! [`ScaledProgram`]: a program in the form in which solvers are most accurate. Its largest load is 1, and redundant
+//! columns are omitted ([`ReducedColumns`]).
+//!
+//! With loads of 300, the solver stops for a wall of 410 bricks at its limit after a hundred iterations without a
+//! result; with loads of 1 it finds the optimum after about 70.
 //!
 //! If admissible forces have no cost, the pure normal force n̂ is redundant. It is (1 + μ)/2 times the sum of the two
 //! rays of its friction cone, (n̂ + μ t̂)/(1 + μ) and (n̂ − μ t̂)/(1 + μ). Without the redundant columns, the dual has
 //! a third fewer rows.
 
-use super::Dual;
-use crate::mechanics::program::{Column, Force};
+use super::{Amounts, Answer, Dual, Face, largest};
+use crate::mechanics::program::{Column, Force, Program, columns};
+
+/// A program whose loads are scaled to a largest load of 1.
+pub(super) struct ScaledProgram<'p> {
+    program: &'p Program,
+    /// The largest load before scaling, or 1 if there are no loads.
+    pub load: f64,
+    /// The scaled loads.
+    pub loads: Vec<f64>,
+    /// The columns without redundant ones, with limits in the unit of the scaled loads.
+    pub columns: Vec<Column>,
+}
+
+impl<'p> ScaledProgram<'p> {
+    /// Scales a program.
+    pub fn new(program: &'p Program) -> ScaledProgram<'p> {
+        let load = match largest(&program.loads) {
+            0.0 => 1.0,
+            load => load,
+        };
+        ScaledProgram {
+            program,
+            load,
+            loads: program.loads.iter().map(|v| v / load).collect(),
+            columns: ReducedColumns::new(&columns_in(program, load)).columns,
+        }
+    }
+
+    /// Converts the amounts of the columns to forces in the units of the original program.
+    pub fn forces(&self, mut amounts: Vec<f64>) -> Amounts {
+        amounts.iter_mut().for_each(|amount| *amount *= self.load);
+        Face::whole(&self.loads, self.columns.clone()).with_amounts(amounts).to_forces(self.program).0
+    }
+
+    /// Returns the mechanism of an answer in the kinematic form: three velocities for each block, opposite to the
+    /// virtual velocities.
+    pub fn motion(&self, answer: &Answer) -> Vec<f64> {
+        answer.x[..self.loads.len()].iter().map(|v| -v).collect()
+    }
+}
+
+/// Returns the columns of a program, with limits in multiples of the load `unit`.
+pub(super) fn columns_in(program: &Program, unit: f64) -> Vec<Column> {
+    let mut columns = columns(program);
+    for column in &mut columns {
+        column.limit /= unit;
+    }
+    columns
+}
 
 /// The columns that remain after redundant ones are omitted.
 pub(super) struct ReducedColumns {

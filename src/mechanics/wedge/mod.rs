@@ -17,8 +17,8 @@ mod relaxation;
 mod rest;
 mod spring;
 
-use super::{Conditioning, Effort, Status, dual};
 use crate::mechanics::program::{Column, Force, Program, columns};
+use crate::mechanics::solve::{Conditioning, Effort, Status, dual};
 use branch_and_bound::{SearchOutcome, search};
 use spring::Springs;
 

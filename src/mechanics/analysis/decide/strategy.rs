@@ -1,19 +1,13 @@
 //! The strategies that decide a component by linear programs (route 3), and their order. The first strategy is a closed
 //! form. Each other strategy solves one program for forces, a motion, or both.
 
-mod determinate;
-mod least_force;
-mod least_residual;
-mod least_adhesion;
-
 use std::fmt;
 
 use crate::mechanics::program::Program;
-use crate::mechanics::solve::{Amounts, Choice, Conditioning, Effort, LeastAdhesion, SolverSettings};
-
-/// Programs of at least this many blocks are large: a short first attempt decides most of them, and extra solutions
-/// cost too much.
-pub(super) const LARGE_PROGRAM_BLOCKS: usize = 200;
+use crate::mechanics::solve::{
+    Amounts, Balance, Choice, Conditioning, LeastAdhesion, SolverSettings, any_balance, balance_at_first_look,
+    balance_in, collapse, least_adhesion_in, least_residual,
+};
 
 /// How a component was decided. The variants are ordered: the result of a frame names the last method among those of
 /// its components.
@@ -80,15 +74,22 @@ pub(super) enum Strategy {
 
 /// The results of a strategy, in the program's units and not yet proved.
 pub(super) struct Attempt {
-    /// Forces that balance the loads according to the program.
-    pub forces: Option<Amounts>,
-    /// A motion that is a mechanism according to the program.
-    pub motion: Option<Vec<f64>>,
-    /// From the program of least force: a motion that bounds the sum of balancing forces from below.
-    pub witness: Option<Vec<f64>>,
+    /// Forces that balance the loads according to the program, or a motion that is a mechanism according to it.
+    pub balance: Balance,
     /// The result of the program of least adhesion, if the strategy solved it.
     pub least_adhesion: Option<LeastAdhesion>,
-    pub effort: Effort,
+}
+
+impl From<LeastAdhesion> for Attempt {
+    fn from(found: LeastAdhesion) -> Attempt {
+        let balance = Balance {
+            forces: (found.balanced == Some(true)).then(|| found.forces.clone()),
+            motion: found.motion.clone(),
+            witness: None,
+            effort: found.effort,
+        };
+        Attempt { balance, least_adhesion: Some(found) }
+    }
 }
 
 impl Attempt {
@@ -96,7 +97,7 @@ impl Attempt {
     /// `None` if the attempt found no forces.
     pub fn unproved_forces(&self) -> Option<&Amounts> {
         let least_adhesion = self.least_adhesion.as_ref().map(|least_adhesion| &least_adhesion.forces);
-        self.forces.as_ref().or(least_adhesion)
+        self.balance.forces.as_ref().or(least_adhesion)
     }
 }
 
@@ -128,7 +129,7 @@ impl Strategy {
         complete_result: bool,
     ) -> Vec<Strategy> {
         let mut strategies: Vec<Strategy> = settings.iter().copied().map(Strategy::Force).collect();
-        let is_large = program.blocks >= LARGE_PROGRAM_BLOCKS;
+        let is_large = program.has_many_blocks();
         let only_verdict = settings.iter().all(|s| s.choice == Choice::Any);
         let is_plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
         let quick_settings = settings.iter().find(is_plain).copied();
@@ -171,15 +172,23 @@ impl Strategy {
         strategies
     }
 
+    /// Solves the program of this strategy, or evaluates its closed form.
     pub fn attempt(&self, program: &Program) -> Attempt {
-        match self {
-            Strategy::Determinate => determinate::attempt(program),
-            Strategy::FirstLook(settings) => least_force::first_look(program, *settings),
-            Strategy::Force(settings) => least_force::attempt(program, *settings),
-            Strategy::AnyBalance => least_residual::attempt_any_balance(program),
-            Strategy::Residual => least_residual::attempt(program),
-            Strategy::Adhesion(settings) => least_adhesion::attempt(program, *settings),
-        }
+        let balance = match self {
+            Strategy::Determinate => match collapse(program) {
+                Some((motion, least_adhesion)) => {
+                    let balance = Balance { motion: Some(motion), ..Balance::default() };
+                    return Attempt { balance, least_adhesion: Some(least_adhesion) };
+                }
+                None => Balance::default(),
+            },
+            Strategy::FirstLook(settings) => balance_at_first_look(program, *settings),
+            Strategy::Force(settings) => balance_in(program, *settings),
+            Strategy::AnyBalance => any_balance(program),
+            Strategy::Residual => least_residual(program),
+            Strategy::Adhesion(settings) => return least_adhesion_in(program, *settings).into(),
+        };
+        Attempt { balance, least_adhesion: None }
     }
 
     /// True if the strategy solves the program of least force to the end.
@@ -193,7 +202,7 @@ impl Strategy {
     pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
-            Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
+            Strategy::AnyBalance | Strategy::Residual => attempt.balance.forces.is_some(),
             // If the solver ended without a result, the attempt shows nothing.
             Strategy::Adhesion(_) => {
                 let found = attempt.least_adhesion.as_ref();
