@@ -8,7 +8,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::fact::DIGITS;
 use super::layer::Layer;
-use super::picture::PixelTolerance;
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::png::MAX_SIDE;
 use crate::products::figure::Kind;
@@ -32,8 +31,11 @@ pub struct Settings {
     pub widths: Vec<u32>,
     /// The significant digits of a force that is as large as the largest weight or load.
     pub digits: usize,
-    /// The largest differences at which two pixels count as equal.
-    pub tolerance: PixelTolerance,
+    /// The largest difference of a colour channel at which two pixels count as equal, of 255. The default is 1:
+    /// another processor or compiler may round a blended colour to the neighbouring value.
+    pub channel_tolerance: u8,
+    /// True if a reference stores only a hash of the pixels, in place of the picture.
+    pub hashes_pixels: bool,
     /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel; `None` for no limit.
     pub most_kilobytes: Option<u64>,
     /// Scene files to ignore: paths relative to the settings file, in which `*` stands for any text.
@@ -41,6 +43,8 @@ pub struct Settings {
     /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the
     /// settings file.
     pub scenes: Vec<PathBuf>,
+    /// Notes on keys that have no effect.
+    pub notes: Vec<String>,
 }
 
 impl Default for Settings {
@@ -51,21 +55,24 @@ impl Default for Settings {
             themes: vec!["thesis".into()],
             widths: Vec::new(),
             digits: DIGITS,
-            tolerance: PixelTolerance::default(),
+            channel_tolerance: 1,
+            hashes_pixels: false,
             most_kilobytes: None,
             ignore: Vec::new(),
             scenes: Vec::new(),
+            notes: Vec::new(),
         }
     }
 }
 
 /// All keys of the settings file.
-const KEYS: [&str; 10] = [
+const KEYS: [&str; 11] = [
     "layers",
     "kinds",
     "themes",
     "widths",
     "digits",
+    "pixels",
     "channel_tolerance",
     "perceptual_threshold",
     "most_kilobytes",
@@ -83,7 +90,7 @@ impl Settings {
     /// ```
     /// use drystone::snapshot::Settings;
     /// let settings = Settings::read("kinds = [\"forces\", \"thrust\"]\nwidths = [640]")?;
-    /// assert_eq!((settings.kinds.len(), settings.tolerance.channel), (2, 1));
+    /// assert_eq!((settings.kinds.len(), settings.channel_tolerance), (2, 1));
     /// let wrong = Settings::read("kinds = [\"force\"]\nwidth = 9").expect_err("two problems");
     /// assert!(wrong[0].starts_with("1:10: kinds: there is no \"force\""));
     /// assert!(wrong[1].starts_with("2:1: there is no key width"));
@@ -160,9 +167,21 @@ impl SettingsReader<'_> {
                     self.settings.digits = digits as usize;
                 }
             }
+            "pixels" => match value.get_ref().as_str() {
+                Some("hash") => self.settings.hashes_pixels = true,
+                Some("png") => {}
+                _ => {
+                    let stated = self.text.get(value.span()).unwrap_or_default();
+                    let stated = crate::text::heading(stated, 40);
+                    self.wrong(
+                        value.span().start,
+                        format!("pixels: there is no {stated}; there are \"png\", \"hash\""),
+                    );
+                }
+            },
             "channel_tolerance" => {
                 if let Some(channel) = self.whole("channel_tolerance", value, 0, 254) {
-                    self.settings.tolerance.channel = channel as u8;
+                    self.settings.channel_tolerance = channel as u8;
                 }
             }
             "perceptual_threshold" => self.threshold(value),
@@ -271,7 +290,8 @@ impl SettingsReader<'_> {
         let stated = self.text.get(value.span()).unwrap_or_default();
         match stated.parse::<f64>() {
             Ok(threshold) if (0.0..=1.0).contains(&threshold) => {
-                self.settings.tolerance.perceptual = Some(threshold);
+                let note = "perceptual_threshold has no effect: pixels are compared by channel_tolerance";
+                self.settings.notes.push(note.into());
             }
             _ => {
                 let stated = crate::text::heading(stated, 40);
