@@ -85,77 +85,53 @@ fn all_ways_to_get_a_result_agree() {
     }
 }
 
-/// The value of a number as written in facts, and half a unit of its last digit.
-fn written(word: &str) -> (f64, f64) {
-    let (mantissa, exponent) = word.split_once('e').unwrap_or((word, "0"));
-    let decimals = mantissa.split_once('.').map_or(0, |(_, part)| part.len() as i32);
-    let exponent: i32 = exponent.parse().expect("a power of ten");
-    let value: f64 = word.parse().unwrap_or_else(|_| panic!("a number: {word}"));
-    (value, 0.5 * libm::pow(10.0, f64::from(exponent - decimals)))
-}
-
-/// The numbers that follow a name in a line of facts, such as `N 6.00000 N`. Panics if there are none.
-fn values<'a>(line: &'a str, name: &str) -> Vec<&'a str> {
-    let (_, found) = line.split_once(": ").expect("a fact has values");
-    let part = found.split(", ").find_map(|part| {
-        let rest = part.strip_prefix(name)?.strip_prefix(' ')?;
-        let first = rest.chars().next()?;
-        (first.is_ascii_digit() || first == '-').then_some(rest)
-    });
-    let part = part.unwrap_or_else(|| panic!("{name}: {line}"));
-    let numbers = part.split(' ').take_while(|word| word.parse::<f64>().is_ok());
-    numbers.collect()
-}
-
 /// Asserts that the facts list the verdict, the sums, the interfaces, the robots and the failures of a frame of the
 /// result, in the same order.
 fn assert_facts(text: &str, frame: &Value) {
-    let near = |word: &str, exact: f64| {
-        let (value, half) = written(word);
-        // A value close to the middle of two roundings may be rounded either way.
-        assert!((value - exact).abs() <= 1.01 * half, "{word} {exact}: {text}");
-    };
+    let facts: Value = serde_json::from_str(text).expect("JSON");
     let number = |value: &Value| value.as_f64().expect("a number");
-    let verdict = frame["verdict"].as_str().expect("a word");
-    let of_kind = |kind: &str| -> Vec<&str> {
-        let lines = text.lines().map(str::trim);
-        lines.filter(|line| line.starts_with(kind)).collect()
+    let near = |fact: &Value, exact: f64, unit: &str| {
+        let digit = libm::pow(10.0, -number(&facts["decimals"][unit]));
+        // A value close to the middle of two roundings may be rounded either way.
+        assert!((number(fact) - exact).abs() <= 0.505 * digit, "{fact} {exact}: {text}");
     };
-    assert!(of_kind("frame 1")[0].ends_with(&format!(": {verdict}")), "{text}");
+    let listed = facts["sections"][1].as_array().expect("the first frame");
+    let of_kind = |kind: &str| -> Vec<&Value> {
+        listed.iter().filter(|fact| fact["fact"].as_str().expect("a word").starts_with(kind)).collect()
+    };
+    let verdict = frame["verdict"].as_str().expect("a word");
+    assert_eq!(listed[0]["verdict"], verdict, "{text}");
     let sums = of_kind("sums")[0];
-    near(values(sums, "weight")[0], number(&frame["weight"]));
+    near(&sums["weight"], number(&frame["weight"]), "N");
     let interfaces = frame["interfaces"].as_array().expect("a list");
-    let listed = of_kind("interface");
-    assert_eq!(listed.len(), interfaces.len(), "{text}");
+    assert_eq!(of_kind("interface").len(), interfaces.len(), "{text}");
     if verdict == "undecided" {
         return;
     }
-    near(values(sums, "total force")[0], number(&frame["total_force"]));
-    near(values(sums, "total sticking")[0], number(&frame["total_sticking"]));
-    for (line, interface) in listed.iter().zip(interfaces) {
+    near(&sums["total_force"], number(&frame["total_force"]), "N");
+    near(&sums["total_sticking"], number(&frame["total_sticking"]), "N");
+    for (fact, interface) in of_kind("interface").into_iter().zip(interfaces) {
         let normal = &interface["normal_forces"];
-        near(values(line, "N")[0], number(&normal[0]) + number(&normal[1]));
-        near(values(line, "T")[0], number(&interface["friction_force"]));
-        near(values(line, "μ")[0], number(&interface["mu"]));
+        near(&fact["normal_force"], number(&normal[0]) + number(&normal[1]), "N");
+        near(&fact["friction_force"], number(&interface["friction_force"]), "N");
+        assert!((number(&fact["mu"]) - number(&interface["mu"])).abs() < 1e-6, "{text}");
     }
     let robots = frame["robots"].as_array().expect("a list");
-    for (line, robot) in of_kind("robot").iter().zip(robots) {
-        for (word, exact) in values(line, "force").iter().zip(robot["force"].as_array().expect("x, y")) {
-            near(word, number(exact));
-        }
-        near(values(line, "torque")[0], number(&robot["torque"]));
+    for (fact, robot) in of_kind("robot").into_iter().zip(robots) {
+        near(&fact["force"][0], number(&robot["force"][0]), "N");
+        near(&fact["force"][1], number(&robot["force"][1]), "N");
+        near(&fact["torque"], number(&robot["torque"]), "N·m");
     }
     let failures = frame["failures"].as_array().expect("a list");
     assert_eq!(of_kind("failure").len(), failures.len(), "{text}");
-    for (line, failure) in of_kind("failure").iter().zip(failures) {
-        let missing = values(line, "missing");
+    for (fact, failure) in of_kind("failure").into_iter().zip(failures) {
         match (failure["torque"].as_f64(), failure["kind"] == "robot_force") {
-            (Some(torque), _) => near(missing[0], torque),
+            (Some(torque), _) => near(&fact["missing_torque"], torque, "N·m"),
             (None, true) => {
-                near(missing[0], number(&failure["force"][0]));
-                near(missing[1], number(&failure["force"][1]));
+                near(&fact["missing"][0], number(&failure["force"][0]), "N");
+                near(&fact["missing"][1], number(&failure["force"][1]), "N");
             }
-            (None, false) => near(missing[0], number(&failure["amount"])),
+            (None, false) => near(&fact["missing"], number(&failure["amount"]), "N"),
         }
     }
 }

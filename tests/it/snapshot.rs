@@ -5,7 +5,6 @@ mod disk;
 mod file;
 mod line;
 mod mutation;
-mod perception;
 
 use std::fs;
 use std::path::{Path, PathBuf};

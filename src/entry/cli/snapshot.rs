@@ -2,7 +2,7 @@
 
 mod answer;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -15,7 +15,7 @@ use crate::entry::cli::terminal::Terminal;
 use crate::pictures::output::file::{Existing, WriteError};
 use crate::products::snapshot::outcome::{Acceptance, folders};
 use crate::products::snapshot::store::{self, Access};
-use crate::products::snapshot::{CheckOutcome, DiscoveryError, check, ci, discover, review};
+use crate::products::snapshot::{CheckOutcome, check, ci, discover, review};
 
 /// Compare scenes and their pictures with stored references, and explain what changed
 ///
@@ -24,7 +24,7 @@ use crate::products::snapshot::{CheckOutcome, DiscoveryError, check, ci, discove
 /// sets which layers are checked, at which widths, and with which tolerances.
 ///
 /// Exit codes: 0 everything agrees with the references, 1 something differs, 2 a scene or the command line is wrong,
-/// 4 a file could not be written.
+/// 4 a file could not be written. If a scene is wrong, the other scenes are still checked.
 #[derive(Debug, Args)]
 pub(crate) struct Snapshot {
     /// Folders, or single scenes
@@ -33,6 +33,12 @@ pub(crate) struct Snapshot {
     /// Write the results as references; refused if CI is set
     #[arg(long)]
     accept: bool,
+    /// Write only results that have no reference yet; refused if CI is set
+    #[arg(long, conflicts_with = "accept")]
+    accept_new: bool,
+    /// Delete orphaned references; refused if CI is set
+    #[arg(long)]
+    prune: bool,
     /// Write the results as references, even if CI is set
     #[arg(long)]
     accept_in_ci: bool,
@@ -50,21 +56,35 @@ pub(crate) struct Snapshot {
     /// Print the result as annotations that GitHub shows next to the code
     #[arg(long)]
     github: bool,
+    /// Print the result as JSON
+    #[arg(long, conflicts_with = "github")]
+    json: bool,
 }
 
 impl Snapshot {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let asks = matches!(self.review, Some(None));
-        let accepts = self.accept || self.accept_in_ci;
-        self.check_options(asks, accepts).map_err(|c| vec![c])?;
-        let found = discover(&self.folders, self.only.as_deref()).map_err(complaints)?;
+        let acceptance = if self.accept_new {
+            Acceptance::AcceptNew
+        } else if self.accept || self.accept_in_ci {
+            Acceptance::Accept
+        } else {
+            Acceptance::Propose
+        };
+        self.check_options(asks, acceptance).map_err(|c| vec![c])?;
+        let found = discover(&self.folders, self.only.as_deref())
+            .map_err(|errors| errors.into_iter().map(CliError::CommandLine).collect::<Vec<_>>())?;
         if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
             return Err(vec![self.nothing_found_error()]);
         }
+        for note in &found.notes {
+            terminal.note(note);
+        }
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
-        let folders = folders(found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file));
-        let access = if accepts { Access::Write } else { Access::Read };
-        let turn = store::lock_folders(folders, access);
+        let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
+        let folders = folders(files.chain(found.orphans.iter().map(|(file, _)| file)));
+        let only_reads = acceptance == Acceptance::Propose && !self.prune;
+        let turn = store::lock_folders(folders, if only_reads { Access::Read } else { Access::Write });
         let progress = Progress::begin(found.jobs.len(), shown);
         let mut report = check(found, &|name| {
             progress.doing(name);
@@ -72,32 +92,35 @@ impl Snapshot {
         });
         drop(progress);
 
-        let failing: Vec<String> = report.failing().map(|s| s.name.clone()).collect();
-        let described = report.lines();
+        let pruned = if self.prune { report.prune() } else { Ok(()) };
+        let failing = report.failing().count();
+        let described = report.changes();
         // Make the review page before the results are accepted, so that it still shows the accepted changes.
         let page = match &self.review {
             Some(Some(_)) => review::page(&report, &self.folders),
             _ => String::new(),
         };
-        let unwritten = if accepts { report.store(Acceptance::Accept) } else { report.store(Acceptance::Propose) };
+        let unwritten = report.store(acceptance);
         self.write_reports(&report, page).map_err(|c| vec![c])?;
         drop(turn);
-        self.print_result(terminal, &report, &described, accepts, &failing)?;
+        self.print_result(terminal, &report, &described, failing, acceptance)?;
+        let mut errors: Vec<CliError> = pruned.err().into_iter().flatten().map(not_written).collect();
         match unwritten {
             // Without --accept, the files that could not be written only help people to inspect the differences. The
             // exit code does not depend on them.
-            Err(failed) if !accepts => {
+            Err(failed) if acceptance == Acceptance::Propose => {
                 for WriteError { path, why } in failed {
                     terminal.note(&format!("could not write {}: {why}", path.display()));
                 }
             }
-            Err(failed) => return Err(failed.into_iter().map(not_written).collect()),
-            Ok(()) => {}
+            unwritten => errors.extend(unwritten.err().into_iter().flatten().map(not_written)),
         }
-        if asks {
-            return answer::ask(terminal, &mut report);
-        }
-        Ok(ending(&report))
+        let ending = if asks && errors.is_empty() { answer::ask(terminal, &mut report)? } else { ending(&report) };
+        errors.extend(report.faults.into_iter().map(|(path, problems)| {
+            let name = path.display().to_string();
+            CliError::Scene { name, problems }
+        }));
+        if errors.is_empty() { Ok(ending) } else { Err(errors) }
     }
 
     /// Writes the review page if `--review` names a file, and the JUnit file if `--junit` is given.
@@ -115,7 +138,7 @@ impl Snapshot {
     /// Returns an error if options contradict each other, or if the review page is not an .html file. If the variable
     /// `CI` is set, also returns an error for accepting results or reviewing them in the terminal without
     /// `--accept-in-ci`.
-    fn check_options(&self, asks: bool, accepts: bool) -> Result<(), CliError> {
+    fn check_options(&self, asks: bool, acceptance: Acceptance) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
         if let Some(Some(page)) = &self.review {
             let html = page.extension().is_some_and(|e| e.eq_ignore_ascii_case("html"));
@@ -127,10 +150,14 @@ impl Snapshot {
                 )));
             }
         }
-        if asks && accepts {
+        if asks && acceptance != Acceptance::Propose {
             return refuse("--accept accepts all changes, and --review asks about each; leave one of them out");
         }
-        if store::in_ci() && !self.accept_in_ci && (self.accept || asks) {
+        if asks && self.json {
+            return refuse("--review asks questions where --json prints JSON; leave one of them out");
+        }
+        let changes_references = acceptance != Acceptance::Propose || self.prune || asks;
+        if store::in_ci() && !self.accept_in_ci && changes_references {
             return refuse(
                 "CI is set, so nobody would inspect the new references; accept them on your own machine, or with \
                  --accept-in-ci if this is meant",
@@ -151,35 +178,34 @@ impl Snapshot {
         ))
     }
 
-    /// Prints the differences (as annotations with `--github`) and a summary. If there are differences and they were
-    /// not accepted, also prints the commands to review and to accept them.
+    /// Prints the differences (as annotations with `--github`, as JSON with `--json`) and a summary. If there are
+    /// differences and they were not accepted, also prints the commands to review and to accept them. `failing` is the
+    /// number of snapshots that differed before results were accepted.
     fn print_result(
         &self,
         terminal: &Terminal,
         report: &CheckOutcome,
         described: &[String],
-        accepts: bool,
-        failing: &[String],
+        failing: usize,
+        acceptance: Acceptance,
     ) -> Result<(), Vec<CliError>> {
         let mut page = Page::default();
-        if self.github {
-            for annotation in ci::annotations(report) {
-                page.line(&annotation);
-            }
+        if self.json {
+            terminal.print_bytes(ci::json(report).as_bytes()).map_err(|c| vec![c])?;
+        } else if self.github {
+            ci::annotations(report).iter().for_each(|annotation| page.line(annotation));
         } else if !terminal.is_quiet() {
-            for line in described {
-                page.line(line);
-            }
+            described.iter().for_each(|line| page.line(line));
+            report.pruned.iter().for_each(|file| page.line(&format!("{}: deleted", file.display())));
         }
         terminal.print(&page).map_err(|c| vec![c])?;
-        let after: Vec<&str> = report.failing().map(|s| s.name.as_str()).collect();
-        let accepted = failing.iter().filter(|name| !after.contains(&name.as_str())).count();
-        if accepts {
+        if acceptance != Acceptance::Propose {
+            let accepted = failing - report.failing().count();
             terminal.note(&format!("{accepted} accepted; {}", report.summary()));
             return Ok(());
         }
         terminal.note(&report.summary());
-        if !report.matches() {
+        if report.failing().next().is_some() {
             let places: Vec<String> =
                 self.folders.iter().map(|f| crate::text::shell(&f.display().to_string())).collect();
             let places = places.join(" ");
@@ -201,15 +227,4 @@ fn ending(report: &CheckOutcome) -> ExitStatus {
 
 fn not_written(unwritten: WriteError) -> CliError {
     CliError::NotWritten { what: unwritten.path.display().to_string(), why: unwritten.why.to_string() }
-}
-
-fn complaints(faults: Vec<DiscoveryError>) -> Vec<CliError> {
-    let name = |path: &Path| path.display().to_string();
-    let complaint = |fault| match fault {
-        DiscoveryError::Scene { path, problems } => CliError::Scene { name: name(&path), problems },
-        DiscoveryError::Unreadable { path, reason } => CliError::NotRead { what: name(&path), why: reason },
-        DiscoveryError::Settings { path, problem } => CliError::CommandLine(format!("{}:{problem}", path.display())),
-        DiscoveryError::Clash(words) => CliError::CommandLine(words),
-    };
-    faults.into_iter().map(complaint).collect()
 }

@@ -16,7 +16,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::check::{self, check};
-use super::discovery::{DiscoveryError, discover};
+use super::discovery::{discover, settings_in};
 use super::layer::Layer;
 use super::outcome::{Acceptance, CheckOutcome, Snapshot, folders};
 use super::reference::parts;
@@ -88,8 +88,7 @@ macro_rules! assert_figure {
 /// If a reference does not match, if the scene does not exist, or if the scene or the settings are not valid.
 #[track_caller]
 pub fn scene(crate_folder: &Path, path: &Path) {
-    let place = place(crate_folder, path);
-    scenes_at(&[place], &place_words(path));
+    scenes(crate_folder, path);
 }
 
 /// Implements [`assert_scenes!`](crate::assert_scenes). `path` is the folder of the scenes, relative to
@@ -99,8 +98,16 @@ pub fn scene(crate_folder: &Path, path: &Path) {
 /// If a reference does not match or is orphaned, if a scene or the settings are not valid, or if there is no scene.
 #[track_caller]
 pub fn scenes(crate_folder: &Path, path: &Path) {
-    let place = place(crate_folder, path);
-    scenes_at(&[place], &place_words(path));
+    let what = path.display().to_string();
+    let found = discover(&[place(crate_folder, path)], None).unwrap_or_else(|errors| fail(&errors));
+    if found.jobs.is_empty() && found.faults.is_empty() {
+        fail(&[format!("there is no scene file at {what}")]);
+    }
+    let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
+    let lock = store::lock_folders(folders(files), access());
+    let report = check(found, &|_| {});
+    finish(report, &what);
+    drop(lock);
 }
 
 /// Implements [`assert_figure!`](crate::assert_figure). `name` is the file name of the references without extension.
@@ -119,17 +126,10 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     }
     let base = place(crate_folder, &Path::new(FIGURE_FOLDER).join(name));
     let folder = base.parent().unwrap_or(crate_folder).to_owned();
-    let settings = match settings(&folder) {
-        Ok(settings) => settings,
-        Err(lines) => fail(&lines),
-    };
-    let parts = parts(&base, &settings);
-    let references: Vec<PathBuf> = parts
-        .iter()
-        .filter(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0])
-        .map(|p| p.file.clone())
-        .collect();
-    let parts: Vec<_> = parts.into_iter().filter(|p| references.contains(&p.file)).collect();
+    let settings = setting::nearest(&folder).map_or_else(|| Ok(Settings::default()), |file| settings_in(&file));
+    let settings = settings.unwrap_or_else(|errors| fail(&errors));
+    let mut parts = parts(&base, &settings);
+    parts.retain(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]);
     if may_write() {
         // Ignore an error here: writing the files below then fails and reports it.
         let _ = std::fs::create_dir_all(&folder);
@@ -138,23 +138,12 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     let snapshot = Snapshot {
         name: name.display().to_string(),
         scene: None,
-        references,
+        references: parts.iter().map(|p| p.file.clone()).collect(),
         findings: check::check_drawing(drawing, &parts, &settings),
     };
     let report = CheckOutcome { snapshots: vec![snapshot], ..CheckOutcome::default() };
     finish(report, &format!("the figure {}", name.display()));
     drop(lock);
-}
-
-fn settings(folder: &Path) -> Result<Settings, Vec<String>> {
-    let Some(file) = setting::nearest(folder) else {
-        return Ok(Settings::default());
-    };
-    let text = std::fs::read_to_string(&file).map_err(|e| vec![format!("cannot read {}: {e}", file.display())])?;
-    Settings::read(&text).map_err(|problems| {
-        let described = problems.into_iter();
-        described.map(|p| format!("{}:{p}", file.display())).collect()
-    })
 }
 
 /// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time. If it does
@@ -168,32 +157,12 @@ fn place(crate_folder: &Path, path: &Path) -> PathBuf {
     }
 }
 
-fn place_words(path: &Path) -> String {
-    path.display().to_string()
-}
-
 fn may_write() -> bool {
     !store::in_ci()
 }
 
 fn access() -> Access {
     if store::update_requested() && may_write() { Access::Write } else { Access::Read }
-}
-
-#[track_caller]
-fn scenes_at(places: &[PathBuf], what: &str) {
-    let found = match discover(places, None) {
-        Ok(found) => found,
-        Err(faults) => fail(&faults.iter().map(DiscoveryError::to_string).collect::<Vec<_>>()),
-    };
-    if found.jobs.is_empty() && found.faults.is_empty() {
-        fail(&[format!("there is no scene file at {what}")]);
-    }
-    let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
-    let lock = store::lock_folders(folders(files), access());
-    let report = check(found, &|_| {});
-    finish(report, what);
-    drop(lock);
 }
 
 #[track_caller]
@@ -220,18 +189,10 @@ fn finish(mut report: CheckOutcome, what: &str) {
     if !may_write() {
         lines.push("The environment variable CI is set, so nothing was written. Run the test on your own machine to see the difference.".into());
     } else {
-        let picture = failing.iter().find(|f| store::difference_file(f).exists());
-        let other = failing.iter().find(|f| store::new_file(f).exists());
-        match (picture, other) {
-            (Some(file), _) => lines.push(format!(
-                "Look at {}, and compare {} with {}.",
-                store::difference_file(file).display(),
-                store::new_file(file).display(),
-                file.display()
-            )),
-            (None, Some(file)) => lines.push(format!("Look at {}.", store::new_file(file).display())),
-            (None, None) => {}
-        }
+        let pictures = failing.iter().map(|file| store::difference_file(file));
+        let others = failing.iter().map(|file| store::new_file(file));
+        let first = pictures.chain(others).find(|file| file.exists());
+        lines.extend(first.map(|file| format!("Look at {}.", file.display())));
         lines.push("If the change is intended, run the test again with UPDATE_SNAPSHOTS=1.".into());
     }
     fail(&lines);

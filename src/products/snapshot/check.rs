@@ -1,7 +1,7 @@
 //! [`check`](check()): compares scenes with their references in three layers.
 //!
-//! 1. Facts: verdict and forces as text.
-//! 2. SVG: the elements of the drawing.
+//! 1. Facts: verdict and forces as JSON.
+//! 2. SVG: the text of the drawing.
 //! 3. Pixels: the rendered picture.
 //!
 //! A difference in one layer usually explains the differences in later layers. The result is a [`CheckOutcome`]. Only
@@ -13,14 +13,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::discovery::{Discovered, Job, shown};
-use super::element;
 use super::fact::Facts;
-use super::layer::Layer;
+use super::layer::{Layer, UnreadableReference};
 use super::outcome::{CheckOutcome, Finding, Snapshot, State};
-use super::picture::{Difference, Picture, Subject};
-use super::reference::Part;
+use super::picture::{Difference, Picture};
+use super::reference::{HASH_WORDS, Part};
 use super::setting::Settings;
-use super::store;
+use super::{store, svg as svg_text};
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{SceneError, isolate};
 use crate::pictures::drawing::{Drawing, Theme};
@@ -71,7 +70,7 @@ fn check_scene(job: &Job) -> Vec<Finding> {
             let options = Options { theme: Theme::named(&part.theme).unwrap_or_default(), ..Options::default() };
             (part, svg::write(&figure::draw(&analysis, part.kind, &options)))
         }));
-        findings.extend(drawing_finding(part, text, &job.settings, Subject::Scene));
+        findings.extend(drawing_finding(part, text, &job.settings));
     }
     findings
 }
@@ -80,7 +79,7 @@ fn check_scene(job: &Job) -> Vec<Finding> {
 pub(super) fn check_drawing(drawing: &Drawing, parts: &[Part], settings: &Settings) -> Vec<Finding> {
     let text = svg::write(drawing);
     let findings = parts.iter().filter(|p| p.layer != Layer::Facts);
-    findings.filter_map(|part| drawing_finding(part, &text, settings, Subject::Figure)).collect()
+    findings.filter_map(|part| drawing_finding(part, &text, settings)).collect()
 }
 
 fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
@@ -92,6 +91,7 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
         fresh: Vec::new(),
         expected: None,
         difference: None,
+        picture: None,
     }
 }
 
@@ -106,15 +106,7 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
 }
 
 fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
-    text_finding(part, facts.text(), |text| {
-        // The numbers in the reference and in `facts` are rounded, so `changes` allows for a different last digit.
-        let changes = Facts::read(text).map_err(|error| error.to_string())?.changes(facts);
-        Ok(changes.into_iter().map(|change| change.words).collect())
-    })
-}
-
-fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
-    text_finding(part, text.to_owned(), |expected| element::changes(expected, text).map_err(|error| error.to_string()))
+    text_finding(part, facts.text(), |text| Ok(Facts::read(text)?.changes(facts)))
 }
 
 /// Compares the new text `fresh` with its reference. Returns `None` if there is no change. The function `changes` is
@@ -123,57 +115,51 @@ fn svg_finding(part: &Part, text: &str) -> Option<Finding> {
 fn text_finding(
     part: &Part,
     fresh: String,
-    changes: impl FnOnce(&str) -> Result<Vec<String>, String>,
+    changes: impl FnOnce(&str) -> Result<Vec<String>, UnreadableReference>,
 ) -> Option<Finding> {
     let fresh = fresh.into_bytes();
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
-        Err((state, words)) => {
-            return Some(Finding { fresh, ..finding(part, state, vec![words]) });
-        }
+        Err((state, words)) => return Some(Finding { fresh, ..finding(part, state, vec![words]) }),
     };
     if bytes == fresh {
         return None;
     }
     let (state, words) = match changes(&String::from_utf8_lossy(&bytes)) {
         Ok(words) => (State::Changed, words),
-        Err(error) => (State::Unreadable, vec![error]),
+        Err(error) => (State::Unreadable, vec![error.to_string()]),
     };
     (!words.is_empty()).then(|| Finding { fresh, expected: Some(bytes), ..finding(part, state, words) })
 }
 
-fn drawing_finding(part: &Part, text: &str, settings: &Settings, subject: Subject) -> Option<Finding> {
-    match part.layer {
-        Layer::Pixels => pixels_finding(part, text, settings, subject),
-        _ => svg_finding(part, text),
+fn drawing_finding(part: &Part, text: &str, settings: &Settings) -> Option<Finding> {
+    if part.layer != Layer::Pixels {
+        return text_finding(part, text.to_owned(), |expected| svg_text::changes(expected, text));
     }
-}
-
-fn pixels_finding(part: &Part, text: &str, settings: &Settings, subject: Subject) -> Option<Finding> {
     let size = part.width.map_or(png::Size::Natural, png::Size::Width);
     let found = match png::rgba(text, size) {
         Ok(raster) => Picture::new(raster.width, raster.height, raster.rgba),
         Err(error) => return Some(finding(part, State::Unreadable, vec![error.to_string()])),
     };
     // Encode the picture only if it differs: encoding takes longer than comparing.
-    let fresh = || found.encode(Some(subject)).unwrap_or_default();
+    let picture = || png::render(text, size).unwrap_or_default();
+    if part.is_hash() {
+        let changed = "the pixels have another hash; the setting `pixels = \"hash\"` keeps no picture to compare";
+        let finding = text_finding(part, hash_line(&found), |_| Ok(vec![changed.into()]));
+        return finding.map(|finding| Finding { picture: Some(picture()), ..finding });
+    }
     let bytes = match reference(part) {
         Ok(bytes) => bytes,
-        Err((state, words)) => {
-            return Some(Finding { fresh: fresh(), ..finding(part, state, vec![words]) });
-        }
+        Err((state, words)) => return Some(Finding { fresh: picture(), ..finding(part, state, vec![words]) }),
     };
     let expected = match Picture::decode(&bytes) {
         Ok(expected) => expected,
         Err(error) => {
-            return Some(Finding {
-                fresh: fresh(),
-                expected: Some(bytes),
-                ..finding(part, State::Unreadable, vec![error.to_string()])
-            });
+            let finding = finding(part, State::Unreadable, vec![error.to_string()]);
+            return Some(Finding { fresh: picture(), expected: Some(bytes), ..finding });
         }
     };
-    let difference = Difference::new(&expected, &found, settings.tolerance);
+    let difference = Difference::new(&expected, &found, settings.channel_tolerance);
     if difference.is_none() {
         let panels = text.matches("class=\"frame\"").count().max(1) as u64;
         let max = settings.most_kilobytes.unwrap_or(u64::MAX).saturating_mul(panels);
@@ -186,16 +172,16 @@ fn pixels_finding(part: &Part, text: &str, settings: &Settings, subject: Subject
         );
         return Some(finding(part, State::TooLarge, vec![words]));
     }
-    let mut words = vec![difference.words()];
-    if expected.has_lost_rounding_note() {
-        words.push(
-            "the reference has lost its note on rounded colours; another program may have compressed it again".into(),
-        );
-    }
     Some(Finding {
-        fresh: fresh(),
-        difference: difference.image(&expected).encode(None).ok(),
+        fresh: picture(),
+        difference: difference.image(&expected).encode().ok(),
         expected: Some(bytes),
-        ..finding(part, State::Changed, words)
+        ..finding(part, State::Changed, vec![difference.words()])
     })
+}
+
+/// Returns the content of a reference that stores only the size of a picture and a hash of its pixels.
+fn hash_line(picture: &Picture) -> String {
+    let hash = crate::text::hash(picture.pixels().as_flattened());
+    format!("{HASH_WORDS}{} × {}, hash {hash:016x}\n", picture.width, picture.height)
 }

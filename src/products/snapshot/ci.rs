@@ -1,11 +1,14 @@
-//! Writes findings for continuous integration: JUnit XML, and annotations that GitHub shows next to the code.
+//! Writes findings for other programs: JUnit XML, annotations that GitHub shows next to the code, and JSON.
+
+use serde_json::{Value, json};
 
 use super::discovery::shown;
-use super::outcome::{CheckOutcome, Snapshot};
-use crate::text::{github, github_property, xml};
+use super::outcome::{CheckOutcome, Finding, Snapshot};
+use crate::products::result::{self, Layout};
+use crate::text::{self, github, github_property, xml};
 
-/// Writes the findings as JUnit XML, with one test case for each snapshot, each orphaned reference, and each scene on
-/// which the program failed. The XML contains no times, so that equal findings give equal bytes.
+/// Writes the findings as JUnit XML, with one test case for each snapshot, each orphaned reference, and each scene
+/// that could not be checked. The XML contains no times, so that equal findings give equal bytes.
 pub fn junit(report: &CheckOutcome) -> String {
     let mut cases = Vec::new();
     for snapshot in &report.snapshots {
@@ -34,8 +37,7 @@ fn case(name: &str, lines: &[String]) -> String {
 }
 
 /// Returns the findings as GitHub annotations, such as `::error file=scenes/arch.json,title=…::…`. There is one
-/// annotation for each snapshot that does not match, each orphaned reference, and each scene on which the program
-/// failed. GitHub shows an annotation at its file only if the path of the file starts at the root of the repository.
+/// annotation for each snapshot that does not match, each orphaned reference, and each scene that could not be checked. GitHub shows an annotation at its file only if the path of the file starts at the root of the repository.
 pub fn annotations(report: &CheckOutcome) -> Vec<String> {
     let failing = report.failing().map(annotation);
     let others = report.others();
@@ -51,4 +53,39 @@ fn annotation(snapshot: &Snapshot) -> String {
 fn error(file: &str, title: &str, words: &str) -> String {
     let (file, title) = (github_property(file), github_property(title));
     format!("::error file={file},title={title}::{}", github(words))
+}
+
+/// Returns the outcome as JSON: a summary, all snapshots with the references that do not match, orphaned references,
+/// and scenes that could not be checked. `accepted` and `pruned` list the references that were written and deleted.
+///
+/// # Example
+/// ```
+/// use drystone::snapshot::{CheckOutcome, ci};
+/// let outcome: serde_json::Value = serde_json::from_str(&ci::json(&CheckOutcome::default()))?;
+/// assert_eq!(outcome["matches"], true);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+pub fn json(report: &CheckOutcome) -> String {
+    let finding = |f: &Finding| json!({ "layer": f.layer.name(), "file": shown(&f.file), "state": f.state.name(), "changes": f.words });
+    let snapshot = |s: &Snapshot| {
+        let findings: Vec<Value> = s.findings.iter().map(finding).collect();
+        json!({ "name": s.name, "scene": s.scene.as_deref().map(shown), "matches": s.matches(), "findings": findings })
+    };
+    let snapshots: Vec<Value> = report.snapshots.iter().map(snapshot).collect();
+    let orphans = report.orphans.iter().map(|(path, reason)| json!({ "file": shown(path), "reason": reason }));
+    let refused = report.faults.iter().map(|(path, fault)| {
+        let text = result::refusal(&shown(path), &fault.list, Layout::OneLine);
+        serde_json::from_str(&text).unwrap_or(Value::Null)
+    });
+    let files = |paths: &[std::path::PathBuf]| paths.iter().map(|path| shown(path)).collect::<Vec<_>>();
+    let outcome = json!({
+        "summary": report.summary(),
+        "matches": report.matches(),
+        "snapshots": snapshots,
+        "orphans": orphans.collect::<Vec<_>>(),
+        "refused": refused.collect::<Vec<Value>>(),
+        "accepted": files(&report.accepted),
+        "pruned": files(&report.pruned),
+    });
+    text::json(&format!("{outcome:#}\n"))
 }

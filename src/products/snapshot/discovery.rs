@@ -2,48 +2,15 @@
 //! references whose scene does not exist, or which the settings do not include.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::file_kind::{has_reference_mark, looks_like_scene};
-use super::filter::Filter;
-use super::reference::{Part, parts};
+use super::reference::{HASH_WORDS, Part, is_reference_suffix, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::mechanics::scene::{Scene, SceneError, isolate};
-
-/// An error in the input of a check.
-#[derive(Debug, thiserror::Error)]
-pub enum DiscoveryError {
-    /// A scene that is not valid.
-    #[error("{}: {problems}", path.display())]
-    Scene {
-        /// The path of the scene file.
-        path: PathBuf,
-        /// The problems of the scene.
-        problems: SceneError,
-    },
-    /// A file or folder that cannot be read.
-    #[error("cannot read {}: {reason}", path.display())]
-    Unreadable {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The message of the operating system.
-        reason: String,
-    },
-    /// A settings file that is not valid.
-    #[error("{}:{problem}", path.display())]
-    Settings {
-        /// The path of the settings file.
-        path: PathBuf,
-        /// Line, column and message.
-        problem: String,
-    },
-    /// Two scenes with the same reference file.
-    #[error("{0}")]
-    Clash(String),
-}
+use crate::mechanics::scene::{Code, Scene, SceneError, isolate};
 
 /// A scene to check.
 #[derive(Clone, Debug)]
@@ -68,8 +35,10 @@ pub struct Discovered {
     pub jobs: Vec<Job>,
     /// References whose scene does not exist or which the settings do not include, each with the reason and the remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes that could not be read because of an error in the program, each with a description of the error.
+    /// Scenes that are not valid, or that could not be read because of an error in the program, each with the problems.
     pub faults: Vec<(PathBuf, SceneError)>,
+    /// Notes on settings files.
+    pub notes: Vec<String>,
 }
 
 /// Finds all scenes in the given folders and scene files. Also finds all orphaned references: references without a
@@ -86,12 +55,13 @@ pub struct Discovered {
 /// 3. Otherwise the filter selects all scenes whose name contains it.
 ///
 /// # Errors
-/// All errors in scenes and settings, files that cannot be read, and scenes that would share a reference.
-pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<DiscoveryError>> {
+/// All errors in settings, files that cannot be read, and scenes that would share a reference. Scenes that are not valid
+/// are no error: the other scenes are still checked.
+pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<String>> {
     let mut search = SnapshotSearch::default();
     search.add_places(places);
-    let names = search.candidates.iter().map(|(_, base)| shown(base));
-    let filter = Filter::new(only, names);
+    let names: Vec<String> = search.candidates.iter().map(|(_, base)| shown(base)).collect();
+    let selects = filter(only, &names);
     search.candidates.sort();
     search.candidates.dedup();
     let mut jobs = Vec::new();
@@ -111,12 +81,11 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
             search.register(&path, &part.file, &mut expected);
         }
         let name = shown(&base);
-        if !filter.selects(&name) {
+        if !selects(&name) {
             continue;
         }
         match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
-            Err(fault) => faults.push((path, fault)),
-            Ok(Err(problems)) => search.errors.push(DiscoveryError::Scene { path, problems }),
+            Err(fault) | Ok(Err(fault)) => faults.push((path, fault)),
             Ok(Ok(scene)) => jobs.push(Job { path, name, scene: Arc::new(scene), settings, parts }),
         }
     }
@@ -124,14 +93,24 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         return Err(search.errors);
     }
     let orphans = search.orphans(&expected);
-    let orphans = orphans.into_iter().filter(|(path, _)| filter.selects(&shown(path)));
-    Ok(Discovered { orphans: orphans.collect(), jobs, faults })
+    let orphans = orphans.into_iter().filter(|(path, _)| selects(&shown(path)));
+    Ok(Discovered { orphans: orphans.collect(), jobs, faults, notes: search.notes })
 }
 
 /// Returns a path as text, with `/` between folders on every operating system and without `./` at the beginning.
 pub(super) fn shown(path: &Path) -> String {
     let shown = path.to_string_lossy().replace('\\', "/");
     shown.strip_prefix("./").unwrap_or(&shown).to_owned()
+}
+
+/// Reads a settings file.
+///
+/// # Errors
+/// Messages that begin with the path of the file, or name it.
+pub(super) fn settings_in(file: &Path) -> Result<Settings, Vec<String>> {
+    let path = file.display();
+    let text = fs::read_to_string(file).map_err(|error| vec![format!("cannot read {path}: {error}")])?;
+    Settings::read(&text).map_err(|problems| problems.iter().map(|problem| format!("{path}:{problem}")).collect())
 }
 
 /// The files and the errors that a search has found so far.
@@ -144,7 +123,8 @@ struct SnapshotSearch {
     /// Settings that have already been read, by file. The key `None` is for the default settings. The value `None` is
     /// for a file that cannot be read or is not valid.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
-    errors: Vec<DiscoveryError>,
+    errors: Vec<String>,
+    notes: Vec<String>,
 }
 
 impl SnapshotSearch {
@@ -153,14 +133,14 @@ impl SnapshotSearch {
         for place in places {
             match fs::metadata(place) {
                 Ok(data) if data.is_dir() => self.add_folder(place),
-                Ok(_) => self.add_scene(place.clone(), place.with_extension("")),
+                Ok(_) => self.candidates.push((place.clone(), place.with_extension(""))),
                 Err(error) => self.report_unreadable(place, &error),
             }
         }
     }
 
     fn report_unreadable(&mut self, path: &Path, error: &std::io::Error) {
-        self.errors.push(DiscoveryError::Unreadable { path: path.to_owned(), reason: error.to_string() });
+        self.errors.push(format!("cannot read {}: {error}", path.display()));
     }
 
     /// Collects the possible scenes and references of a folder and its subfolders. Skips hidden files, hidden folders,
@@ -184,8 +164,8 @@ impl SnapshotSearch {
                 _ if name.starts_with('.') || name == "node_modules" => {}
                 _ if is_folder => self.add_folder(&path),
                 _ if name == SETTINGS_FILE => self.add_listed_scenes(folder),
-                Some("json") => self.add_scene(path.clone(), path.with_extension("")),
-                Some("txt" | "svg" | "png") if !store::is_result_file(&name) => self.others.push(path),
+                Some("json") => self.candidates.push((path.clone(), path.with_extension(""))),
+                Some("txt" | "svg" | "png" | "hash") if !store::is_result_file(&name) => self.others.push(path),
                 _ => {}
             }
         }
@@ -197,28 +177,15 @@ impl SnapshotSearch {
             return;
         };
         for place in &settings.scenes {
-            let place = folder.join(place);
-            match fs::metadata(&place) {
-                Ok(data) if data.is_dir() => {
-                    let mut there = SnapshotSearch::default();
-                    there.add_folder(&place);
-                    for (path, _) in there.candidates {
-                        let name = path.file_stem().unwrap_or_default().to_owned();
-                        self.add_scene(path, folder.join(name));
-                    }
-                    self.errors.extend(there.errors);
-                }
-                Ok(_) => {
-                    let name = place.file_stem().unwrap_or_default().to_owned();
-                    self.add_scene(place, folder.join(name));
-                }
-                Err(error) => self.report_unreadable(&place, &error),
-            }
+            let mut there = SnapshotSearch::default();
+            there.add_places(&[folder.join(place)]);
+            let listed = there.candidates.into_iter().map(|(path, _)| {
+                let base = folder.join(path.file_stem().unwrap_or_default());
+                (path, base)
+            });
+            self.candidates.extend(listed);
+            self.errors.extend(there.errors);
         }
-    }
-
-    fn add_scene(&mut self, path: PathBuf, base: PathBuf) {
-        self.candidates.push((path, base));
     }
 
     /// Returns the settings of the nearest settings file of a folder, or the defaults if there is none; `None` if the file
@@ -229,24 +196,12 @@ impl SnapshotSearch {
         if let Some(known) = self.known.get(&file) {
             return known.clone();
         }
-        let read = match &file {
-            None => Some(Settings::default()),
-            Some(path) => match fs::read_to_string(path) {
-                Err(error) => {
-                    self.report_unreadable(path, &error);
-                    None
-                }
-                Ok(text) => Settings::read(&text)
-                    .map_err(|problems| {
-                        let described = problems
-                            .into_iter()
-                            .map(|problem| DiscoveryError::Settings { path: path.clone(), problem });
-                        self.errors.extend(described);
-                    })
-                    .ok(),
-            },
-        };
+        let read = file.as_deref().map_or_else(|| Ok(Settings::default()), settings_in);
+        let read = read.map_err(|errors| self.errors.extend(errors)).ok();
         let settings = read.map(Arc::new);
+        let notes = settings.iter().flat_map(|settings| &settings.notes);
+        let named = |note: &String| format!("{}: {note}", file.as_deref().map(shown).unwrap_or_default());
+        self.notes.extend(notes.map(named));
         self.known.insert(file, settings.clone());
         settings
     }
@@ -258,12 +213,12 @@ impl SnapshotSearch {
         if let Some(other) = expected.insert(folded, scene.to_owned())
             && other != scene
         {
-            self.errors.push(DiscoveryError::Clash(format!(
+            self.errors.push(format!(
                 "{} and {} would both have the reference {} on file systems that ignore case; rename one of them",
                 shown(&other),
                 shown(scene),
                 shown(file)
-            )));
+            ));
         }
     }
 
@@ -294,34 +249,80 @@ impl SnapshotSearch {
     /// Returns the orphaned reference files, each with the reason and the remedy. `expected` has the references of
     /// all scenes.
     fn orphans(&self, expected: &BTreeMap<PathBuf, PathBuf>) -> Vec<(PathBuf, String)> {
-        let fold = |path: &Path| PathBuf::from(path.to_string_lossy().to_lowercase());
-        let mut stems: BTreeSet<PathBuf> = BTreeSet::new();
-        for file in expected.keys() {
-            stems.insert(file.with_extension(""));
-        }
-        // Facts and pictures contain a mark that identifies them as references; SVG files do not. A file with the same
-        // name as a marked file, but another extension, counts as a reference too.
-        let marked: Vec<&PathBuf> = self.others.iter().filter(|p| has_reference_mark(p)).collect();
+        let fold = |path: &Path| path.to_string_lossy().to_lowercase();
+        let scenes: BTreeSet<String> = expected.keys().map(|file| fold(&file.with_extension(""))).collect();
+        // Files of facts and of hashes begin with words that identify them as references; drawings and pictures do
+        // not. They count as references if their name is the name of a marked file, or the name of a scene or marked
+        // file with a suffix of references: `arch.dark.png`, but not `arch.photo.png`.
+        let marked = self.others.iter().filter(|path| has_reference_mark(path));
+        let marked: BTreeSet<String> = marked.map(|path| fold(&path.with_extension(""))).collect();
         let mut orphans = Vec::new();
-        for path in &self.others {
-            if expected.contains_key(&fold(path)) {
+        for path in self.others.iter().filter(|path| !expected.contains_key(&PathBuf::from(fold(path)))) {
+            let stem = fold(&path.with_extension(""));
+            let is_picture = path.extension().is_some_and(|extension| extension == "svg" || extension == "png");
+            if !is_picture && !has_reference_mark(path) {
                 continue;
             }
-            let stem = path.with_extension("");
-            let same_stem = marked.iter().any(|t| t.with_extension("") == stem);
-            let of_a_scene = stems.iter().any(|s| {
-                let (own, s) = (fold(&stem).to_string_lossy().into_owned(), s.to_string_lossy());
-                own.strip_prefix(s.as_ref()).is_some_and(|rest| rest.starts_with('.'))
+            let mut bases = stem.match_indices('.').map(|(dot, _)| (&stem[..dot], &stem[dot + 1..]));
+            let base = bases.find(|(base, suffix)| {
+                (scenes.contains(*base) || marked.contains(*base)) && is_reference_suffix(suffix)
             });
-            if same_stem || of_a_scene {
-                let words = if of_a_scene {
-                    "the settings of its scene do not include this reference; delete it"
-                } else {
-                    "its scene does not exist; delete the reference or restore the scene"
-                };
-                orphans.push((path.clone(), words.to_owned()));
-            }
+            let base = match base {
+                Some((base, _)) => base,
+                None if marked.contains(&stem) => &stem,
+                None => continue,
+            };
+            let words = if scenes.contains(base) {
+                "the settings of its scene do not include this reference; add it to the settings"
+            } else {
+                "its scene does not exist; restore the scene"
+            };
+            orphans.push((path.clone(), format!("{words}, or delete the reference with `drystone snapshot --prune`")));
         }
         orphans
+    }
+}
+
+/// True if a file counts as a scene or as a damaged scene.
+///
+/// A file counts as a scene if it contains the text `"drystone"`, with the quotation marks. A file that is not valid
+/// JSON counts as a damaged scene if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`.
+fn looks_like_scene(bytes: &[u8]) -> bool {
+    let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
+    if has(b"\"drystone\"") {
+        return true;
+    }
+    let is_meant = has(b"drystone") || has(b"blocks") || has(b"polygon");
+    let is_empty = bytes.iter().all(u8::is_ascii_whitespace);
+    if !is_meant && !is_empty && std::str::from_utf8(bytes).is_ok() {
+        return false;
+    }
+    let is_damage =
+        |code| matches!(code, Code::NotUtf8 | Code::EmptyFile | Code::EndsEarly | Code::NotJson | Code::OtherFormat);
+    match isolate("a file", || Scene::from_slice(bytes)) {
+        Ok(Err(problems)) => problems.list.iter().any(|problem| is_damage(problem.code)),
+        _ => false,
+    }
+}
+
+/// True if the first words of a file identify it as a reference of a scene. False if the file cannot be read.
+fn has_reference_mark(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(32).read_to_end(&mut head));
+    let marks = ["{\"drystone_facts\":", "drystone facts ", HASH_WORDS];
+    read.is_ok() && marks.iter().any(|mark| head.starts_with(mark.as_bytes()))
+}
+
+/// Returns the filter for the text of `--only`, which selects scenes and references by their names; `None` selects all.
+/// If the text equals one of the scene `names`, the filter selects only this scene and its references. Otherwise a text
+/// with `*` is a pattern for names, and any other text must occur in a name.
+fn filter<'f>(only: Option<&'f str>, names: &[String]) -> impl Fn(&str) -> bool + use<'f> {
+    let is_name = names.iter().any(|name| Some(name.as_str()) == only);
+    move |name| match only {
+        None => true,
+        // The name of a reference is the name of its scene, a dot and more.
+        Some(scene) if is_name => name.strip_prefix(scene).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+        Some(pattern) if pattern.contains('*') => matches_pattern(pattern, name),
+        Some(part) => name.contains(part),
     }
 }

@@ -11,19 +11,16 @@
 //! | [`discovery`] | the scenes, and orphaned references | folders |
 //! | [`reference`](mod@reference) | the reference files of a scene | settings |
 //! | [`fact`] | differences in verdict and forces | an analysis and a text |
-//! | [`element`] | differences in the drawing | two SVG texts |
+//! | [`svg`] | differences in the drawing | two SVG texts |
 //! | [`picture`] | differences in the pixels | two pictures |
 //! | [`check`](mod@check) | the findings: all references that differ | all of these |
 //! | [`store`] | files: references, `.new.*` and `.diff.png` | findings |
-//! | [`review`], [`ci`] | a review page, JUnit XML, annotations | findings |
+//! | [`review`], [`ci`] | a review page, JUnit XML, annotations, JSON | findings |
 
 pub mod assertion;
 pub mod check;
 pub mod ci;
 pub mod discovery;
-mod file_kind;
-mod filter;
-pub mod element;
 pub mod fact;
 mod layer;
 pub mod outcome;
@@ -32,10 +29,11 @@ pub mod reference;
 pub mod review;
 pub mod setting;
 pub mod store;
+pub mod svg;
 
 pub use check::check;
-pub use discovery::{DiscoveryError, Job, discover};
-pub use layer::Layer;
+pub use discovery::{Job, discover};
+pub use layer::{Layer, UnreadableReference};
 pub use outcome::{CheckOutcome, Finding, Snapshot, State};
 pub use setting::Settings;
 

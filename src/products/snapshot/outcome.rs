@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::discovery::shown;
 use super::layer::Layer;
 use super::store;
-use crate::mechanics::scene::{Problem, SceneError};
+use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::pictures::output::file::WriteError;
 
 /// Largest number of changes of one file that a message lists. All further changes are only counted.
@@ -35,6 +35,18 @@ pub enum State {
     TooLarge,
 }
 
+impl State {
+    /// Returns the word for this state in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            State::Missing => "new",
+            State::Changed => "changed",
+            State::Unreadable => "unreadable",
+            State::TooLarge => "large",
+        }
+    }
+}
+
 /// A reference that does not match.
 #[derive(Clone, Debug)]
 pub struct Finding {
@@ -53,6 +65,8 @@ pub struct Finding {
     pub expected: Option<Vec<u8>>,
     /// A PNG that shows the differing pixels; `None` unless two pictures were compared and differ.
     pub difference: Option<Vec<u8>>,
+    /// The new picture as PNG, if the reference stores only a hash of its pixels.
+    pub picture: Option<Vec<u8>>,
 }
 
 /// A scene or figure with the references that do not match.
@@ -76,8 +90,13 @@ pub struct CheckOutcome {
     /// Orphaned references, whose scene does not exist or which the settings do not include. Each has the reason and
     /// the remedy.
     pub orphans: Vec<(PathBuf, String)>,
-    /// Scenes that could not be checked because of an error in the program, each with a description of the error.
+    /// Scenes that could not be checked, because they are not valid or because of an error in the program, each with the
+    /// problems.
     pub faults: Vec<(PathBuf, SceneError)>,
+    /// References that [`CheckOutcome::store`] has written.
+    pub accepted: Vec<PathBuf>,
+    /// Orphaned references that [`CheckOutcome::prune`] has deleted.
+    pub pruned: Vec<PathBuf>,
 }
 
 /// Where the new contents of references are written.
@@ -87,6 +106,8 @@ pub enum Acceptance {
     Propose,
     /// In place of the references.
     Accept,
+    /// As references if there was no reference, otherwise as `.new.*`.
+    AcceptNew,
 }
 
 impl Snapshot {
@@ -104,13 +125,7 @@ impl Snapshot {
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for finding in &self.findings {
-            let what = match finding.state {
-                State::Missing => "new",
-                State::Changed => "changed",
-                State::Unreadable => "unreadable",
-                State::TooLarge => "large",
-            };
-            let head = format!("{} {what}, {}", finding.layer.name(), shown(&finding.file));
+            let head = format!("{} {}, {}", finding.layer.name(), finding.state.name(), shown(&finding.file));
             match finding.words.as_slice() {
                 [one] => lines.push(format!("  {head}: {one}")),
                 several => {
@@ -125,48 +140,46 @@ impl Snapshot {
         lines
     }
 
-    /// Returns the paths of the references that have a new content, each with this content.
-    fn acceptable(&self) -> Vec<(PathBuf, Vec<u8>)> {
-        let fresh = self.findings.iter().filter(|f| !f.fresh.is_empty());
-        fresh.map(|f| (f.file.clone(), f.fresh.clone())).collect()
-    }
-
     /// Writes the new contents of references, as `acceptance` states: next to the references, with images of the
-    /// differences, or in place of the references. Deletes `.new.*` and `.diff.png` files that are out of date.
+    /// differences, or in place of the references. Deletes `.new.*` and `.diff.png` files that are out of date. Returns
+    /// the references that were written.
     ///
     /// # Errors
     /// The file that could not be written. In this case the references of this snapshot are unchanged.
-    pub fn store(&mut self, acceptance: Acceptance) -> Result<(), WriteError> {
-        if acceptance == Acceptance::Accept {
-            store::write(&self.acceptable())?;
-            self.findings.retain(|f| f.fresh.is_empty());
-        }
+    pub fn store(&mut self, acceptance: Acceptance) -> Result<Vec<PathBuf>, WriteError> {
+        let accepts = |f: &Finding| match acceptance {
+            Acceptance::Propose => false,
+            Acceptance::Accept => !f.fresh.is_empty(),
+            Acceptance::AcceptNew => !f.fresh.is_empty() && f.state == State::Missing,
+        };
+        let accepted = self.findings.iter().filter(|f| accepts(f)).map(|f| (f.file.clone(), f.fresh.clone()));
+        let accepted: Vec<(PathBuf, Vec<u8>)> = accepted.collect();
+        store::write(&accepted)?;
+        self.findings.retain(|f| !accepts(f));
         let mut beside = Vec::new();
         for finding in self.findings.iter().filter(|f| !f.fresh.is_empty()) {
             beside.push((store::new_file(&finding.file), finding.fresh.clone()));
-            if let Some(difference) = &finding.difference {
-                beside.push((store::difference_file(&finding.file), difference.clone()));
-            }
+            let difference = finding.difference.iter();
+            beside.extend(difference.map(|png| (store::difference_file(&finding.file), png.clone())));
+            let picture = finding.picture.iter();
+            beside.extend(picture.map(|png| (store::new_file(&finding.file.with_extension("png")), png.clone())));
         }
-        let kept = |path: &Path| beside.iter().any(|(b, _)| b == path);
+        let kept = |path: &PathBuf| beside.iter().any(|(b, _)| b == path);
         for reference in &self.references {
-            for stale in [store::new_file(reference), store::difference_file(reference)] {
-                if !kept(&stale) {
-                    store::remove(&stale);
-                }
-            }
+            store::results(reference).into_iter().filter(|stale| !kept(stale)).for_each(|stale| store::remove(&stale));
         }
-        store::write(&beside)
+        store::write(&beside)?;
+        Ok(accepted.into_iter().map(|(file, _)| file).collect())
     }
 }
 
 impl CheckOutcome {
-    /// True if all references match, no reference is orphaned, and the program did not fail on any scene.
+    /// True if all references match, no reference is orphaned, and all scenes could be checked.
     pub fn matches(&self) -> bool {
         self.faults.is_empty() && self.orphans.is_empty() && self.failing().next().is_none()
     }
 
-    /// Iterates over the orphaned references and the scenes on which the program failed. Each path has a message.
+    /// Iterates over the orphaned references and the scenes that could not be checked. Each path has a message.
     pub(crate) fn others(&self) -> impl Iterator<Item = (&Path, String)> {
         let orphans = self.orphans.iter().map(|(path, words)| {
             let words = format!("an orphaned reference: {words}");
@@ -175,10 +188,13 @@ impl CheckOutcome {
         orphans.chain(self.fault_descriptions())
     }
 
-    /// Iterates over the scenes on which the program failed, with a description of each failure.
+    /// Iterates over the scenes that could not be checked, with a description of the problems of each.
     pub(super) fn fault_descriptions(&self) -> impl Iterator<Item = (&Path, String)> {
         self.faults.iter().map(|(path, fault)| {
-            let of = |p: &Problem| format!("{}; {}", p.message, p.help);
+            let of = |p: &Problem| {
+                let place = if p.line > 0 { format!("{}:{}: ", p.line, p.column) } else { String::new() };
+                format!("{place}{}; {}", p.message, p.help)
+            };
             let words: Vec<String> = fault.list.iter().map(of).collect();
             (path.as_path(), words.join("; "))
         })
@@ -191,20 +207,25 @@ impl CheckOutcome {
 
     /// Describes all findings in lines; empty if everything matches.
     pub fn lines(&self) -> Vec<String> {
+        let faults = self.fault_descriptions().map(|(path, words)| format!("{}: {words}", shown(path)));
+        self.changes().into_iter().chain(faults).collect()
+    }
+
+    /// Describes the references that differ and the orphaned references in lines.
+    pub(crate) fn changes(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for snapshot in self.failing() {
             lines.push(snapshot.name.clone());
             lines.extend(snapshot.lines());
         }
-        for (path, words) in self.others() {
-            lines.push(format!("{}: {words}", shown(path)));
-        }
+        let orphans = self.orphans.iter();
+        lines.extend(orphans.map(|(path, words)| format!("{}: an orphaned reference: {words}", shown(path))));
         lines
     }
 
     /// Returns the numbers of snapshots that match and that do not match, in one line:
-    /// `12 snapshots: 10 match, 1 changed, 1 new`. Orphaned references and failures of the program follow if there are
-    /// any.
+    /// `12 snapshots: 10 match, 1 changed, 1 new`. Orphaned references and scenes that could not be checked follow if
+    /// there are any.
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
@@ -220,26 +241,53 @@ impl CheckOutcome {
                 words.push_str(&format!(", {broken} with unreadable references"));
             }
         }
-        match self.orphans.len() {
+        let mut add = |count: usize, one: &str, several: &str| match count {
             0 => {}
-            1 => words.push_str(", 1 orphaned reference"),
-            n => words.push_str(&format!(", {n} orphaned references")),
-        }
-        match self.faults.len() {
-            0 => {}
-            1 => words.push_str(", 1 scene on which the program failed"),
-            n => words.push_str(&format!(", {n} scenes on which the program failed")),
-        }
+            1 => words.push_str(&format!(", 1 {one}")),
+            n => words.push_str(&format!(", {n} {several}")),
+        };
+        add(self.orphans.len(), "orphaned reference", "orphaned references");
+        let is_internal = |fault: &SceneError| fault.list.iter().any(|p| p.code == Code::InternalFault);
+        let internal = self.faults.iter().filter(|(_, fault)| is_internal(fault)).count();
+        add(self.faults.len() - internal, "scene that is not valid", "scenes that are not valid");
+        add(internal, "scene on which the program failed", "scenes on which the program failed");
         words
     }
 
-    /// Calls [`Snapshot::store`] for all snapshots. If it fails for one snapshot, the others are still stored.
+    /// Calls [`Snapshot::store`] for all snapshots, and adds the written references to `accepted`. If it fails for one
+    /// snapshot, the others are still stored.
     ///
     /// # Errors
     /// All files that could not be written.
     pub fn store(&mut self, acceptance: Acceptance) -> Result<(), Vec<WriteError>> {
-        let stored = self.snapshots.iter_mut().map(|s| s.store(acceptance));
-        let failed: Vec<WriteError> = stored.filter_map(Result::err).collect();
+        let mut failed = Vec::new();
+        for snapshot in &mut self.snapshots {
+            match snapshot.store(acceptance) {
+                Ok(files) => self.accepted.extend(files),
+                Err(error) => failed.push(error),
+            }
+        }
+        if failed.is_empty() { Ok(()) } else { Err(failed) }
+    }
+
+    /// Deletes the orphaned references, and their `.new.*` and `.diff.png` files.
+    ///
+    /// # Errors
+    /// All files that could not be deleted; they stay in `orphans`.
+    pub fn prune(&mut self) -> Result<(), Vec<WriteError>> {
+        let mut failed = Vec::new();
+        for (path, words) in std::mem::take(&mut self.orphans) {
+            match std::fs::remove_file(&path) {
+                Ok(()) => {
+                    store::results(&path).iter().for_each(|file| store::remove(file));
+                    self.pruned.push(path);
+                }
+                Err(why) => {
+                    self.orphans.push((path.clone(), words));
+                    failed.push(WriteError { path, why });
+                }
+            }
+        }
         if failed.is_empty() { Ok(()) } else { Err(failed) }
     }
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::layer::Layer;
 use super::setting::Settings;
+use crate::pictures::drawing::Theme;
 use crate::products::figure::Kind;
 
 /// A reference file of a snapshot, and the options that produce it.
@@ -21,65 +22,68 @@ pub struct Part {
     pub width: Option<u32>,
 }
 
+impl Part {
+    /// True if the file stores only a hash of the pixels.
+    pub(super) fn is_hash(&self) -> bool {
+        self.file.extension().is_some_and(|extension| extension == HASH_EXTENSION)
+    }
+}
+
+/// The extension of a file with a hash of the pixels, and the first words of this file.
+const HASH_EXTENSION: &str = "hash";
+pub(super) const HASH_WORDS: &str = "drystone pixels ";
+
 /// Lists the reference files of a scene or figure for the layers in the settings: one file of facts, one SVG for each
-/// kind of figure, and one PNG for each combination of kind, theme and width. The path of each file is `base` with
-/// suffixes for its combination.
+/// kind of figure, and one picture for each combination of kind, theme and width. The path of each file is `base` with
+/// suffixes for its combination, such as `arch.dark.png`. The first kind, theme and width have no suffix.
 pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);
     let first_theme = settings.themes.first().cloned().unwrap_or_default();
-    let part = |layer, marks: &[String], kind, theme: &str, width| Part {
-        layer,
-        file: file_name(base, marks, layer),
-        kind,
-        theme: theme.to_owned(),
-        width,
+    let mut part = |layer, marks: &[Option<String>], kind, theme: &str, width| {
+        let extension = match layer {
+            Layer::Facts => "txt",
+            Layer::Svg => "svg",
+            Layer::Pixels if settings.hashes_pixels => HASH_EXTENSION,
+            Layer::Pixels => "png",
+        };
+        let mut name = base.file_name().unwrap_or_default().to_os_string();
+        for suffix in marks.iter().flatten().map(String::as_str).chain([extension]) {
+            name.push(format!(".{suffix}"));
+        }
+        parts.push(Part { layer, file: base.with_file_name(name), kind, theme: theme.to_owned(), width });
     };
     if has(Layer::Facts) {
-        parts.push(part(Layer::Facts, &[], Kind::Forces, &first_theme, None));
+        part(Layer::Facts, &[], Kind::Forces, &first_theme, None);
     }
+    // Without widths in the settings, pictures have the natural width of the drawing.
+    let widths: Vec<Option<u32>> = match settings.widths.as_slice() {
+        [] => vec![None],
+        some => some.iter().copied().map(Some).collect(),
+    };
     for (k, kind) in settings.kinds.iter().enumerate() {
-        // The first kind, the first theme and the first width have no suffix in the file name.
         let kind_mark = (k > 0).then(|| kind.name().to_owned());
         if has(Layer::Svg) {
-            let marks: Vec<String> = kind_mark.iter().cloned().collect();
-            parts.push(part(Layer::Svg, &marks, *kind, &first_theme, None));
+            part(Layer::Svg, std::slice::from_ref(&kind_mark), *kind, &first_theme, None);
         }
-        if !has(Layer::Pixels) {
-            continue;
-        }
-        for (t, theme) in settings.themes.iter().enumerate() {
+        let themes = settings.themes.iter().filter(|_| has(Layer::Pixels));
+        for (t, theme) in themes.enumerate() {
             let theme_mark = (t > 0).then(|| theme.clone());
-            for (w, width) in widths(settings).into_iter().enumerate() {
+            for (w, width) in widths.iter().enumerate() {
                 let width_mark = width.filter(|_| w > 0).map(|w| format!("w{w}"));
-                let marks = [&kind_mark, &theme_mark, &width_mark];
-                let marks: Vec<String> = marks.into_iter().flatten().cloned().collect();
-                parts.push(part(Layer::Pixels, &marks, *kind, theme, width));
+                let marks = [kind_mark.clone(), theme_mark.clone(), width_mark];
+                part(Layer::Pixels, &marks, *kind, theme, *width);
             }
         }
     }
     parts
 }
 
-/// Returns the picture widths in the settings, in pixels. If the settings have no widths, returns only `None`, which
-/// stands for the natural width of the drawing.
-fn widths(settings: &Settings) -> Vec<Option<u32>> {
-    match settings.widths.as_slice() {
-        [] => vec![None],
-        some => some.iter().copied().map(Some).collect(),
-    }
-}
-
-/// Returns the path of a reference: `arch.dark.png` for the base `arch`, the mark `dark` and the layer `Pixels`.
-fn file_name(base: &Path, marks: &[String], layer: Layer) -> PathBuf {
-    let extension = match layer {
-        Layer::Facts => "txt",
-        Layer::Svg => "svg",
-        Layer::Pixels => "png",
-    };
-    let mut name = base.file_name().unwrap_or_default().to_os_string();
-    for suffix in marks.iter().map(String::as_str).chain([extension]) {
-        name.push(format!(".{suffix}"));
-    }
-    base.with_file_name(name)
+/// True if the file of a scene with this suffix, such as `dark.w320`, can only be a reference: each part of the suffix is
+/// the name of a kind of figure or of a theme, or a width.
+pub(super) fn is_reference_suffix(suffix: &str) -> bool {
+    suffix.split('.').all(|mark| {
+        let is_width = mark.strip_prefix('w').is_some_and(|width| width.parse::<u32>().is_ok());
+        is_width || Kind::from_name(mark).is_some() || Theme::NAMES.contains(&mark)
+    })
 }

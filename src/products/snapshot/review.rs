@@ -13,7 +13,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::discovery::shown;
 use super::layer::Layer;
-use super::outcome::{CheckOutcome, Finding, Snapshot, State};
+use super::outcome::{CheckOutcome, Finding, Snapshot};
 use crate::text::{line, shell};
 
 const STYLE: &str = include_str!("../../../assets/snapshot/review.css");
@@ -67,7 +67,7 @@ pub fn page(report: &CheckOutcome, folders: &[std::path::PathBuf]) -> String {
                 }
                 @if !report.faults.is_empty() {
                     section {
-                        h2 { "Scenes on which the program failed" }
+                        h2 { "Scenes that could not be checked" }
                         ul {
                             @for (path, words) in report.fault_descriptions() {
                                 li { code { (line(&shown(path))) } " " (line(&words)) }
@@ -99,14 +99,8 @@ fn command(words: &str, what: &str) -> Markup {
 }
 
 fn described(finding: &Finding) -> Markup {
-    let state = match finding.state {
-        State::Missing => "new",
-        State::Changed => "changed",
-        State::Unreadable => "unreadable",
-        State::TooLarge => "large",
-    };
     html! {
-        h3 { span.state { (finding.layer.name()) " " (state) } " " (line(&shown(&finding.file))) }
+        h3 { span.state { (finding.layer.name()) " " (finding.state.name()) } " " (line(&shown(&finding.file))) }
         @if finding.words.len() > MAX_OPEN_CHANGES && finding.layer == Layer::Svg {
             details { summary { (finding.words.len()) " changes" } (words(finding)) }
         } @else {
@@ -126,13 +120,13 @@ fn words(finding: &Finding) -> Markup {
 }
 
 fn pictures(finding: &Finding) -> Markup {
-    // Show the reference only if it can be read. In the state `Unreadable`, `expected` has bytes that are not a
-    // picture.
-    let expected = finding.expected.as_deref().filter(|_| finding.state == State::Changed);
+    // Show the reference only if it is a picture: it may be a hash, or a file that cannot be read.
+    let expected = finding.expected.as_deref().filter(|_| finding.difference.is_some());
+    let found = finding.picture.as_ref().unwrap_or(&finding.fresh);
     let shown = [
         ("Expected", expected),
         ("Difference", finding.difference.as_deref()),
-        ("Found", Some(finding.fresh.as_slice()).filter(|f| !f.is_empty())),
+        ("Found", Some(found.as_slice()).filter(|f| !f.is_empty())),
     ];
     html! {
         div.three {

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::fact::DIGITS;
 use super::layer::Layer;
-use super::picture::PixelTolerance;
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::png::MAX_SIDE;
 use crate::products::figure::Kind;
@@ -31,8 +30,11 @@ pub struct Settings {
     pub widths: Vec<u32>,
     /// The significant digits of a force that is as large as the largest weight or load.
     pub digits: usize,
-    /// The largest differences at which two pixels count as equal.
-    pub tolerance: PixelTolerance,
+    /// The largest difference of a colour channel at which two pixels count as equal, of 255. The default is 1:
+    /// another processor or compiler may round a blended colour to the neighbouring value.
+    pub channel_tolerance: u8,
+    /// True if a reference stores only a hash of the pixels, in place of the picture.
+    pub hashes_pixels: bool,
     /// The largest size of a reference picture, in kilobytes (1000 bytes) per panel; `None` for no limit.
     pub most_kilobytes: Option<u64>,
     /// Scene files to ignore: paths relative to the settings file, in which `*` stands for any text.
@@ -40,6 +42,8 @@ pub struct Settings {
     /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the
     /// settings file.
     pub scenes: Vec<PathBuf>,
+    /// Notes on keys that have no effect.
+    pub notes: Vec<String>,
 }
 
 impl Default for Settings {
@@ -50,10 +54,12 @@ impl Default for Settings {
             themes: vec!["thesis".into()],
             widths: Vec::new(),
             digits: DIGITS,
-            tolerance: PixelTolerance::default(),
+            channel_tolerance: 1,
+            hashes_pixels: false,
             most_kilobytes: None,
             ignore: Vec::new(),
             scenes: Vec::new(),
+            notes: Vec::new(),
         }
     }
 }
@@ -68,9 +74,11 @@ read_keys! {
         },
         widths as |r, node, at| distinct(r, node, at, |r, node, at| r.whole_within(node, at, [16, MAX_SIDE])),
         digits as |r, node, at| r.whole_within(node, at, [2, 12]).map(|n| n as usize),
-        tolerance.channel "channel_tolerance" as |r, node, at| r.whole_within(node, at, [0, 254]).map(|n| n as u8),
-        tolerance.perceptual "perceptual_threshold" as |r, node, at| {
-            r.number_within(node, at, [0.0, 1.0], "a number, usually 0.1,").map(Some)
+        hashes_pixels "pixels" as |r, node, at| r.choice(node, at, &[("png", false), ("hash", true)]),
+        channel_tolerance as |r, node, at| r.whole_within(node, at, [0, 254]).map(|n| n as u8),
+        notes "perceptual_threshold" as |r, node, at| {
+            let note = "perceptual_threshold has no effect: pixels are compared by channel_tolerance";
+            r.number_within(node, at, [0.0, 1.0], "a number, usually 0.1,").map(|_| vec![note.into()])
         },
         most_kilobytes as |r, node, at| r.whole_within(node, at, [1, 1_000_000]).map(|n| Some(u64::from(n))),
         ignore,
@@ -121,7 +129,7 @@ impl Settings {
     /// ```
     /// use drystone::snapshot::Settings;
     /// let settings = Settings::read("kinds = [\"forces\", \"thrust\"]\nwidths = [640]")?;
-    /// assert_eq!((settings.kinds.len(), settings.tolerance.channel), (2, 1));
+    /// assert_eq!((settings.kinds.len(), settings.channel_tolerance), (2, 1));
     /// let wrong = Settings::read("kinds = [\"force\"]\nwidth = 9").expect_err("two problems");
     /// assert!(wrong[0].starts_with("1:10: kinds[0]: expected \"forces\", "));
     /// assert!(wrong[1].starts_with("2:1: width: unknown key `width`; the nearest known key is `widths`"));

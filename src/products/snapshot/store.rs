@@ -47,6 +47,12 @@ pub fn difference_file(reference: &Path) -> PathBuf {
     with_mark(reference, "diff")
 }
 
+/// Returns the paths of all files that a check may write next to a reference.
+pub(super) fn results(reference: &Path) -> [PathBuf; 3] {
+    // A reference with a hash of the pixels has its new picture as PNG.
+    [new_file(reference), difference_file(reference), new_file(&reference.with_extension("png"))]
+}
+
 fn with_mark(reference: &Path, mark: &str) -> PathBuf {
     let ending = reference.extension().unwrap_or_default().to_string_lossy();
     reference.with_extension(format!("{mark}.{ending}"))

@@ -97,7 +97,7 @@ fn the_overview_of_a_report_lists_the_fault() {
 fn snapshot_checks_the_other_scenes() {
     for number in [1, 2] {
         let ran = run(&bench(), "snapshot all", number);
-        assert!(is_reported(&ran.out), "{}{}", ran.out, ran.err);
+        assert!(is_reported(&ran.err), "{}{}", ran.out, ran.err);
         assert!(ran.out.contains("all/z"), "{}", ran.out);
         assert!(ran.err.contains("1 scene on which the program failed"), "{}", ran.err);
     }

@@ -103,30 +103,135 @@ fn a_complete_name_selects_only_that_scene() {
 }
 
 #[test]
-fn invalid_input_is_reported_completely_and_nothing_is_written() {
-    let folder =
-        Folder::with(&[("good.json", lintel("Good", 1.0)), ("bad.json", r#"{ "drystone": 1, "blocks": 3 }"#.into())]);
-    folder.write("worse.json", "{ \"drystone\": 1,");
-    folder.write("package.json", "{ \"name\": \"no scene\" }");
+fn invalid_scenes_do_not_hide_the_changes_of_the_others() {
+    let folder = accepted();
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    folder.write("a/bad.json", r#"{ "drystone": 1, "blocks": 3 }"#);
+    folder.write("a/worse.json", "{ \"drystone\": 1,");
+    folder.write("a/package.json", "{ \"name\": \"no scene\" }");
+    let ran = folder.run(&["a", "--junit", "out.xml"]);
+    assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("load on lintel: force"), "{}", ran.out);
+    for words in ["bad.json", "worse.json", "1 snapshot: 0 match, 1 changed, 0 new, 2 scenes that are not valid"] {
+        assert!(ran.err.contains(words) && !ran.err.contains("package.json"), "{}", ran.err);
+    }
+    let xml = fs::read_to_string(folder.path("out.xml")).expect("there");
+    assert!(xml.contains("failures=\"3\""), "{xml}");
+    let ran = folder.run(&["a", "--accept"]);
+    assert!(ran.code == 2 && ran.err.contains("1 accepted"), "{}", ran.err);
+    assert_eq!(folder.run(&["a", "--only", "arch"]).code, 0, "the valid scene is accepted");
+}
+
+#[test]
+fn invalid_settings_and_options_are_reported_completely_and_nothing_is_written() {
+    let folder = Folder::with(&[("good.json", lintel("Good", 1.0))]);
+    folder.write("drystone-snapshots.toml", "widths = [1]\nkind = 3\npixels = \"none\"\n");
     let before = folder.files();
-    let ran = folder.run(&["--accept"]);
+    let ran = folder.run(&["--accept", "--only", "good"]);
     assert_eq!((ran.code, folder.files()), (2, before));
-    assert!(
-        ran.err.contains("bad.json") && ran.err.contains("worse.json") && !ran.err.contains("package.json"),
-        "{}",
-        ran.err
+    for words in ["drystone-snapshots.toml:1:11: ", "toml:2:1: there is no key kind", "toml:3:10: pixels: there is no"]
+    {
+        assert!(ran.err.contains(words), "{}", ran.err);
+    }
+    for wrong in [&["nowhere"][..], &["--review", "page.txt"], &["--accept", "--accept-new"], &["--json", "--github"]] {
+        assert_eq!(folder.run(wrong).code, 2, "{wrong:?}");
+    }
+}
+
+#[test]
+fn orphaned_references_are_deleted_on_request_and_other_files_never() {
+    let folder = accepted();
+    folder.write("a/bow.json", &lintel("A bow", 1.0));
+    folder.write("a/arch.photo.png", "A photo.");
+    folder.write("a/arch.notes.txt", "Notes.");
+    folder.write("a/bow.txt.svg", "<svg/>");
+    assert_eq!(folder.run(&["a", "--accept"]).code, 0);
+    let kept = folder.files();
+    for name in ["a/arch.dark.png", "a/arch.thrust.svg", "a/gone.png", "a/gone.w320.png"] {
+        folder.write(name, "<svg/>");
+    }
+    fs::copy(folder.path("a/arch.txt"), folder.path("a/gone.txt")).expect("copied");
+    let ran = folder.run(&["a"]);
+    assert!(ran.code == 1 && ran.err.contains("2 match, 5 orphaned references"), "{}{}", ran.out, ran.err);
+    let mut command = folder.command(&["a", "--prune"]);
+    command.env("CI", "true");
+    assert_eq!(super::ran(command).code, 2, "CI is set");
+    // The references of a scene that is not valid are no orphans.
+    let text = fs::read_to_string(folder.path("a/arch.json")).expect("there");
+    folder.write("a/arch.json", "{ \"drystone\": 1,");
+    let ran = folder.run(&["a", "--prune"]);
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    for name in ["a/gone.txt: deleted", "a/gone.png: deleted", "a/gone.w320.png: deleted", "a/arch.dark.png: deleted"] {
+        assert!(ran.out.contains(name), "{}", ran.out);
+    }
+    assert_eq!(folder.files(), kept);
+    folder.write("a/arch.json", &text);
+    assert_eq!(folder.run(&["a", "--prune"]).code, 0);
+}
+
+#[test]
+fn only_new_results_are_accepted_on_request() {
+    let folder = accepted();
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    folder.write("a/bow.json", &lintel("A bow", 1.0));
+    let before = fs::read(folder.path("a/arch.txt")).expect("there");
+    let ran = folder.run(&["a", "--accept-new"]);
+    assert!(ran.code == 1 && ran.err.contains("1 accepted; 2 snapshots: 1 match, 1 changed"), "{}", ran.err);
+    assert!(folder.path("a/bow.txt").exists() && folder.path("a/arch.new.txt").exists());
+    assert_eq!(fs::read(folder.path("a/arch.txt")).expect("there"), before);
+}
+
+#[test]
+fn the_outcome_is_printed_as_json() {
+    let folder = accepted();
+    let outcome = |arguments: &[&str]| -> serde_json::Value {
+        let ran = folder.run(arguments);
+        serde_json::from_str(&ran.out).unwrap_or_else(|error| panic!("{error}: {}", ran.out))
+    };
+    assert_eq!(outcome(&["a", "--json"])["matches"], true);
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    folder.write("a/bad.json", "{ \"drystone\": 1,");
+    folder.write("a/arch.dark.png", "");
+    let found = outcome(&["a", "--json"]);
+    let facts = &found["snapshots"][0]["findings"][0];
+    assert_eq!(
+        (&facts["layer"], &facts["file"], &facts["state"]),
+        (&"facts".into(), &"a/arch.txt".into(), &"changed".into())
     );
-    folder.write("drystone-snapshots.toml", "widths = [1]\nkind = 3\n");
-    let ran = folder.run(&["--only", "good"]);
-    assert!(
-        ran.code == 2
-            && ran.err.contains("drystone-snapshots.toml:1:11: ")
-            && ran.err.contains("toml:2:1: kind: unknown key `kind`"),
-        "{}",
-        ran.err
+    assert_eq!(facts["changes"][0], "load on lintel: force 4, −20 → 4.8, −24 N");
+    assert_eq!(found["orphans"][0]["file"], "a/arch.dark.png");
+    assert_eq!(
+        (&found["refused"][0]["file"], &found["refused"][0]["problems"][0]["line"]),
+        (&"a/bad.json".into(), &1.into())
     );
-    assert_eq!(folder.run(&["nowhere"]).code, 2);
-    assert_eq!(folder.run(&["--review", "page.txt"]).code, 2);
+    let found = outcome(&["a", "--json", "--accept", "--prune"]);
+    assert_eq!(found["accepted"], serde_json::json!(["a/arch.txt", "a/arch.svg", "a/arch.png"]));
+    assert_eq!(
+        (&found["pruned"], &found["snapshots"][0]["matches"]),
+        (&serde_json::json!(["a/arch.dark.png"]), &true.into())
+    );
+}
+
+#[test]
+fn a_hash_takes_the_place_of_a_picture_on_request() {
+    let folder = accepted();
+    folder.write("drystone-snapshots.toml", "widths = [160]\npixels = \"hash\"\nperceptual_threshold = 0.1\n");
+    let ran = folder.run(&["a", "--accept", "--prune"]);
+    assert!(ran.code == 0 && ran.out.contains("a/arch.png: deleted"), "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains("drystone-snapshots.toml: perceptual_threshold has no effect"), "{}", ran.err);
+    let files = ["a/arch.hash", "a/arch.json", "a/arch.svg", "a/arch.txt", "drystone-snapshots.toml"];
+    assert_eq!(folder.files(), files);
+    assert!(fs::read_to_string(folder.path("a/arch.hash")).expect("there").starts_with("drystone pixels 160 × "));
+    assert_eq!(folder.run(&["a"]).code, 0);
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    let ran = folder.run(&["a", "--review", "page.html"]);
+    assert!(ran.out.contains("pixels changed, a/arch.hash: the pixels have another hash"), "{}", ran.out);
+    assert!(Picture::decode(&fs::read(folder.path("a/arch.new.png")).expect("there")).is_ok());
+    let page = fs::read_to_string(folder.path("page.html")).expect("there");
+    assert_eq!(page.matches("data:image/png;base64,").count(), 1, "the new picture");
+    assert_eq!(folder.run(&["a", "--accept"]).code, 0);
+    fs::remove_file(folder.path("page.html")).expect("there");
+    assert_eq!(folder.files(), files, "no new files are left next to the references");
 }
 
 #[test]

@@ -79,10 +79,8 @@ fn show(terminal: &Terminal, snapshot: &Snapshot, pictures: Pictures) -> Result<
     terminal.print(&page)?;
     for finding in &snapshot.findings {
         // Show the picture of the difference if there is one, otherwise the new picture.
-        let png = finding.difference.as_ref().or_else(|| {
-            let is_picture = finding.fresh.starts_with(b"\x89PNG");
-            is_picture.then_some(&finding.fresh)
-        });
+        let fresh = Some(&finding.fresh).filter(|fresh| fresh.starts_with(b"\x89PNG"));
+        let png = finding.difference.as_ref().or(finding.picture.as_ref()).or(fresh);
         if let Some(png) = png {
             terminal.print_bytes(&drawn(png, pictures))?;
         }
