@@ -11,12 +11,10 @@
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
 //! | `parallel_joints` | simplified programs: nearly parallel joints made parallel, or slight loads omitted |
-//! | `vallat` | the program of Vallat (2023), for comparison |
 
 mod column;
 mod pose;
 mod scale;
-mod vallat;
 mod parallel_joints;
 #[cfg(test)]
 mod tests;
@@ -28,7 +26,6 @@ pub use pose::{
     least_squares, load_factor_dual, nearest_factor_dual,
 };
 pub use scale::Scale;
-pub use vallat::vallat_program;
 
 use crate::geometry::{Point, Vector};
 use crate::mechanics::statics::assembly::Assembly;
