@@ -81,7 +81,7 @@
 #![cfg_attr(feature = "pdf", doc = "| [`output::pdf::write`] | a PDF page | a drawing |")]
 #![cfg_attr(
     feature = "report",
-    doc = "| [`study`](internals::study::study) | times and errors of solvers and tolerances | scenes |"
+    doc = "| [`study`](internals::study::study) | times and errors of accuracy levels and tolerances | scenes |"
 )]
 //! | [`result::to_json`] | JSON for other programs | an analysis |
 //! | [`session::Session`] | a verdict after every step | blocks placed and held one by one |

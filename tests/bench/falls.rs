@@ -14,19 +14,22 @@
 )]
 
 mod turn;
+#[path = "accuracy/study/vallat.rs"]
+mod vallat;
 
 use std::hint::black_box;
 
 use drystone::analysis::{Options, Verdict};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
-use drystone::internals::program::{Program, QuadraticProgram, Scale, vallat_program};
+use drystone::internals::program::{Program, QuadraticProgram, Scale};
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
 use turn::Turns;
 use turn::structure::{arch, block, on_floor, rectangle, scene, wall};
+use vallat::vallat_program;
 
 /// The number of measurements of a row, and the time after which no further round begins.
 const TURNS: Turns = Turns { least: 1, most: 7, seconds: 3.0 };

@@ -4,17 +4,21 @@
 //! `cargo bench` prints the least, the median and the mean time of each. The walls are in running bond with half
 //! bricks at the ends of every second row. Their only load is their weight.
 
+#[path = "accuracy/study/vallat.rs"]
+mod vallat;
+
 use std::fs;
 use std::process::Command;
 
 use divan::{Bencher, black_box};
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
-use drystone::internals::program::{Program, Scale, vallat_program};
+use drystone::internals::program::{Program, Scale};
 use drystone::internals::solve::{Conditioning, TOLERANCE, balance, solve};
 use drystone::scene::format::SceneFile;
 use drystone::starter::Wall;
 use drystone::{Analysis, Scene, figure, output};
+use vallat::vallat_program;
 
 const FIGURE_4: &str = include_str!("../../assets/thesis/figure-4.json");
 

@@ -2,10 +2,10 @@
 //! every fall is proved.
 
 use drystone::analysis::{FrameAnalysis, Proof, Verdict};
-use drystone::internals::study::study;
 use serde_json::{Value, json};
 
 use crate::hard::wedge;
+use crate::laboratory::study::study;
 use crate::structure::{arch, block, first, on_floor, rectangle, scene, verdict, wall};
 
 const STANDS: Verdict = Verdict::Stable;
@@ -50,7 +50,7 @@ fn an_arch_is_decided_a_millionth_from_its_minimum_thickness() {
         for (thickness, expected) in [(least - 1e-6, FALLS), (least + 1e-6, STANDS)] {
             let file = arch(voussoirs, thickness, 0.9);
             assert_eq!(verdict(&file), expected, "{voussoirs} at {thickness}");
-            let known = study(&[scene(&file)], &[], &mut |_| {}).cases.remove(0).truth;
+            let known = study(&[("arch".into(), scene(&file))], &[], &mut |_| {}).cases.remove(0).truth;
             assert_eq!(known.verdict, expected, "{voussoirs} at {thickness}");
         }
     }

@@ -142,7 +142,7 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
     ("clap", &["entry/cli/"]),
     ("tempfile", &["pictures/output/file.rs"]),
     ("signal_hook", &["entry/cli/signal.rs"]),
-    ("plotters", &["pictures/chart/plot.rs", "pictures/chart/plot/"]),
+    ("plotters", &["pictures/chart.rs"]),
     ("maud", &["products/report/", "products/snapshot/review.rs"]),
     ("pulldown_cmark", &["products/report/book.rs"]),
     ("roxmltree", &["sources/import/"]),

@@ -25,6 +25,7 @@ mod gallery;
 mod hard;
 mod healing;
 mod import;
+mod laboratory;
 mod labels;
 mod intervals;
 mod keys;

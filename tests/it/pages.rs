@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use drystone::analysis::{Analysis, CapacityRequest, MarginKind, Options};
-use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type};
+use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type, paths};
 use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
 use drystone::scene::{Code, NoteCode, Scene};
 use serde_json::Value;
@@ -212,9 +212,9 @@ fn key_table(keys: &[Key]) -> String {
         format!("{}{unit} | {when}{}", key.kind.words(), key.meaning)
     };
     // Neighbours with the same text share a row.
-    for same in keys.chunk_by(|a, b| text(a) == text(b)) {
-        let paths: Vec<String> = same.iter().map(|key| format!("`{}`", key.path)).collect();
-        rows += &format!("| {} | {} |\n", paths.join(", "), text(&same[0]));
+    for same in paths(keys).chunk_by(|a, b| text(&a.1) == text(&b.1)) {
+        let paths: Vec<String> = same.iter().map(|key| format!("`{}`", key.0)).collect();
+        rows += &format!("| {} | {} |\n", paths.join(", "), text(&same[0].1));
     }
     rows
 }
@@ -277,34 +277,31 @@ fn fits(kind: Type, value: &Value) -> bool {
     }
 }
 
-/// Checks an object against the keys, and records the keys that occur.
-fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<&'static str>) {
+/// Checks an object against the keys, and records the paths of the keys that occur.
+fn walk(object: &Value, path: &str, keys: &[Key], seen: &mut BTreeSet<String>) {
     let entries = object.as_object().expect("an object");
     for (name, value) in entries {
         let here = format!("{path}{name}");
-        let key = (keys.iter().find(|k| k.path == here)).unwrap_or_else(|| panic!("{here} is not described"));
+        let key = (keys.iter().find(|k| k.name == name)).unwrap_or_else(|| panic!("{here} is not described"));
         assert!(fits(key.kind, value), "{here}: {value} is not a {:?}", key.kind);
-        seen.insert(key.path);
         match key.kind {
-            Type::Object => walk(value, &format!("{here}."), keys, seen),
+            Type::Object => walk(value, &format!("{here}."), key.keys, seen),
             Type::Objects => {
                 for entry in value.as_array().into_iter().flatten() {
-                    walk(entry, &format!("{here}[]."), keys, seen);
+                    walk(entry, &format!("{here}[]."), key.keys, seen);
                 }
             }
             Type::ByRobot => {
                 for robot in value.as_object().into_iter().flatten() {
-                    walk(robot.1, &format!("{here}.*."), keys, seen);
+                    walk(robot.1, &format!("{here}.*."), key.keys, seen);
                 }
             }
             _ => {}
         }
+        seen.insert(here);
     }
-    let parent = |key: &Key| key.path.rsplit_once('.').map_or("", |p| p.0).to_owned();
-    let own = path.trim_end_matches('.');
-    for key in keys.iter().filter(|k| k.when.is_empty() && parent(k) == own) {
-        let last = key.path.rsplit('.').next().unwrap_or_default();
-        assert!(entries.contains_key(last), "{} is always present, but not in {object}", key.path);
+    for key in keys.iter().filter(|k| k.when.is_empty()) {
+        assert!(entries.contains_key(key.name), "{path}{} is always present, but not in {object}", key.name);
     }
 }
 
@@ -369,7 +366,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
         let json = to_json_with_blocks(Some("a.json"), &analysis, Timing::Included, Layout::OneLine);
         walk(&serde_json::from_str(&json).expect("JSON"), "", KEYS, &mut seen);
     }
-    let missing: Vec<&str> = KEYS.iter().map(|k| k.path).filter(|p| !seen.contains(p)).collect();
+    let missing: Vec<String> = paths(KEYS).into_iter().map(|k| k.0).filter(|p| !seen.contains(p)).collect();
     assert!(missing.is_empty(), "no scene shows {missing:?}");
 }
 
@@ -379,7 +376,7 @@ fn a_refused_file_has_the_described_keys() {
     let json: Value = serde_json::from_str(&refusal("é.json", &problems.list, Layout::Lines)).expect("JSON");
     let mut seen = BTreeSet::new();
     walk(&json, "", REFUSAL_KEYS, &mut seen);
-    assert_eq!(seen.len(), REFUSAL_KEYS.len());
+    assert_eq!(seen.len(), paths(REFUSAL_KEYS).len());
     assert_eq!(json["problems"][1]["code"], "unknown_key");
     assert_eq!(json["problems"][1]["path"], "bloks");
 }
@@ -389,9 +386,9 @@ fn the_schema_of_results_has_the_same_keys() {
     let schema: Value = serde_json::from_str(&schema()).expect("JSON");
     for (number, keys) in [KEYS, REFUSAL_KEYS].into_iter().enumerate() {
         let object = &schema["anyOf"][number];
-        for key in keys {
+        for (path, key) in paths(keys) {
             let mut here = object;
-            for segment in key.path.split('.') {
+            for segment in path.split('.') {
                 here = match segment.strip_suffix("[]") {
                     Some(list) => &here["properties"][list]["items"],
                     None if segment == "*" => &here["additionalProperties"],
@@ -399,8 +396,8 @@ fn the_schema_of_results_has_the_same_keys() {
                 };
             }
             let described = here["description"].as_str().expect("described");
-            assert!(described.contains(key.unit), "{}: {described}", key.path);
+            assert!(described.contains(key.unit), "{path}: {described}");
         }
-        assert!(object["required"].as_array().expect("some").contains(&keys[0].path.into()) || number == 1);
+        assert!(object["required"].as_array().expect("some").contains(&keys[0].name.into()) || number == 1);
     }
 }

@@ -1,10 +1,14 @@
 //! The README's picture that compares drystone with other programs shows the table written by
 //! `tests/bench/peers/peers.py`.
 
+mod growth;
+
 use std::fs;
 use std::path::Path;
 
-use drystone::internals::chart::{Growth, GrowthLine, Point, growth};
+use drystone::internals::chart::Point;
+
+use growth::{Growth, GrowthLine, growth};
 
 /// A row of the table: structure, blocks, whether it stands, program, answer, milliseconds.
 type Row = (String, f64, bool, String, String, f64);

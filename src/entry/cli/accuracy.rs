@@ -11,12 +11,14 @@ use crate::entry::cli::progress::{BarVisibility, Progress};
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::mechanics::scene::Scene;
+use crate::pictures::chart::ChartError;
 use crate::pictures::output::file::Existing;
-use crate::products::report::accuracy::{csv, markdown, page, picture};
+use crate::products::report::accuracy::{csv, markdown, page, svg};
 use crate::products::result::accuracy_json;
-use crate::products::study::{Study, TOLERANCES, study, summary};
+use crate::products::study::{Case, TOLERANCES, study};
+use crate::products::wording::number::counted;
 
-/// Measure the time and the errors of solution methods at several tolerances, and count their wrong verdicts
+/// Measure the time and the errors of the accuracy levels and of the solver alone at several tolerances
 #[derive(Debug, Args)]
 pub(crate) struct Accuracy {
     /// Scene files; - reads standard input
@@ -37,15 +39,8 @@ fn tolerance(typed: &str) -> Result<f64, String> {
     }
 }
 
-/// The file formats in which the results of an accuracy study can be written.
-#[derive(Clone, Copy, Debug)]
-enum Form {
-    Html,
-    Csv,
-    Json,
-    Svg,
-    Markdown,
-}
+/// A file format in which the results of an accuracy study can be written: writes a study in this format.
+type Form = fn(&[Case]) -> Result<String, ChartError>;
 
 impl Accuracy {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
@@ -70,10 +65,7 @@ impl Accuracy {
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let frames = scenes.iter().map(|s| s.frames.len()).sum();
         let progress = Progress::begin(frames, shown);
-        let tolerances = match self.tolerances.len() {
-            0 => &TOLERANCES[..],
-            _ => &self.tolerances[..],
-        };
+        let tolerances = if self.tolerances.is_empty() { &TOLERANCES[..] } else { &self.tolerances[..] };
         let study = study(&scenes, tolerances, &mut |name| {
             progress.doing(name);
             progress.step();
@@ -81,16 +73,13 @@ impl Accuracy {
         drop(progress);
         let mut files = Vec::with_capacity(forms.len());
         for (path, form) in forms {
-            let text = written(&study, form).map_err(|c| vec![c])?;
+            let undrawn = |e: ChartError| vec![CliError::NotWritten { what: "the chart".into(), why: e.to_string() }];
+            let text = form(&study).map_err(undrawn)?;
             files.push((path.clone(), text.into_bytes()));
         }
         destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
         for (path, _) in &files {
-            let frames = match frames {
-                1 => "1 frame".to_owned(),
-                _ => format!("{frames} frames"),
-            };
-            terminal.note(&format!("{}: {frames}", path.display()));
+            terminal.note(&format!("{}: {}", path.display(), counted(frames, "frame")));
         }
         Ok(ExitStatus::Done)
     }
@@ -99,28 +88,14 @@ impl Accuracy {
 fn form(path: &Path) -> Result<Form, CliError> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match ending.as_deref() {
-        Some("html") => Ok(Form::Html),
-        Some("csv") => Ok(Form::Csv),
-        Some("json") => Ok(Form::Json),
-        Some("svg") => Ok(Form::Svg),
-        Some("md") => Ok(Form::Markdown),
+        Some("html") => Ok(page),
+        Some("csv") => Ok(|study| Ok(csv(study))),
+        Some("json") => Ok(|study| Ok(accuracy_json(study))),
+        Some("svg") => Ok(svg),
+        Some("md") => Ok(|study| Ok(markdown(study))),
         _ => Err(CliError::CommandLine(format!(
             "{}: the name of the output file must end in .html, .csv, .json, .svg or .md",
             path.display()
         ))),
     }
-}
-
-fn written(study: &Study, form: Form) -> Result<String, CliError> {
-    match form {
-        Form::Csv => Ok(csv(study)),
-        Form::Json => Ok(accuracy_json(study)),
-        Form::Markdown => Ok(markdown(study)),
-        Form::Html => page(study).map_err(|error| undrawn(&error)),
-        Form::Svg => picture(&summary(study), study.cases.len()).map_err(|error| undrawn(&error)),
-    }
-}
-
-fn undrawn(error: &dyn std::error::Error) -> CliError {
-    CliError::NotWritten { what: "the chart".into(), why: error.to_string() }
 }

@@ -59,7 +59,7 @@ pub(crate) struct Report {
     /// Order the scenes by their headline margin, the smallest first
     #[arg(long)]
     sort: bool,
-    /// Measure the time and the errors of solution methods on each scene; the times differ from run to run
+    /// Measure the time and the errors of the accuracy levels on each scene; the times differ from run to run
     #[arg(long)]
     accuracy_study: bool,
     /// Add solving times; without them, the same scenes give the same bytes

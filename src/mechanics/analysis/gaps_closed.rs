@@ -287,11 +287,7 @@ fn gaps_reason(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace],
 }
 
 fn gaps_explanation(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace], closing: f64) -> String {
-    let [written, closed] = verdicts.map(|verdict| match verdict {
-        Verdict::Stable => "stands",
-        Verdict::Unstable => "falls",
-        Verdict::Undecided => "is undecided",
-    });
+    let [written, closed] = verdicts.map(Verdict::verb);
     let closing = scene.units.small_length(closing, 2);
     let enough = format!("a contact_tolerance of {closing} closes them");
     let (places, overlap) = (list_places(scene, places), places.iter().any(|p| p.overlaps));

@@ -74,7 +74,28 @@ pub enum Verdict {
     Unstable,
 }
 
+/// The word for [`Verdict::Stable`] in texts for people.
+pub(crate) const STANDS: &str = "stands";
+/// The word for [`Verdict::Unstable`] in texts for people.
+pub(crate) const FALLS: &str = "falls";
+/// The word for [`Verdict::Undecided`] in texts for people.
+pub(crate) const UNDECIDED: &str = "undecided";
+
 impl Verdict {
+    /// Returns the word for this verdict in tables and figures: `stands`, `falls` or `undecided`.
+    pub(crate) fn plain(self) -> &'static str {
+        match self {
+            Verdict::Stable => STANDS,
+            Verdict::Unstable => FALLS,
+            Verdict::Undecided => UNDECIDED,
+        }
+    }
+
+    /// Returns the verb for this verdict in a sentence: `stands`, `falls` or `is undecided`.
+    pub(crate) fn verb(self) -> &'static str {
+        if self == Verdict::Undecided { "is undecided" } else { self.plain() }
+    }
+
     /// Returns the name of this verdict in JSON results: `stable`, `undecided` or `unstable`.
     pub fn word(self) -> &'static str {
         match self {

@@ -156,21 +156,6 @@ impl Column {
         }
     }
 
-    /// Returns this column minus another column. Both must act on the same bodies.
-    pub(super) fn minus(&self, other: &Column) -> Column {
-        let mut difference = Column { count: 0, ..*self };
-        let mut put = |row: usize, value: f64| match (0..difference.count).find(|i| difference.places[*i].0 == row) {
-            Some(i) => difference.places[i].1 += value,
-            None => {
-                difference.places[difference.count] = (row, value);
-                difference.count += 1;
-            }
-        };
-        self.entries().for_each(|(row, value)| put(row, value));
-        other.entries().for_each(|(row, value)| put(row, -value));
-        difference
-    }
-
     fn new(force: Force, cost: f64, limit: f64) -> Column {
         Column { places: [(0, 0.0); 6], count: 0, cost, limit, force }
     }

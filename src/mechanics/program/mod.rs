@@ -10,12 +10,10 @@
 //! | `column` | the coefficients of each force in the equilibrium equations |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `vallat` | the program of Vallat (2023), for comparison |
 
 mod column;
 mod pose;
 mod scale;
-mod vallat;
 #[cfg(test)]
 mod tests;
 
@@ -26,7 +24,6 @@ pub use pose::{
     least_squares, load_factor_dual, nearest_factor_dual,
 };
 pub use scale::Scale;
-pub use vallat::vallat_program;
 
 use crate::geometry::{Point, Vector};
 use crate::mechanics::statics::assembly::Assembly;

@@ -1,22 +1,17 @@
-//! Writes an accuracy study as an HTML page, a CSV table, a Markdown table or an SVG picture.
+//! Writes an accuracy study as an HTML page, a CSV table, a Markdown table or an SVG chart.
 //!
-//! All forms come from one [`Study`]. No form states a date, and all except the Markdown table state the version of
-//! drystone. [`result::accuracy_json`] writes the same study as JSON.
+//! No form states a date, and all except the Markdown table state the version of drystone. [`result::accuracy_json`]
+//! writes the same study as JSON.
 //!
 //! [`result::accuracy_json`]: crate::products::result::accuracy_json
-
-mod picture;
-
-pub use picture::picture;
-
-use std::fmt::Write as _;
 
 use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::mechanics::analysis::{Accuracy, Verdict};
 use crate::pictures::chart::{ChartError, Point, Scatter, Series, scatter};
 use crate::products::result::word;
-use crate::products::study::{Case, Mark, Method, Run, Study, Summary, summary};
+use crate::products::study::{Case, Mark, Method, Run, Summary, summary};
+use crate::products::wording::number::counted;
 use crate::products::wording::verdict::plain;
 use crate::text;
 
@@ -29,48 +24,38 @@ const MAX_SHOWN_ERROR: f64 = 1.0;
 
 const STYLE: &str = include_str!("../../../assets/accuracy.css");
 
-/// Writes the number of frames of a study: `41 frames`, `1 frame`.
-fn frames(study: &Study) -> String {
-    match study.cases.len() {
-        1 => "1 frame".into(),
-        n => format!("{n} frames"),
-    }
-}
+/// The heads of the columns of a summary, which are those of the Markdown table.
+const HEADS: [&str; 9] = [
+    "method",
+    "tolerance",
+    "relative time",
+    "iterations",
+    "median error of total force",
+    "worst error of total force",
+    "worst error of largest force",
+    "wrong",
+    "undecided",
+];
 
 /// Returns the introduction of an accuracy page: the version, the number of frames, and which numbers depend on the
 /// machine.
-pub fn heading(study: &Study) -> String {
+pub fn heading(study: &[Case]) -> String {
     format!(
         "drystone {}, {}. Times are medians of this run, and only their ratios are meaningful. Verdicts, errors and \
          iterations are the same on every machine.",
         env!("CARGO_PKG_VERSION"),
-        frames(study)
+        counted(study.len(), "frame")
     )
 }
 
-fn colour(method: Method) -> [u8; 3] {
-    match method {
-        Method::Source(2) => [214, 196, 225],
-        Method::Source(4) => [184, 150, 205],
-        Method::Source(6) => [140, 95, 175],
-        Method::Source(_) => [95, 50, 135],
-        Method::ForceForm => [150, 150, 150],
-        Method::Kinematic => [120, 185, 225],
-        Method::Unique => [40, 125, 190],
-        Method::Level(Accuracy::Standard) => [55, 145, 70],
-        Method::Level(Accuracy::Proved) => [15, 85, 50],
-    }
-}
-
 /// Draws a chart as SVG. The x axis is the time relative to the method `standard`, and the y axis is the largest
-/// relative error of the total force. The chart has a line for each method, the Pareto front, and red crosses for wrong
-/// verdicts.
+/// relative error of the total force. The chart has a line for each method, and red crosses for wrong verdicts.
 ///
 /// # Errors
 /// If the chart cannot be drawn.
-pub fn svg(study: &Study) -> Result<String, ChartError> {
+pub fn svg(study: &[Case]) -> Result<String, ChartError> {
     let lines = summary(study);
-    let place = |line: &Summary| Point {
+    let point = |line: &Summary| Point {
         x: line.time.max(1e-6),
         y: line.total_error.unwrap_or(MAX_SHOWN_ERROR).clamp(MIN_SHOWN_ERROR, MAX_SHOWN_ERROR),
         wrong: line.wrong > 0,
@@ -78,95 +63,87 @@ pub fn svg(study: &Study) -> Result<String, ChartError> {
     let shown = |line: &&Summary| line.total_error.is_some() || line.wrong > 0;
     let series = Method::ALL.map(|method| Series {
         name: method.name().to_owned(),
-        colour: colour(method),
-        points: lines.iter().filter(|l| l.method == method).filter(shown).map(place).collect(),
+        colour: match method {
+            Method::Clarabel => [140, 95, 175],
+            Method::Level(Accuracy::Standard) => [55, 145, 70],
+            Method::Level(Accuracy::Proved) => [15, 85, 50],
+        },
+        points: lines.iter().filter(|l| l.method == method).filter(shown).map(point).collect(),
     });
-    let mut front: Vec<(f64, f64)> = lines.iter().filter(|l| l.best).map(|l| (place(l).x, place(l).y)).collect();
-    front.sort_by(|a, b| a.0.total_cmp(&b.0));
     scatter(&Scatter {
-        title: format!("What accuracy costs: {}, drystone {}", frames(study), env!("CARGO_PKG_VERSION")),
+        title: format!(
+            "What accuracy costs: {}, drystone {}",
+            counted(study.len(), "frame"),
+            env!("CARGO_PKG_VERSION")
+        ),
         x: "time, relative to standard".into(),
         y: "worst relative error of the total force".into(),
         series: series.into(),
         wrong: "wrong verdicts".into(),
-        front: ("Pareto front".into(), front),
     })
 }
 
 /// Formats a relative error: `1.2e-9`, `0` below [`MIN_SHOWN_ERROR`], or `–` for `None`.
 fn small(value: Option<f64>) -> String {
-    value.map_or("–".into(), |v| match v {
-        v if v < MIN_SHOWN_ERROR => "0".into(),
-        v => format!("{v:.1e}"),
-    })
+    value.map_or("–".into(), |v| if v < MIN_SHOWN_ERROR { "0".into() } else { format!("{v:.1e}") })
+}
+
+/// The cells of a line of the summary, in the order of [`HEADS`].
+fn cells(line: &Summary) -> [String; 9] {
+    [
+        line.method.name().to_owned(),
+        format!("{:.0e}", line.tolerance),
+        format!("{:.2}", line.time),
+        line.iterations.to_string(),
+        small(line.median_error),
+        small(line.total_error),
+        small(line.largest_error),
+        line.wrong.to_string(),
+        line.undecided.to_string(),
+    ]
+}
+
+/// Returns the summary as a Markdown table with one row for each combination of method and tolerance.
+pub fn markdown(study: &[Case]) -> String {
+    let mut text = format!("| {} |\n|{}\n", HEADS.join(" | "), "---|".repeat(HEADS.len()));
+    for line in summary(study) {
+        let mut cells = cells(&line);
+        if line.wrong > 0 {
+            cells[7] = format!("**{}**", line.wrong);
+        }
+        text += &format!("| {} |\n", cells.join(" | "));
+    }
+    text
 }
 
 /// Returns a CSV table with one line for each combination of frame, method and tolerance.
-pub fn csv(study: &Study) -> String {
+pub fn csv(study: &[Case]) -> String {
     let mut text = String::from(
         "drystone,frame,blocks,truth,method,tolerance,seconds,iterations,verdict,mark,total_error,largest_error,\
          failures,imbalance,violation\n",
     );
     let number = |v: Option<f64>| v.map_or(String::new(), |v| format!("{v:e}"));
-    for case in &study.cases {
-        for run in &case.runs {
-            // Writing to a `String` cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{},{},{:e},{:e},{},{},{},{},{},{},{},{}",
-                env!("CARGO_PKG_VERSION"),
+    for case in study {
+        for Run { method, tolerance, outcome, mark, total_error, largest_error } in &case.runs {
+            let cells = [
+                env!("CARGO_PKG_VERSION").to_owned(),
                 text::csv(&case.name),
-                case.blocks,
-                word(case.truth.verdict),
-                text::csv(run.method.name()),
-                run.tolerance,
-                run.seconds,
-                run.outcome.iterations,
-                word(run.outcome.verdict),
-                mark(run.mark),
-                number(run.total_error),
-                number(run.largest_error),
-                run.outcome.points,
-                number(run.outcome.imbalance),
-                number(run.outcome.violation),
-            );
+                case.blocks.to_string(),
+                word(case.reference.verdict).to_owned(),
+                method.name().to_owned(),
+                format!("{tolerance:e}"),
+                format!("{:e}", outcome.seconds),
+                outcome.iterations.to_string(),
+                word(outcome.verdict).to_owned(),
+                if *mark == Mark::Wrong { "WRONG" } else { mark.word() }.to_owned(),
+                number(*total_error),
+                number(*largest_error),
+                outcome.failures.to_string(),
+                number(outcome.imbalance),
+                number(outcome.violation),
+            ];
+            text += &(cells.join(",") + "\n");
         }
-    }
-    text
-}
-
-fn mark(mark: Mark) -> &'static str {
-    match mark {
-        Mark::Right => "right",
-        Mark::Wrong => "WRONG",
-        Mark::Undecided => "undecided",
-        Mark::Unknown => "unknown",
-    }
-}
-
-/// Returns the summary as a Markdown table with one row for each combination of method and tolerance.
-pub fn markdown(study: &Study) -> String {
-    let mut text = String::from(
-        "| method | tolerance | relative time | iterations | median error of total force | worst error of total force | worst error of largest force | wrong | undecided |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
-    for line in summary(study) {
-        let _ = writeln!(
-            text,
-            "| {} | {:.0e} | {:.2} | {} | {} | {} | {} | {} | {} |",
-            text::markdown(line.method.name()),
-            line.tolerance,
-            line.time,
-            line.iterations,
-            small(line.median_error),
-            small(line.total_error),
-            small(line.largest_error),
-            match line.wrong {
-                0 => "0".into(),
-                n => format!("**{n}**"),
-            },
-            line.undecided
-        );
     }
     text
 }
@@ -175,7 +152,7 @@ pub fn markdown(study: &Study) -> String {
 ///
 /// # Errors
 /// If the chart cannot be drawn.
-pub fn page(study: &Study) -> Result<String, ChartError> {
+pub fn page(study: &[Case]) -> Result<String, ChartError> {
     let picture = svg(study)?;
     let page = html! {
         (DOCTYPE)
@@ -192,86 +169,63 @@ pub fn page(study: &Study) -> Result<String, ChartError> {
                 (PreEscaped(picture))
                 p.small {
                     "Errors are relative errors of the total force, or of the total sticking if a frame falls. "
-                    "The reference values are computed in extended precision. The error of each reference total has a certified bound. "
-                    "A red cross marks a method and tolerance with at least one wrong verdict. "
-                    "The golden band is the Pareto front: no other method without wrong verdicts is both faster and more accurate."
+                    "The reference is the level proved with a tolerance far below the others. "
+                    "The solver clarabel alone proves nothing, and finds no sticking. "
+                    "A red cross marks a method and tolerance with at least one wrong verdict."
                 }
                 h2 { "All frames together" }
-                (lines(&summary(study)))
+                table {
+                    tr { @for head in HEADS { th { (head) } } }
+                    @for line in summary(study) {
+                        tr.wrong[line.wrong > 0] { @for cell in cells(&line) { td { (cell) } } }
+                    }
+                }
                 h2 { "Frame by frame" }
-                @for case in &study.cases { (frame(case)) }
+                @for case in study { (frame(case)) }
             }
         }
     };
     Ok(page.into_string())
 }
 
-fn lines(lines: &[Summary]) -> maud::Markup {
-    html! {
-        table {
-            tr {
-                th { "method" } th { "tolerance" } th { "relative time" } th { "iterations" }
-                th { "median error of total" } th { "worst error of total" } th { "worst error of largest force" } th { "wrong" } th { "undecided" }
-            }
-            @for line in lines {
-                tr.best[line.best].wrong[line.wrong > 0] {
-                    td { (line.method.name()) }
-                    td { (format!("{:.0e}", line.tolerance)) }
-                    td { (format!("{:.2}", line.time)) }
-                    td { (line.iterations) }
-                    td { (small(line.median_error)) }
-                    td { (small(line.total_error)) }
-                    td { (small(line.largest_error)) }
-                    td { (line.wrong) " of " (line.frames) }
-                    td { (line.undecided) }
-                }
-            }
-        }
-    }
-}
-
 fn frame(case: &Case) -> maud::Markup {
     let wrong = case.runs.iter().filter(|r| r.mark == Mark::Wrong).count();
-    let truth = &case.truth;
+    let reference = &case.reference;
     html! {
         details {
             summary {
-                (text::line(&case.name)) ": " (plain(truth.verdict)) ", " (case.blocks) " blocks"
-                @if truth.within_band { ", within the band" }
-                @if wrong > 0 { ", " (wrong) " wrong verdicts" }
+                (text::line(&case.name)) ": " (plain(reference.verdict)) ", " (counted(case.blocks, "block"))
+                @if wrong > 0 { ", " (counted(wrong, "wrong verdict")) }
             }
             p.small {
-                @match (truth.verdict, truth.total) {
-                    (Verdict::Undecided, _) => { "No reference value could be certified for this frame." }
-                    (_, Some(total)) => { "Reference " (format!("{total:.15e}")) " N, certified to " (small(Some(truth.gap))) "." }
-                    (_, None) => { "The verdict is certified; there is no finite total to compare." }
+                @match (reference.verdict, reference.total) {
+                    (Verdict::Undecided, _) => { "The reference of this frame is undecided." }
+                    (_, Some(total)) => { "Reference " (format!("{total:.15e}")) " N." }
+                    (_, None) => { "There is no finite total to compare." }
                 }
-                @if let Some(largest) = truth.largest { " Largest force " (format!("{largest:.15e}")) " N." }
+                @if let Some(gap) = reference.gap { " A motion proves this least total to " (small(Some(gap))) "." }
+                @if let Some(largest) = reference.largest { " Largest force " (format!("{largest:.15e}")) " N." }
             }
             table {
                 tr {
                     th { "method" } th { "tolerance" } th { "milliseconds" } th { "iterations" } th { "verdict" }
                     th { "error of total" } th { "of largest force" } th { "failures" } th { "imbalance" } th { "violation" }
                 }
-                @for run in &case.runs { (line(run)) }
+                @for Run { method, tolerance, outcome, mark, total_error, largest_error } in &case.runs {
+                    tr.wrong[*mark == Mark::Wrong] {
+                        td { (method.name()) }
+                        td { (format!("{tolerance:.0e}")) }
+                        td { (format!("{:.3}", 1e3 * outcome.seconds)) }
+                        td { (outcome.iterations) }
+                        td.undecided[*mark == Mark::Undecided] { (plain(outcome.verdict)) @if *mark == Mark::Wrong { " (wrong)" } }
+                        td { (small(*total_error)) }
+                        td { (small(*largest_error)) }
+                        td { (outcome.failures) }
+                        td { (small(outcome.imbalance)) }
+                        td { (small(outcome.violation)) }
+                    }
+                }
             }
-        }
-    }
-}
-
-fn line(run: &Run) -> maud::Markup {
-    html! {
-        tr.wrong[run.mark == Mark::Wrong] {
-            td { (run.method.name()) }
-            td { (format!("{:.0e}", run.tolerance)) }
-            td { (format!("{:.3}", 1e3 * run.seconds)) }
-            td { (run.outcome.iterations) }
-            td.undecided[run.mark == Mark::Undecided] { (plain(run.outcome.verdict)) @if run.mark == Mark::Wrong { " (wrong)" } }
-            td { (small(run.total_error)) }
-            td { (small(run.largest_error)) }
-            td { (run.outcome.points) }
-            td { (small(run.outcome.imbalance)) }
-            td { (small(run.outcome.violation)) }
         }
     }
 }

@@ -186,10 +186,7 @@ fn drawn(bar: &MarginBar) -> String {
         cells[place(from)..=place(to)].fill('█');
     }
     if let Some((least, _)) = bar.now {
-        cells[place(least)] = match bar.is_inside() {
-            true => '●',
-            false => '✗',
-        };
+        cells[place(least)] = if bar.is_inside() { '●' } else { '✗' };
     }
     cells.iter().collect()
 }

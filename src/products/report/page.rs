@@ -12,6 +12,7 @@ use super::{html, markdown, print};
 use crate::mechanics::analysis::Verdict;
 use crate::products::result::{Counts, Layout, refusal, report_json};
 use crate::products::wording::number::counted;
+use crate::products::wording::verdict::counted as counted_by;
 
 /// The form of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +130,8 @@ impl Report {
             1 => format!("1 {one}"),
             n => format!("{n} {many}"),
         };
-        let mut parts = vec![verb(counts.stable, "stands", "stand"), verb(counts.unstable, "falls", "fall")];
+        let mut parts =
+            vec![counted_by(counts.stable, Verdict::Stable), counted_by(counts.unstable, Verdict::Unstable)];
         if counts.undecided > 0 {
             parts.push(verb(counts.undecided, "is undecided", "are undecided"));
         }

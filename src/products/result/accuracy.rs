@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Number, word};
-use crate::products::study::{Case, Mark, Study};
+use crate::products::study::Case;
 use crate::text::json;
 
 #[derive(Serialize)]
@@ -19,7 +19,7 @@ struct Frame<'a> {
     verdict: &'static str,
     total: Option<Number>,
     largest: Option<Number>,
-    gap: Number,
+    gap: Option<Number>,
     runs: Vec<Run>,
 }
 
@@ -44,28 +44,23 @@ impl<'a> Frame<'a> {
         let runs = case.runs.iter().map(|run| Run {
             method: run.method.name(),
             tolerance: Number(run.tolerance),
-            seconds: Number(run.seconds),
+            seconds: Number(run.outcome.seconds),
             iterations: run.outcome.iterations,
             verdict: word(run.outcome.verdict),
-            mark: match run.mark {
-                Mark::Right => "right",
-                Mark::Wrong => "wrong",
-                Mark::Undecided => "undecided",
-                Mark::Unknown => "unknown",
-            },
+            mark: run.mark.word(),
             total_error: number(run.total_error),
             largest_error: number(run.largest_error),
-            failures: run.outcome.points,
+            failures: run.outcome.failures,
             imbalance: number(run.outcome.imbalance),
             violation: number(run.outcome.violation),
         });
         Frame {
             frame: &case.name,
             blocks: case.blocks,
-            verdict: word(case.truth.verdict),
-            total: number(case.truth.total),
-            largest: number(case.truth.largest),
-            gap: Number(case.truth.gap),
+            verdict: word(case.reference.verdict),
+            total: number(case.reference.total),
+            largest: number(case.reference.largest),
+            gap: number(case.reference.gap),
             runs: runs.collect(),
         }
     }
@@ -73,8 +68,8 @@ impl<'a> Frame<'a> {
 
 /// Writes an accuracy study as one JSON object that ends with a line feed. Times are in seconds, forces in newtons,
 /// and errors are relative.
-pub fn accuracy_json(study: &Study) -> String {
-    let page = Page { drystone: env!("CARGO_PKG_VERSION"), frames: study.cases.iter().map(Frame::new).collect() };
+pub fn accuracy_json(study: &[Case]) -> String {
+    let page = Page { drystone: env!("CARGO_PKG_VERSION"), frames: study.iter().map(Frame::new).collect() };
     let mut text =
         serde_json::to_string_pretty(&page).expect("plain structures with text keys always serialise into memory");
     text.push('\n');

@@ -2,15 +2,13 @@
 
 use serde::Serialize;
 
-use super::{Motion, Number, Pair, arrow, place};
+use super::{Motion, Number, Pair, arrow, compact, place};
 use crate::mechanics::analysis::{CapacityEdge, CapacityVertex, LoadCapacity as Found};
 use crate::mechanics::scene::Scene;
-use crate::text;
 
 /// Writes a load capacity as one line of JSON: the value of the key `capacity` in the result of a frame.
 pub fn capacity_json(scene: &Scene, capacity: &Found) -> String {
-    let json = serde_json::to_string(&Capacity::new(scene, capacity));
-    text::json(&json.expect("plain structures with text keys always serialise into memory"))
+    compact(&Capacity::new(scene, capacity))
 }
 
 #[derive(Serialize)]

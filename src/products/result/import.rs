@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use crate::mechanics::scene::format::Lines;
+use super::{Layout, written};
 use crate::sources::import::Imported;
-use crate::text;
 
 /// Writes the log of an import as one JSON object that ends with a line feed. It states how the drawing was
 /// interpreted, which elements were ignored, and which corners were moved to close gaps.
@@ -52,11 +51,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
             })
             .collect(),
     };
-    let mut bytes = Vec::new();
-    let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
-    done.serialize(&mut writer).expect("plain structures with text keys always serialise into memory");
-    bytes.push(b'\n');
-    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+    written(&done, Layout::Lines, 1)
 }
 
 #[derive(Serialize)]

@@ -1,15 +1,14 @@
 //! Writes a result as one line of a batch: the origin of the scene, and the selected fields.
 
-mod name;
-
 use std::fmt;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
+use super::key::{KEYS, Key, Type};
 use super::{Layout, Result, Timing, to_json, word};
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::text;
-use name::{NAMES, Name};
 
 /// The origin of a scene in a batch: its file, and its line in this file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -84,15 +83,12 @@ impl Fields {
     pub fn read(list: &str) -> std::result::Result<Fields, Vec<UnknownField>> {
         let (mut chosen, mut unknown) = (Vec::new(), Vec::new());
         for typed in list.split(',').map(str::trim) {
-            match name::find(typed) {
+            match find(typed) {
                 Some(path) => chosen.push(path),
-                None => unknown.push(UnknownField { typed: text::line(typed), near: name::nearest(typed) }),
+                None => unknown.push(UnknownField { typed: text::line(typed), near: nearest(typed) }),
             }
         }
-        match unknown.is_empty() {
-            true => Ok(Fields { chosen }),
-            false => Err(unknown),
-        }
+        if unknown.is_empty() { Ok(Fields { chosen }) } else { Err(unknown) }
     }
 
     /// True if the field at `path` is selected: by its own name, by the name of a part of it, or by the name of an
@@ -180,10 +176,7 @@ pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, f
         out.push(',');
         out.push_str(whole.trim_start_matches('{').trim_end_matches("}\n"));
     } else {
-        let timing = match fields.ask(&["frames", "solve"]) {
-            true => Timing::Included,
-            false => Timing::LeftOut,
-        };
+        let timing = if fields.ask(&["frames", "solve"]) { Timing::Included } else { Timing::LeftOut };
         let mut whole = Result::new(analysis, timing);
         if fields.ask(&["frames", "blocks"]) {
             whole = whole.with_blocks(&analysis.scene);
@@ -293,10 +286,7 @@ fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static 
         Value::Object(map) if !parts.is_empty() => {
             let mut inner = String::from("{");
             for name in parts {
-                let deeper = match whole {
-                    true => vec![Vec::new()],
-                    false => below(chosen, name.word),
-                };
+                let deeper = if whole { vec![Vec::new()] } else { below(chosen, name.word) };
                 if let (Some(value), false) = (map.get(name.word), deeper.is_empty()) {
                     key(&mut inner, name.word);
                     pick(&mut inner, value, &name.parts, &deeper);
@@ -307,4 +297,80 @@ fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static 
         }
         value => out.push_str(&value.to_string()),
     }
+}
+
+/// The name of a field, and the fields below it. The fields below a list are the fields of its entries.
+#[derive(Debug)]
+struct Name {
+    word: &'static str,
+    parts: Vec<Name>,
+}
+
+/// All fields that can be selected, except `all`: the keys of a result, and `verdict`, the worst verdict of all frames. The path of the file and the picture are written without selection.
+static NAMES: LazyLock<Vec<Name>> = LazyLock::new(|| {
+    let mut names = names(KEYS);
+    names.retain(|name| name.word != "file");
+    let behind = names.iter().position(|name| name.word == "scene");
+    names.insert(behind.map_or(0, |place| place + 1), leaf("verdict"));
+    names
+});
+
+/// The names of these keys. The keys below the name of a robot cannot be selected one by one, only all together by the
+/// name of the object that contains the robots.
+fn names(keys: &'static [Key]) -> Vec<Name> {
+    let parts = |key: &Key| match key.kind {
+        Type::ByRobot => Vec::new(),
+        Type::Motions => ["block", "velocity", "spin"].map(leaf).into(),
+        _ => names(key.keys),
+    };
+    keys.iter().map(|key| Name { word: key.name, parts: parts(key) }).collect()
+}
+
+fn leaf(word: &'static str) -> Name {
+    Name { word, parts: Vec::new() }
+}
+
+/// Returns the words of the path of the field with this name, such as `frames`, `proof`; `None` if there is no such
+/// field.
+fn find(typed: &str) -> Option<Vec<&'static str>> {
+    if typed == "all" {
+        return Some(vec!["all"]);
+    }
+    let mut names: &'static [Name] = &NAMES;
+    let mut path = Vec::new();
+    for word in typed.split('.') {
+        let name = names.iter().find(|name| name.word == word)?;
+        path.push(name.word);
+        names = &name.parts;
+    }
+    Some(path)
+}
+
+/// Returns the name of the field that is most similar to `typed`; `None` if no name is similar.
+fn nearest(typed: &str) -> Option<String> {
+    let known = all();
+    // Suggest the right field if the user typed another common word for the interfaces or for the total force.
+    let synonym = match typed.rsplit('.').next().unwrap_or(typed) {
+        "forces" | "contacts" | "contact_forces" => Some("frames.interfaces"),
+        "force" | "sum_of_forces" => Some("frames.total_force"),
+        _ => None,
+    };
+    if let Some(name) = synonym {
+        return Some(name.to_owned());
+    }
+    text::nearest(typed, known.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// Returns the names of all fields, such as `frames.total_force`.
+fn all() -> Vec<String> {
+    fn add(names: &[Name], before: &str, list: &mut Vec<String>) {
+        for name in names {
+            let path = format!("{before}{}", name.word);
+            add(&name.parts, &format!("{path}."), list);
+            list.push(path);
+        }
+    }
+    let mut list = vec!["all".to_owned()];
+    add(&NAMES, "", &mut list);
+    list
 }

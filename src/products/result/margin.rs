@@ -10,21 +10,17 @@
 //! and `"withheld"` if no verdict confirms it. An interval is `null` if the frame stands at no value; `excluded` then
 //! has the motions that exclude all values.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::excluded::Excluded;
-use super::named::Named;
-use super::{Motion, Number};
+use super::{Motion, Number, compact};
 use crate::mechanics::analysis::{
-    End as Limit, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
+    End as Limit, Exclusion, Interval, Intervals as Sets, Margin, Margins as Found, Sides as Either,
 };
 use crate::mechanics::scene::Scene;
-use crate::text;
 
 /// Writes the margins of a frame as one line of JSON: the value of the key `margins` in the result of the frame.
 pub fn margins_json(scene: &Scene, margins: &Found) -> String {
-    let json = serde_json::to_string(&Margins::new(scene, margins));
-    text::json(&json.expect("plain structures with text keys always serialise into memory"))
+    compact(&Margins::new(scene, margins))
 }
 
 #[derive(Serialize)]
@@ -40,30 +36,66 @@ pub(super) struct Margins<'a> {
     #[serde(skip_serializing_if = "End::is_left_out")]
     load_factor: End,
     robots: Named<'a, Limits<End>>,
-    intervals: Intervals<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    excluded: Option<Excluded<'a>>,
+    /// The values of each parameter at which the frame stands. Parameters that were not requested, or that do not apply
+    /// to the scene, are left out.
+    intervals: Parameters<'a, Range>,
+    /// For each parameter whose interval is empty, the motions that prove that the frame falls at every value.
+    #[serde(skip_serializing_if = "Parameters::is_empty")]
+    excluded: Parameters<'a, Vec<Reason<'a>>>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
     mechanisms: Mechanisms<'a>,
 }
 
-/// The values of each parameter at which the frame stands. Parameters that were not requested, or that do not apply
-/// to the scene, are left out.
+/// A value for each parameter. Parameters without a value are left out.
 #[derive(Serialize)]
-struct Intervals<'a> {
+struct Parameters<'a, T: Serialize> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    friction: Option<Range>,
+    friction: Option<T>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tilt: Option<Range>,
+    tilt: Option<T>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    horizontal_load: Option<Range>,
+    horizontal_load: Option<T>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    kernel: Option<Range>,
+    kernel: Option<T>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    load_factor: Option<Range>,
+    load_factor: Option<T>,
     #[serde(skip_serializing_if = "Named::is_empty")]
-    robots: Named<'a, Limits<Range>>,
+    robots: Named<'a, RobotParameters<T>>,
+}
+
+/// A value for each limit of a robot. Limits without a value are left out.
+#[derive(Serialize)]
+struct RobotParameters<T> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fx: Option<T>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fy: Option<T>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<T>,
+}
+
+/// A list of keys and values that is written as a JSON object. The keys keep their order.
+struct Named<'a, T>(Vec<(&'a str, T)>);
+
+impl<T> Named<'_, T> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl<T: Serialize> Serialize for Named<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+/// An interval of values at which the frame falls by one motion. An end that is `null` has no limit.
+#[derive(Serialize)]
+struct Reason<'a> {
+    from: Option<Number>,
+    to: Option<Number>,
+    mechanism: Vec<Motion<'a>>,
 }
 
 /// An interval: two ends, `null` if it is empty, or `"withheld"`.
@@ -157,8 +189,8 @@ impl<'a> Margins<'a> {
             kernel: end(&found.kernel),
             load_factor: end(&found.load_factor),
             robots: robots(scene, found, end),
-            intervals: Intervals::new(scene, &found.intervals),
-            excluded: Excluded::new(scene, &found.intervals),
+            intervals: Parameters::new(scene, &found.intervals, |interval| Some(range(interval))),
+            excluded: Parameters::new(scene, &found.intervals, |interval| reasons(scene, interval)),
             notes: &found.intervals.notes,
             mechanisms: Mechanisms {
                 friction: motions(&found.friction),
@@ -173,14 +205,16 @@ impl<'a> Margins<'a> {
     }
 }
 
-impl<'a> Intervals<'a> {
-    fn new(scene: &'a Scene, found: &Sets) -> Intervals<'a> {
-        let of = |interval: &Option<Interval>| interval.as_ref().map(range);
-        let robots = found.robots.iter().map(|robot| {
-            let limits = Limits { fx: range(&robot.fx), fy: range(&robot.fy), torque: range(&robot.torque) };
-            (scene.robots[robot.robot.0].id.as_str(), limits)
+impl<'a, T: Serialize> Parameters<'a, T> {
+    /// Computes the value of each parameter from its interval. A robot without values is left out.
+    fn new(scene: &'a Scene, found: &Sets, value: impl Fn(&Interval) -> Option<T>) -> Parameters<'a, T> {
+        let of = |interval: &Option<Interval>| value(interval.as_ref()?);
+        let robots = found.robots.iter().filter_map(|robot| {
+            let limits = RobotParameters { fx: value(&robot.fx), fy: value(&robot.fy), torque: value(&robot.torque) };
+            let is_any = limits.fx.is_some() || limits.fy.is_some() || limits.torque.is_some();
+            is_any.then(|| (scene.robots[robot.robot.0].id.as_str(), limits))
         });
-        Intervals {
+        Parameters {
             friction: of(&found.friction),
             tilt: of(&found.tilt),
             horizontal_load: of(&found.horizontal_load),
@@ -189,6 +223,21 @@ impl<'a> Intervals<'a> {
             robots: Named(robots.collect()),
         }
     }
+
+    fn is_empty(&self) -> bool {
+        [&self.friction, &self.tilt, &self.horizontal_load, &self.kernel, &self.load_factor].iter().all(|p| p.is_none())
+            && self.robots.is_empty()
+    }
+}
+
+fn reasons<'a>(scene: &'a Scene, interval: &Interval) -> Option<Vec<Reason<'a>>> {
+    let Interval::Empty(excluded) = interval else { return None };
+    let reason = |excluded: &Exclusion| Reason {
+        from: excluded.from.map(Number),
+        to: excluded.to.map(Number),
+        mechanism: excluded.mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
+    };
+    Some(excluded.iter().map(reason).collect())
 }
 
 impl<'a> IntervalMechanisms<'a> {

@@ -11,9 +11,7 @@
 
 #[cfg(feature = "report")]
 mod accuracy;
-mod block;
 mod capacity;
-mod excluded;
 mod force;
 #[cfg(feature = "import")]
 mod import;
@@ -21,21 +19,14 @@ mod import;
 pub mod key;
 mod line;
 mod margin;
-mod named;
-mod note;
 mod refusal;
-mod page;
-mod proof;
 mod sensitivity;
-mod solve;
-mod value_type;
 mod wedging;
 
 use serde::{Serialize, Serializer};
 
 #[cfg(feature = "report")]
 pub use accuracy::accuracy_json;
-use block::Block;
 use capacity::Capacity;
 pub use capacity::capacity_json;
 use force::{Interface, Missing, Motion, Robot};
@@ -47,19 +38,16 @@ pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use margin::margins_json;
-pub use page::{Counts, quoted, report_json};
-use proof::ProofNumbers;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
 use sensitivity::Sensitivity;
-use solve::Solve;
 use wedging::Wedging;
 
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Proof, SolveReport, Stages};
 use crate::mechanics::scene::format::Lines;
-use crate::mechanics::scene::{BlockId, Scene, ToleranceSource};
+use crate::mechanics::scene::{BlockId, Note, Scene, ToleranceSource};
 pub use crate::products::wording::verdict::word;
 use crate::text;
 
@@ -103,14 +91,14 @@ pub enum Layout {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    written(&Result::new(analysis, timing), layout)
+    written(&Result::new(analysis, timing), layout, 2)
 }
 
 /// Like [`to_json`], with the path of the scene file under the key `file`.
 pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let mut result = Result::new(analysis, timing);
     result.file = Some(file);
-    written(&result, layout)
+    written(&result, layout, 2)
 }
 
 /// Like [`to_json`], with the placed blocks of each frame under the key `frames[].blocks`. If `file` is given, the
@@ -118,18 +106,27 @@ pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layou
 pub fn to_json_with_blocks(file: Option<&str>, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
     let mut result = Result::new(analysis, timing).with_blocks(&analysis.scene);
     result.file = file;
-    written(&result, layout)
+    written(&result, layout, 2)
 }
 
-fn written(result: &Result, layout: Layout) -> String {
+/// Writes a value as JSON that ends with a line feed. With [`Layout::Lines`], objects that are nested deeper than `depth`
+/// are written on one line.
+fn written(value: &impl Serialize, layout: Layout, depth: usize) -> String {
     let mut bytes = Vec::new();
     let written = match layout {
-        Layout::Lines => result.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(2))),
-        Layout::OneLine => serde_json::to_writer(&mut bytes, &result),
+        Layout::Lines => value.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(depth))),
+        Layout::OneLine => serde_json::to_writer(&mut bytes, &value),
     };
     written.expect("plain structures with text keys always serialise into memory");
     bytes.push(b'\n');
     text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+}
+
+/// Writes a value as JSON on one line, without a line feed.
+fn compact(value: &(impl Serialize + ?Sized)) -> String {
+    text::json(
+        serde_json::to_string(value).expect("plain structures with text keys always serialise into memory").as_str(),
+    )
 }
 
 #[derive(Serialize)]
@@ -140,7 +137,7 @@ struct Result<'a> {
     scene: &'a str,
     contact_tolerance: Tolerance,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    notes: Vec<note::Entry<'a>>,
+    notes: Vec<NoteEntry<'a>>,
     frames: Vec<Frame<'a>>,
 }
 
@@ -244,7 +241,7 @@ impl<'a> Result<'a> {
             file: None,
             scene: &scene.title,
             contact_tolerance: Tolerance::new(scene),
-            notes: analysis.notes.iter().map(note::Entry::new).collect(),
+            notes: analysis.notes.iter().map(NoteEntry::new).collect(),
             frames: frames.map(|(step, frame)| Frame::new(scene, &step.title, frame, timing)).collect(),
         }
     }
@@ -317,9 +314,178 @@ impl<'a> Frame<'a> {
     }
 }
 
+/// A placed block, which the result contains on request.
+#[derive(Serialize)]
+struct Block<'a> {
+    id: &'a str,
+    centre: Pair,
+    area: Number,
+    weight: Number,
+    vertices: Vec<Pair>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    holes: Vec<Vec<Pair>>,
+}
+
+impl<'a> Block<'a> {
+    fn new(scene: &'a Scene, id: BlockId) -> Block<'a> {
+        let block = &scene.blocks[id.0];
+        let ring = |corners: &[Point]| corners.iter().map(|p| place(*p)).collect();
+        let polygon = &block.body.polygon;
+        Block {
+            id: &block.id,
+            centre: place(block.centroid),
+            area: Number(polygon.area()),
+            weight: Number(block.weight),
+            vertices: ring(polygon.outline()),
+            holes: polygon.holes().iter().map(|hole| ring(hole)).collect(),
+        }
+    }
+}
+
+/// A note of an analysis.
+#[derive(Serialize)]
+struct NoteEntry<'a> {
+    code: &'static str,
+    path: &'a str,
+    line: Option<usize>,
+    message: &'a str,
+    hint: &'a str,
+}
+
+impl<'a> NoteEntry<'a> {
+    fn new(note: &'a Note) -> NoteEntry<'a> {
+        NoteEntry {
+            code: note.code.word(),
+            path: &note.path,
+            line: (note.line > 0).then_some(note.line),
+            message: &note.message,
+            hint: &note.hint,
+        }
+    }
+}
+
+/// The numbers of a proof.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ProofNumbers {
+    Forces { worst_imbalance: Number, worst_share: Number, worst_pull: Number, worst_slip: Number },
+    Mechanism { power: Number, worst_violation: Number, no_balance_below: BalanceBound },
+}
+
+/// The sum of forces, relative to the loads of the moving blocks, below which no forces balance. `"unbounded"` if no
+/// forces balance at all.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum BalanceBound {
+    Sum(Number),
+    Unbounded(&'static str),
+}
+
+impl ProofNumbers {
+    fn new(proof: Proof) -> ProofNumbers {
+        match proof {
+            Proof::Forces { worst_imbalance, worst_share, worst_pull, worst_slip } => ProofNumbers::Forces {
+                worst_imbalance: Number(worst_imbalance),
+                worst_share: Number(worst_share),
+                worst_pull: Number(worst_pull),
+                worst_slip: Number(worst_slip),
+            },
+            Proof::Mechanism { power, worst_violation } => ProofNumbers::Mechanism {
+                power: Number(power),
+                worst_violation: Number(worst_violation),
+                no_balance_below: match proof.excluded_force_sum() {
+                    sum if sum.is_finite() => BalanceBound::Sum(Number(sum)),
+                    _ => BalanceBound::Unbounded("unbounded"),
+                },
+            },
+        }
+    }
+}
+
+/// The method that decided a frame, its iterations and its time.
+#[derive(Serialize)]
+struct Solve {
+    method: &'static str,
+    iterations: usize,
+    programs: usize,
+    groups: usize,
+    reused: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<Number>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stages: Option<StageSeconds>,
+}
+
+#[derive(Serialize)]
+struct StageSeconds {
+    assembly: Number,
+    solution: Number,
+    wedging: Number,
+    margins: Number,
+}
+
+impl Solve {
+    fn new(solve: &SolveReport, timing: Timing) -> Solve {
+        let timed = timing == Timing::Included;
+        let of = |stages: Stages| StageSeconds {
+            assembly: Number(stages.assembly),
+            solution: Number(stages.solution),
+            wedging: Number(stages.wedging),
+            margins: Number(stages.margins),
+        };
+        Solve {
+            method: solve.method.name(),
+            iterations: solve.iterations,
+            programs: solve.programs,
+            groups: solve.groups,
+            reused: solve.reused,
+            seconds: timed.then_some(Number(solve.seconds)),
+            stages: timed.then(|| of(solve.stages)),
+        }
+    }
+}
+
 /// True if the analysis simulated this effect in the frame.
 fn is_simulated(frame: &FrameAnalysis, effect: EffectName) -> bool {
     frame.effects.iter().any(|e| e.effect == effect && e.simulated)
+}
+
+/// The number of scenes with each verdict in a report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Scenes in which every step stands.
+    pub stable: usize,
+    /// Scenes in which at least one step falls.
+    pub unstable: usize,
+    /// Scenes in which no step falls and at least one is undecided.
+    pub undecided: usize,
+    /// Files that are not valid scenes.
+    pub refused: usize,
+}
+
+/// Writes text as a JSON string, with its quotation marks.
+pub fn quoted(words: &str) -> String {
+    compact(words)
+}
+
+/// Writes a report as one JSON object that ends with a line feed. The object has the counts and a list of the scenes.
+/// `list` is the key of this list. `objects` has the entries of the list as JSON, one for each scene, and each entry is
+/// written on a line of its own.
+///
+/// ```
+/// use drystone::result::{Counts, report_json};
+/// let json = report_json(Counts { stable: 1, ..Counts::default() }, "scenes", &["{\"scene\":\"a\"}".into()]);
+/// assert!(json.contains("\"stable\":1") && json.ends_with("\n]}\n"));
+/// ```
+pub fn report_json(counts: Counts, list: &str, objects: &[String]) -> String {
+    let summary = compact(&counts);
+    let objects: Vec<&str> = objects.iter().map(|o| o.trim_end()).collect();
+    format!(
+        "{{\"drystone\":{},\"summary\":{summary},{}:[\n{}\n]}}\n",
+        quoted(env!("CARGO_PKG_VERSION")),
+        quoted(list),
+        objects.join(",\n")
+    )
 }
 
 #[cfg(test)]

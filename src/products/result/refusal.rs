@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::{Layout, Origin};
+#[cfg(feature = "wasm")]
+use super::compact;
+use super::{Layout, Origin, written};
 use crate::mechanics::scene::Problem;
-use crate::mechanics::scene::format::Lines;
 #[cfg(feature = "wasm")]
 use crate::sources::import::Remark;
-use crate::text;
 
 #[derive(Serialize)]
 struct Refusal<'a> {
@@ -44,13 +44,13 @@ struct Entry<'a> {
 /// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"drystone","line":1,"#));
 /// ```
 pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
-    written(&Refusal { file: Some(file), line: None, problems: entries(problems, 0) }, layout)
+    written(&Refusal { file: Some(file), line: None, problems: entries(problems, 0) }, layout, 1)
 }
 
 /// Writes problems as one JSON list: the value of `problems` in [`refusal`], on one line without a line feed.
 #[cfg(feature = "wasm")]
 pub(crate) fn problem_list(problems: &[Problem]) -> String {
-    listed(&entries(problems, 0))
+    compact(&entries(problems, 0))
 }
 
 /// Writes the problems of a drawing as one JSON list, `[{ element, message, hint }]`, on one line without a line
@@ -62,7 +62,7 @@ pub(crate) fn remark_list(remarks: &[Remark]) -> String {
         message: &remark.message,
         hint: &remark.help,
     });
-    listed(&entries.collect::<Vec<_>>())
+    compact(&entries.collect::<Vec<_>>())
 }
 
 #[cfg(feature = "wasm")]
@@ -71,12 +71,6 @@ struct DrawingEntry<'a> {
     element: &'a str,
     message: &'a str,
     hint: &'a str,
-}
-
-#[cfg(feature = "wasm")]
-fn listed<T: Serialize>(entries: &[T]) -> String {
-    let json = serde_json::to_string(entries);
-    text::json(&json.expect("plain structures with text keys always serialise into memory"))
 }
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.
@@ -88,6 +82,7 @@ pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     written(
         &Refusal { file: origin.file.as_deref(), line: origin.line, problems: entries(problems, before) },
         Layout::OneLine,
+        1,
     )
 }
 
@@ -105,15 +100,4 @@ fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
             hint: &problem.help,
         })
         .collect()
-}
-
-fn written(refusal: &Refusal<'_>, layout: Layout) -> String {
-    let mut bytes = Vec::new();
-    let written = match layout {
-        Layout::Lines => refusal.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1))),
-        Layout::OneLine => serde_json::to_writer(&mut bytes, refusal),
-    };
-    written.expect("plain structures with text keys always serialise into memory");
-    bytes.push(b'\n');
-    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
 }

@@ -1,7 +1,7 @@
 //! Describes in words which forces can act on a block without a collapse.
 
 use super::number::{digits, quantity};
-use crate::mechanics::analysis::{CapacityShape, LoadCapacity, Verdict};
+use crate::mechanics::analysis::{CapacityShape, FALLS, LoadCapacity, STANDS, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::text;
 
@@ -27,7 +27,7 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
     };
     match (capacity.shape(), sides(scene, capacity)) {
         (CapacityShape::Empty, _) if capacity.cases == 1 => {
-            format!("it falls under any force {place}")
+            format!("it {FALLS} under any force {place}")
         }
         (CapacityShape::Empty, _) => format!("no force {place} keeps it standing{for_all}"),
         (CapacityShape::Everything, _) => format!("every force {place} is carried{for_all}"),
@@ -39,7 +39,7 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
             };
             let ranges = ranges(scene, capacity);
             match capacity.cases {
-                1 => format!("without a force {place} it falls; it stands with {ranges}{some}"),
+                1 => format!("without a force {place} it {FALLS}; it {STANDS} with {ranges}{some}"),
                 _ => format!("without a force {place} it does not stand{for_all}; it does with {ranges}{some}"),
             }
         }
@@ -51,9 +51,8 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
 pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     // A coordinate that is only a rounding error relative to the block's size is written as 0.
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
-    let plain = |v: f64| match v.abs() <= 1e-9 * bounds.diagonal() {
-        true => digits(0.0),
-        false => digits(scene.units.length().value_from_si(v)),
+    let plain = |v: f64| {
+        if v.abs() <= 1e-9 * bounds.diagonal() { digits(0.0) } else { digits(scene.units.length().value_from_si(v)) }
     };
     let point = |k: usize| {
         let at = capacity.at[k];
@@ -125,8 +124,5 @@ pub fn ranges(scene: &Scene, capacity: &LoadCapacity) -> String {
 fn rounded(force: f64, capacity: &LoadCapacity) -> f64 {
     let sizes = capacity.vertices.iter().map(|v| v.force.norm());
     let largest = sizes.chain(capacity.edges.iter().map(|e| e.limit.abs()));
-    match force.abs() <= 1e-7 * largest.fold(0.0, f64::max) {
-        true => 0.0,
-        false => force,
-    }
+    if force.abs() <= 1e-7 * largest.fold(0.0, f64::max) { 0.0 } else { force }
 }

@@ -2,14 +2,14 @@
 
 use super::margin::{Parameter, StatedMargin, confirmed};
 use super::number::{three_down, three_up};
-use crate::mechanics::analysis::{End, Interval, Verdict};
+use crate::mechanics::analysis::{End, FALLS, Interval, STANDS, UNDECIDED, Verdict};
 
 /// Describes a margin as a sentence without a full stop: `It carries 2.40 times its load`, `It falls: it carries 0.33
 /// of its load`. `loads` is the number of loads of the frame.
 pub fn headline(margin: &StatedMargin<'_>, verdict: Verdict, loads: usize) -> String {
     let load = if loads == 1 { "load" } else { "loads" };
     match (verdict, margin.parameter) {
-        (Verdict::Undecided, _) => "It is undecided whether it stands".to_owned(),
+        (Verdict::Undecided, _) => format!("It is {UNDECIDED} whether it {STANDS}"),
         (Verdict::Stable, Parameter::LoadFactor) => load_factor_phrase(margin, load),
         (Verdict::Unstable, Parameter::LoadFactor) => lacks(margin, load),
         (Verdict::Stable, _) => reserve(margin),
@@ -42,15 +42,15 @@ fn load_factor_phrase(margin: &StatedMargin<'_>, load: &str) -> String {
 
 fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
     if matches!(margin.interval, Interval::Undecided) {
-        return format!("It falls; no proof shows which part of its {load} it carries");
+        return format!("It {FALLS}; no proof shows which part of its {load} it carries");
     }
     let low = margin.interval.low().and_then(confirmed);
     match (low, end(margin.interval.high(), &three_down)) {
         (Some(low), _) if low > 1.0 => {
-            format!("It falls: it needs {} times its {load}", three_up(low))
+            format!("It {FALLS}: it needs {} times its {load}", three_up(low))
         }
-        (_, Some(high)) => format!("It falls: it carries {high} of its {load}"),
-        _ => format!("It falls under any multiple of its {load}"),
+        (_, Some(high)) => format!("It {FALLS}: it carries {high} of its {load}"),
+        _ => format!("It {FALLS} under any multiple of its {load}"),
     }
 }
 
@@ -58,7 +58,7 @@ fn lacks(margin: &StatedMargin<'_>, load: &str) -> String {
 /// load, the text states the end of the interval that is nearer to 0.
 fn reserve(margin: &StatedMargin<'_>) -> String {
     if matches!(margin.interval, Interval::Undecided) {
-        return format!("It stands; {}: {}", margin.name, margin.stands());
+        return format!("It {STANDS}; {}: {}", margin.name, margin.stands());
     }
     let nearest = || {
         let ends = [(margin.interval.low(), "left"), (margin.interval.high(), "right")];
@@ -68,26 +68,26 @@ fn reserve(margin: &StatedMargin<'_>) -> String {
     match margin.parameter {
         Parameter::Tilt => match nearest() {
             Some((angle, side, at_least)) => {
-                format!("It stands {at_least}until gravity turns {}° to the {side}", three_down(angle))
+                format!("It {STANDS} {at_least}until gravity turns {}° to the {side}", three_down(angle))
             }
-            None => "It stands however far gravity turns".to_owned(),
+            None => format!("It {STANDS} however far gravity turns"),
         },
         Parameter::HorizontalLoad => match nearest() {
             Some((share, side, at_least)) => format!(
-                "It stands {at_least}until a horizontal force of {} times its weight pushes it to the {side}",
+                "It {STANDS} {at_least}until a horizontal force of {} times its weight pushes it to the {side}",
                 three_down(share)
             ),
-            None => "It stands under a horizontal force of any multiple of its weight".to_owned(),
+            None => format!("It {STANDS} under a horizontal force of any multiple of its weight"),
         },
         Parameter::Friction => match margin.interval.low().map(|end| (confirmed(end), end)) {
             Some((Some(least), end)) if least > 0.0 => {
-                format!("It stands {}down to a friction coefficient of {}", at_least(end), three_up(least))
+                format!("It {STANDS} {}down to a friction coefficient of {}", at_least(end), three_up(least))
             }
-            _ => "It stands even without friction".to_owned(),
+            _ => format!("It {STANDS} even without friction"),
         },
         Parameter::Kernel => match end(margin.interval.high(), &three_down) {
-            Some(most) => format!("It stands up to a safety kernel of {most}"),
-            None => "It stands even with the largest safety kernel, 1".to_owned(),
+            Some(most) => format!("It {STANDS} up to a safety kernel of {most}"),
+            None => format!("It {STANDS} even with the largest safety kernel, 1"),
         },
         _ => format!("{}: {}", margin.name, margin.sentence()),
     }
@@ -105,12 +105,12 @@ fn falls(margin: &StatedMargin<'_>) -> String {
     let low = margin.interval.low().and_then(confirmed);
     match (margin.parameter, low) {
         (Parameter::Friction, Some(least)) if least > 0.0 => {
-            format!("It falls: it would stand with a friction coefficient of {}", three_up(least))
+            format!("It {FALLS}: it would stand with a friction coefficient of {}", three_up(least))
         }
         (Parameter::Friction, _) if matches!(margin.interval, Interval::Empty(_)) => {
-            "It falls whatever the friction coefficient".to_owned()
+            format!("It {FALLS} whatever the friction coefficient")
         }
-        _ => "It falls".to_owned(),
+        _ => format!("It {FALLS}"),
     }
 }
 

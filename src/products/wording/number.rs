@@ -11,9 +11,10 @@ pub const NO_BREAK: char = '\u{a0}';
 /// `250 µN`. If the scene file chooses the unit, no prefix is added: `0.0024 kN`.
 pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
-    match unit.is_chosen {
-        true => in_chosen_unit(unit.value_from_si(value), &unit.symbol()),
-        false => with_prefix(value, &unit.symbol()),
+    if unit.is_chosen {
+        in_chosen_unit(unit.value_from_si(value), &unit.symbol())
+    } else {
+        with_prefix(value, &unit.symbol())
     }
 }
 

@@ -4,7 +4,7 @@ use super::failure::{named, pair};
 use super::number::{amount, digits, round_below_in, three};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{
-    CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, NoSensitivity, Sensitivity, Slope,
+    CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
 };
 use crate::mechanics::scene::{BlockId, Scene};
 
@@ -77,10 +77,7 @@ pub fn length(scene: &Scene, metres: f64) -> String {
     if unit.is_chosen {
         return amount(metres, unit);
     }
-    match metres < 1.0 {
-        true => format!("{} mm", digits(1e3 * metres)),
-        false => format!("{} m", digits(metres)),
-    }
+    if metres < 1.0 { format!("{} mm", digits(1e3 * metres)) } else { format!("{} m", digits(metres)) }
 }
 
 /// Like [`most_effective`], but leaves out changes that do not alter the written value of the margin.
@@ -134,10 +131,7 @@ fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, 
             continue;
         };
         let with: Vec<String> = corner.with.iter().map(|b| named(scene, *b)).collect();
-        let with = match with.is_empty() {
-            true => String::new(),
-            false => format!(" with {}", super::number::listed(&with)),
-        };
+        let with = if with.is_empty() { String::new() } else { format!(" with {}", super::number::listed(&with)) };
         list.push(EffectiveChange {
             target: Target::Corner(number, direction),
             words: format!(
@@ -297,14 +291,13 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
         let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         let stated = format!(
-            "limit: {name} {before} ({} end of the interval in which the frame stands)",
+            "limit: {name} {before} ({} end of the interval in which the frame {STANDS})",
             end_name(kind, is_high)
         );
-        lines.push(match changes.is_empty() {
-            true => {
-                format!("{stated}: no single small change improves it visibly")
-            }
-            false => format!("{stated}; what changes it most, estimated from derivatives:"),
+        lines.push(if changes.is_empty() {
+            format!("{stated}: no single small change improves it visibly")
+        } else {
+            format!("{stated}; what changes it most, estimated from derivatives:")
         });
         for change in &changes {
             let after = value(kind, change.after);
@@ -330,13 +323,13 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
             )
         }
         NoSensitivity::Empty => {
-            format!("no sensitivity of the {name}: the frame falls at every value")
+            format!("no sensitivity of the {name}: the frame {FALLS} at every value")
         }
         NoSensitivity::Unbounded => {
-            format!("no sensitivity of the {name}: the frame stands at every larger value")
+            format!("no sensitivity of the {name}: the frame {STANDS} at every larger value")
         }
         NoSensitivity::RangeEnds => {
-            format!("no sensitivity of the {name}: the frame stands up to the end of the possible range")
+            format!("no sensitivity of the {name}: the frame {STANDS} up to the end of the possible range")
         }
         NoSensitivity::Unconfirmed => {
             format!("no sensitivity of the {name}: its value is not confirmed by a verdict")

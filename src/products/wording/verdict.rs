@@ -2,7 +2,7 @@
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
 use super::number::{listed, quantity};
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{FALLS, FrameAnalysis, STANDS, UNDECIDED, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::Unit;
 
@@ -19,21 +19,15 @@ pub fn word(verdict: Verdict) -> &'static str {
 
 /// Returns the word for a verdict in tables, figures and sentences: `stands`, `falls`, `undecided`.
 pub fn plain(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stands",
-        Verdict::Unstable => "falls",
-        Verdict::Undecided => "undecided",
-    }
+    verdict.plain()
 }
 
 /// Writes how many frames or scenes have a verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {
-        (Verdict::Stable, 1) => "stands",
-        (Verdict::Stable, _) => "stand",
-        (Verdict::Unstable, 1) => "falls",
-        (Verdict::Unstable, _) => "fall",
-        (Verdict::Undecided, _) => "undecided",
+        (Verdict::Stable, n) if n != 1 => "stand",
+        (Verdict::Unstable, n) if n != 1 => "fall",
+        _ => plain(verdict),
     };
     format!("{count} {word}")
 }
@@ -97,19 +91,19 @@ pub fn sentence_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn 
                 .into()
         }
         Verdict::Stable if frame_analysis.robots.is_empty() => {
-            "It stands: pressure and friction at the contacts can hold every block at rest.".into()
+            format!("It {STANDS}: pressure and friction at the contacts can hold every block at rest.")
         }
         Verdict::Stable => {
-            "It stands: pressure and friction at the contacts, and the robots, can hold every block at rest.".into()
+            format!("It {STANDS}: pressure and friction at the contacts, and the robots, can hold every block at rest.")
         }
         Verdict::Unstable => match reasons_with(scene, frame_analysis, write) {
             reasons if reasons.is_empty() => {
-                "It falls: no forces that contacts and robots can give would hold every block at rest.".into()
+                format!("It {FALLS}: no forces that contacts and robots can give would hold every block at rest.")
             }
-            reasons => format!("It falls: {reasons}."),
+            reasons => format!("It {FALLS}: {reasons}."),
         },
         Verdict::Undecided => format!(
-            "It is undecided: neither balancing forces nor a collapse motion could be proved; {}.",
+            "It is {UNDECIDED}: neither balancing forces nor a collapse motion could be proved; {}.",
             frame_analysis.doubt()
         ),
     }

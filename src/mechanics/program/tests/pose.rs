@@ -99,55 +99,6 @@ fn only_a_pair_of_opposite_unlimited_forces_becomes_one_equality() {
     assert_eq!(conic.equalities, 0);
 }
 
-/// The program of the box as in the reference: six unknowns for the joint, six for the robot, and the opposite of
-/// each.
-#[test]
-fn the_program_of_the_reference_contains_the_opposite_of_every_unknown() {
-    let beta = 1e6;
-    let program = held(0.0, f64::INFINITY, 8.0);
-    let conic = vallat_program(&program, beta);
-    assert_eq!((conic.unknowns, conic.equalities), (24, 3));
-    assert_eq!(conic.linear[..12], [1.0; 12]);
-    assert_eq!(conic.linear[12..], [beta; 12]);
-    let unknowns: [[f64; 3]; 12] = [
-        [0.0, 1.0, 0.5],
-        [-1.0, 0.0, -0.75],
-        [1.0, 0.0, 0.75],
-        [0.0, 1.0, -0.5],
-        [-1.0, 0.0, -0.75],
-        [1.0, 0.0, 0.75],
-        [1.0, 0.0, -0.75],
-        [-1.0, 0.0, 0.75],
-        [0.0, 1.0, -1.0],
-        [0.0, -1.0, 1.0],
-        [0.0, 0.0, 1.0],
-        [0.0, 0.0, -1.0],
-    ];
-    for place in 0..3 {
-        let found = row(&conic, place);
-        for (k, unknown) in unknowns.iter().enumerate() {
-            assert!((found[k] - unknown[place]).abs() < 1e-15, "{place} {k}");
-            assert_eq!(found[12 + k], -found[k]);
-        }
-        assert_eq!(conic.bound[place], program.loads[place]);
-    }
-    // Friction: f⁺ + f⁻ ≤ μN at both points. Then come the limits of x and of the torque in both directions. In the
-    // last rows all unknowns are at least 0.
-    let entries = |number: usize| {
-        let entries = conic.matrix.iter().filter(|e| e.0 == number);
-        entries.map(|e| (e.1, e.2)).collect::<Vec<_>>()
-    };
-    assert_eq!(entries(3), [(0, -0.5), (1, 1.0), (2, 1.0)]);
-    assert_eq!(entries(4), [(3, -0.5), (4, 1.0), (5, 1.0)]);
-    for (number, k, limit) in [(5, 6, 0.0), (6, 7, 0.0), (7, 10, 2.0), (8, 11, 2.0)] {
-        assert_eq!((entries(number), conic.bound[number]), (vec![(k, 1.0)], limit));
-    }
-    for k in 0..24 {
-        assert_eq!((entries(9 + k), conic.bound[9 + k]), (vec![(k, -1.0)], 0.0));
-    }
-    assert_eq!(conic.bound.len(), 33);
-}
-
 #[test]
 fn the_force_program_minimises_costs_and_can_limit_another_sum() {
     let program = example();

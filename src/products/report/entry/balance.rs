@@ -109,10 +109,7 @@ pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Gr
 /// Returns the force at an interface, in newtons, that acts on `body`. `body` is one of the two bodies of the
 /// interface.
 fn force_on(contact: &Contact, body: BodyId) -> Vector {
-    match contact.resultant.on == body {
-        true => contact.resultant.force,
-        false => -contact.resultant.force,
-    }
+    if contact.resultant.on == body { contact.resultant.force } else { -contact.resultant.force }
 }
 
 /// Returns the forces of the ground on the blocks, one for each joint between the ground and a block. If there are more

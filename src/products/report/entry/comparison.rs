@@ -8,28 +8,23 @@
 //! 4. Both figures mark changed forces, changed blocks (outline, position, weight, friction, loads, robots), and blocks
 //!    that only one scene has.
 
-mod force;
-mod mark;
-mod number;
-mod setting;
-mod shape;
+mod difference;
 
+use difference::{Settings, Shapes};
+
+use super::hover::onto_scene;
 use super::row::file_name;
-use super::sheet;
-use super::{Entry, Figure, File, ReportOptions, Row, Section, SheetPart};
+use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::pictures::drawing::Drawing;
-use crate::products::figure::{self, Kind, count_in_words};
-use crate::products::wording::number::{counted, letter};
+use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
+use crate::products::figure::{self, ForceChange, Kind, count_in_words, noise, shared_forces};
+use crate::products::wording::failure::pair;
+use crate::products::wording::number::{counted, digits, letter, percent, tenths};
 use crate::products::wording::verdict::{self, plain};
 use crate::text::line;
-use force::SharedForces;
-use mark::mark;
-use number::{margins, totals};
-use setting::Settings;
-use shape::Shapes;
 
 /// One of the two scenes of a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -215,7 +210,7 @@ fn changes_sentence(
         (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
         (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
         (Verdict::Undecided, Verdict::Undecided) => "both are undecided".to_owned(),
-        (a, b) => format!("the first {}, the second {}", verb(a), verb(b)),
+        (a, b) => format!("the first {}, the second {}", a.verb(), b.verb()),
     }];
     let mut differs = shape.stated();
     if differs.is_empty() {
@@ -227,16 +222,166 @@ fn changes_sentence(
     stated.join("; ")
 }
 
-/// Returns the verb for a verdict in a sentence: `stands`, `falls`, `is undecided`.
-fn verb(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Undecided => "is undecided",
-        decided => plain(decided),
-    }
-}
-
 fn capital(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
+}
+
+/// The forces at the interfaces that both frames have.
+struct SharedForces<'a> {
+    /// One entry for each common interface, changed or not.
+    pub all: Vec<ForceChange<'a>>,
+    /// Forces of at most this magnitude, N, count as zero.
+    noise: f64,
+}
+
+impl<'a> SharedForces<'a> {
+    /// Pairs the interfaces of frame `number` (from 0) of the first analysis with those of the same frame of the second;
+    /// see [`shared_forces`].
+    pub fn new(sides: [Side<'a>; 2], number: usize) -> SharedForces<'a> {
+        let [was, is] = sides.map(|side| {
+            let analysis = side.analysis;
+            (&*analysis.scene, &analysis.frames[number].contacts[..])
+        });
+        let all = shared_forces([was, is]);
+        let forces = was.1.iter().chain(is.1);
+        SharedForces { all, noise: noise(forces.map(|c| c.resultant.force.norm())) }
+    }
+
+    /// Iterates over the forces that changed by more than 5 % of the larger force. Forces at the level of rounding
+    /// errors are left out.
+    pub fn changed(&self) -> impl Iterator<Item = &ForceChange<'a>> {
+        self.all.iter().filter(|force| force.is_change(self.noise))
+    }
+
+    /// Makes the table of the forces that changed, in the given units. `scene` is the second scene.
+    pub fn grid(&self, scene: &Scene, units: UnitsEntry) -> Grid {
+        let unit = units.force();
+        let heads = ["first", "second"].map(|which| format!("#{which}, {}", unit.symbol()));
+        let mut grid = Grid::new(
+            "Forces that changed by over 5 %",
+            &[
+                "between",
+                &heads[0],
+                &heads[1],
+                "#change of the magnitude",
+                "#magnitude of the vector change, relative to the larger force",
+            ],
+        );
+        for force in self.changed() {
+            let [a, b] = force.amounts();
+            let cells = [
+                line(&pair(scene, force.contacts[1].interface.bodies)),
+                digits(unit.value_from_si(a)),
+                digits(unit.value_from_si(b)),
+                change(a, b),
+                percent(force.difference() / force.larger()),
+            ];
+            grid.add("", cells);
+        }
+        grid
+    }
+}
+
+/// Writes the change of a number relative to `before`, in percent, with its sign. The text is `none` if there is no
+/// change except for rounding, and `from nothing` if `before` is 0 and `after` is not.
+fn change(before: f64, after: f64) -> String {
+    if (after - before).abs() <= 1e-9 * before.abs() {
+        return "none".to_owned();
+    }
+    if before == 0.0 {
+        return "from nothing".to_owned();
+    }
+    let sign = if after < before { "−" } else { "+" };
+    match (after / before - 1.0).abs() {
+        little if little < 0.0005 => format!("{sign}under 0.1 %"),
+        share => format!("{sign}{}", tenths(share)),
+    }
+}
+
+/// Makes a table that compares two frames by weight, total force, total sticking and largest force at an interface, in
+/// the given units.
+fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntry) -> Grid {
+    let unit = units.force();
+    let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
+    let largest = |f: &FrameAnalysis| {
+        let forces = f.contacts.iter().map(|c| c.resultant.force.norm());
+        forces.fold(0.0, f64::max)
+    };
+    for (what, a, b) in [
+        ("weight of all blocks", then.weight, now.weight),
+        ("total force", then.total_force, now.total_force),
+        ("total sticking", then.total_sticking, now.total_sticking),
+        ("largest force at an interface", largest(then), largest(now)),
+    ] {
+        let [first, second] = [a, b].map(|force| digits(unit.value_from_si(force)));
+        let what = format!("{what}, {}", unit.symbol());
+        grid.add("", [what, first, second, change(a, b)]);
+    }
+    grid
+}
+
+/// Makes a table that compares the margins of two frames, with one row for each margin. `number` is the index of both
+/// frames.
+fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
+    let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
+    let [first, second] = sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
+    for bullet in &first {
+        let same = second.iter().find(|b| b.name == bullet.name);
+        let after = same.map_or("–".to_owned(), |b| b.words.clone());
+        grid.add("", [bullet.name.clone(), bullet.words.clone(), after]);
+    }
+    for bullet in second.iter().filter(|b| first.iter().all(|a| a.name != b.name)) {
+        grid.add("", [bullet.name.clone(), "–".to_owned(), bullet.words.clone()]);
+    }
+    grid
+}
+
+/// The smallest and largest radius of the ring around a changed force, in pixels.
+const RING_RADIUS_LIMITS: (f64, f64) = (3.0, 9.0);
+
+/// Returns the radius of the rings in pixels. It is smaller if many rings would overlap. `places` has their centres.
+fn radius(places: &[PagePoint]) -> f64 {
+    let (least, most) = RING_RADIUS_LIMITS;
+    let span = |of: fn(&PagePoint) -> f64| {
+        let (low, high) =
+            places.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        (high - low).max(0.0)
+    };
+    let (width, height) = (span(|p| p.x), span(|p| p.y));
+    let count = places.len() as f64;
+    // Estimate the distance between neighbouring rings, as if they were spread evenly over their bounding box or
+    // along a line.
+    let apart = f64::max(libm::sqrt(width * height / count), width.max(height) / count);
+    match places.len() {
+        0 | 1 => most,
+        _ => (0.3 * apart).clamp(least, most),
+    }
+}
+
+/// Draws an outline around some blocks, and a ring around some points, in a drawing of the scene. `blocks` has the
+/// indices of the blocks, and `rings` has the points in metres.
+fn mark(drawing: &mut Drawing, scene: &Scene, blocks: &[usize], rings: &[Point], colour: Colour) {
+    if blocks.is_empty() && rings.is_empty() {
+        return;
+    }
+    let marks = |camera: &Camera| {
+        let mut outline = Outline::default();
+        for block in blocks {
+            outline.extend(camera.polygon(&scene.blocks[*block].body.polygon));
+        }
+        let mut group = Group { echo: true, ..Group::with_class("changed") };
+        if !outline.segments.is_empty() {
+            group = group.with(Path::stroked(outline, Stroke::new(colour, 3.0)));
+        }
+        let places: Vec<PagePoint> = rings.iter().map(|at| camera.place(*at)).collect();
+        let radius = radius(&places);
+        for at in places {
+            let circle = Outline::circle(at, radius);
+            group = group.with(Path::stroked(circle, Stroke::new(colour, 1.8)));
+        }
+        group
+    };
+    onto_scene(drawing, &marks);
 }

@@ -171,10 +171,7 @@ pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
 }
 
 fn limits(limits: Limits, units: Units) -> String {
-    let limit = |value: f64, words: String| match value.is_finite() {
-        true => words,
-        false => "none".to_owned(),
-    };
+    let limit = |value: f64, words: String| if value.is_finite() { words } else { "none".to_owned() };
     let parts = [
         limit(limits.fx, units.force(limits.fx)),
         limit(limits.fy, units.force(limits.fy)),

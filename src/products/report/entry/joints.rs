@@ -99,10 +99,7 @@ impl<'a> Ranking<'a> {
     /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, the table has
     /// only the first [`MAX_JOINTS`] joints.
     pub fn table(&self, all: bool) -> Grid {
-        let shown: &[UsedJoint] = match all {
-            true => &self.used,
-            false => &self.used[..self.used.len().min(MAX_JOINTS)],
-        };
+        let shown: &[UsedJoint] = if all { &self.used } else { &self.used[..self.used.len().min(MAX_JOINTS)] };
         let contacts = || shown.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
         let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
         let positions = self.units.lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
@@ -258,10 +255,7 @@ pub(super) fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
         let limits = scene.robots[robot.robot.0].limits;
         let limits = [limits.fx, limits.fy, limits.torque];
         let is_limited = limits.iter().any(|l| l.is_finite() && *l > 0.0);
-        let used = match is_limited {
-            true => percent(robot.limit_used),
-            false => "no limit".to_owned(),
-        };
+        let used = if is_limited { percent(robot.limit_used) } else { "no limit".to_owned() };
         let cells = [
             line(&scene.robots[robot.robot.0].id),
             line(&scene.blocks[robot.block.0].id),

@@ -7,10 +7,6 @@
 mod balance;
 mod bullet;
 mod comparison;
-mod cost;
-mod full;
-mod governing;
-mod grid;
 mod inputs;
 mod joints;
 mod part;
@@ -23,17 +19,16 @@ mod unit;
 
 pub use bullet::{BarEnd, MarginBar};
 pub use comparison::{Side, compared};
-pub use grid::{Grid, Line, TableCell};
 pub use hover::{HoverTarget, touched};
-pub use part::{Badge, Chart, Figure, Section, SheetPart};
+pub use part::{Badge, Chart, Figure, Grid, Line, Section, SheetPart, TableCell};
 pub use row::{Row, Thumbnail};
 
 use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::pictures::chart::ChartError;
 use crate::pictures::drawing::Theme;
-use crate::pictures::output::svg::OutlineError;
 use crate::products::report::accuracy;
 use crate::products::result::{Layout, Timing, accuracy_json, to_json_of};
-use crate::products::study::{Study, summary};
+use crate::products::study::Case;
 use crate::text;
 
 /// The options of a report.
@@ -123,15 +118,15 @@ impl Entry {
         }
     }
 
-    /// Adds an accuracy study to the report: a section with the picture of the study, and its numbers in the JSON.
+    /// Adds an accuracy study to the report: a section with the chart of the study, and its numbers in the JSON.
     ///
     /// # Errors
-    /// If the text of the picture cannot be laid out.
-    pub fn add_study(&mut self, study: &Study) -> Result<(), OutlineError> {
+    /// If the chart cannot be drawn.
+    pub fn add_study(&mut self, study: &[Case]) -> Result<(), ChartError> {
         let heading = accuracy::heading(study);
         let chart = Chart {
             caption: format!("What accuracy costs on this scene. {heading}"),
-            svg: accuracy::picture(&summary(study), study.cases.len())?,
+            svg: accuracy::svg(study)?,
             wide: true,
         };
         self.sections.push(Section {

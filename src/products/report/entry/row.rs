@@ -1,17 +1,18 @@
 //! [`Row`]: the row of one scene in the table of all scenes.
 
 use super::bullet;
-use super::governing::{governing, headline_words};
 use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, STANDS, Verdict};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Scene};
-use crate::pictures::drawing::Camera;
-use crate::pictures::drawing::{Outline, PagePoint, Segment};
+use crate::pictures::drawing::{Camera, Outline, PagePoint, Segment};
 use crate::products::wording::failure;
+use crate::products::wording::headline::headline;
+use crate::products::wording::margin::{Parameter, StatedMargin, stated};
 use crate::products::wording::number::{percent, quantity};
 use crate::products::wording::verdict::plain;
 use crate::text;
+use crate::text::line;
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);
@@ -137,13 +138,13 @@ impl Row {
 
     /// Returns the largest utilisation of friction as text; `none stands` if no frame stands.
     pub(crate) fn friction_words(&self) -> String {
-        self.friction.map_or_else(|| "none stands".into(), percent)
+        self.friction.map_or_else(|| format!("none {STANDS}"), percent)
     }
 
     /// Returns the largest force as text with its unit; `none stands` if no frame stands.
     pub(crate) fn largest_words(&self) -> String {
         let words = |largest| quantity(largest, self.units.force());
-        self.largest.map_or_else(|| "none stands".into(), words)
+        self.largest.map_or_else(|| format!("none {STANDS}"), words)
     }
 }
 
@@ -198,4 +199,38 @@ fn path_data(outline: &Outline) -> String {
         Segment::Close => "Z".into(),
     };
     outline.segments.iter().map(step).collect()
+}
+
+/// Returns the index of the governing step, from 0. This is the first step that falls. If no step falls, it is the
+/// first undecided step. If all steps stand, it is the step whose headline margin has the smallest relative reserve.
+pub(super) fn governing(analysis: &Analysis) -> usize {
+    let of = |verdict| analysis.frames.iter().position(|f| f.verdict == verdict);
+    let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));
+    first.unwrap_or_else(|| {
+        let reserve = |number: &usize| {
+            let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
+            bars.first().map_or(1.0, |bar| bar.reserve)
+        };
+        // If several steps have the same reserve, the last of them governs, because it usually has the most blocks.
+        let steps = (0..analysis.frames.len()).rev();
+        steps.min_by(|a, b| reserve(a).total_cmp(&reserve(b))).unwrap_or(0)
+    })
+}
+
+/// Returns the most important margin of a frame as a sentence without a full stop; empty if no margin was computed.
+pub(super) fn headline_words(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> String {
+    let placed = &scene.frames[number].placed;
+    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block)).count();
+    let margins = stated(scene, frame_analysis);
+    let first = margins.first();
+    let Some(first) = first else {
+        return String::new();
+    };
+    let mut words = headline(first, frame_analysis.verdict, loads);
+    let load = margins.iter().skip(1).find(|m| m.parameter == Parameter::LoadFactor);
+    if load.is_some_and(StatedMargin::has_no_limit) {
+        let load = if loads == 1 { "load" } else { "loads" };
+        words.push_str(&format!(" and carries any multiple of its {load}"));
+    }
+    line(&words)
 }

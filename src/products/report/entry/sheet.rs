@@ -1,8 +1,8 @@
 //! [`sheet`]: the main section of a report, about one frame. It fills about two pages: first verdict, pictures and
 //! inputs, then balance, joints, margins and assumptions.
 
-use super::governing::headline_words;
 use super::joints::{Ranking, robots};
+use super::row::headline_words;
 use super::unit::Units;
 use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs, verdict_text};
 use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
@@ -41,10 +41,7 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     let title = line(&scene.frames[number].title);
     Section {
         letter: if several { letter(number) } else { String::new() },
-        title: match title.is_empty() && several {
-            true => format!("Step {}", number + 1),
-            false => title,
-        },
+        title: if title.is_empty() && several { format!("Step {}", number + 1) } else { title },
         verdict,
         begins_page: false,
         parts: Vec::new(),
@@ -152,10 +149,7 @@ fn figures(analysis: &Analysis, number: usize, report_options: &ReportOptions, r
             }
         };
         if let Some((drawing, dark)) = drawn(kind, &change) {
-            let touches = match figures.is_empty() {
-                true => ranking.touches(),
-                false => Vec::new(),
-            };
+            let touches = if figures.is_empty() { ranking.touches() } else { Vec::new() };
             figures.push(Figure { caption: caption.to_owned(), drawing, dark, touches, subject: Some((kind, number)) });
         }
     }
@@ -171,17 +165,19 @@ fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)>
                 let caption = "How the structure begins to fall. Dashed: the blocks before they move.";
                 kinds.push((Kind::Mechanism, caption));
             }
-            let caption = match frame_analysis.failures.is_empty() {
-                true => "The forces on every block.",
-                false => "The forces on every block; missing forces have the colour of failures.",
+            let caption = if frame_analysis.failures.is_empty() {
+                "The forces on every block."
+            } else {
+                "The forces on every block; missing forces have the colour of failures."
             };
             kinds.push((Kind::Forces, caption));
         }
         verdict => {
             let has_flow = !frame_analysis.contacts.is_empty() && verdict != Verdict::Undecided;
-            kinds.push(match has_flow {
-                true => (Kind::Flow, "How the forces run from joint to joint."),
-                false => (Kind::Forces, "The forces on every block."),
+            kinds.push(if has_flow {
+                (Kind::Flow, "How the forces run from joint to joint.")
+            } else {
+                (Kind::Forces, "The forces on every block.")
             });
             if verdict_text::toward(frame_analysis).is_some() {
                 let caption = "How the structure would fall just beyond its margin.";
@@ -201,10 +197,7 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     };
     let first: Vec<String> = verdict_text::fails_first(analysis, number).into_iter().collect();
     let take = verdict_text::changes_of_verdict(scene, frame_analysis);
-    let take = match take.is_empty() {
-        true => take,
-        false => vec![take.join(" ")],
-    };
+    let take = if take.is_empty() { take } else { vec![take.join(" ")] };
     let heading = match frame_analysis.verdict {
         Verdict::Unstable => "Where the structure fails",
         _ => "Where the structure would fail first",
@@ -216,17 +209,17 @@ fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
     if !take.is_empty() {
         columns.push(column("What it would take", take));
     }
-    match columns.is_empty() {
-        true => Vec::new(),
-        false => vec![SheetPart::Columns(columns)],
-    }
+    if columns.is_empty() { Vec::new() } else { vec![SheetPart::Columns(columns)] }
 }
 
 /// Makes two columns with the inputs of the frame with index `number`.
 fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
-    let titled = |heading: &str, grid: Grid| match grid.lines.is_empty() {
-        true => Vec::new(),
-        false => vec![SheetPart::Heading(heading.to_owned()), SheetPart::Table(grid)],
+    let titled = |heading: &str, grid: Grid| {
+        if grid.lines.is_empty() {
+            Vec::new()
+        } else {
+            vec![SheetPart::Heading(heading.to_owned()), SheetPart::Table(grid)]
+        }
     };
     let mut left = titled("Materials", inputs::materials(scene, number, units));
     left.extend(titled("Loads", inputs::loads(scene, number, units)));

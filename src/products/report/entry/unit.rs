@@ -77,17 +77,11 @@ impl Units {
     }
 
     fn symbol(self, unit: Unit) -> String {
-        match unit.is_chosen {
-            true => unit.symbol(),
-            false => format!("{}{}", self.prefix, unit.symbol()),
-        }
+        if unit.is_chosen { unit.symbol() } else { format!("{}{}", self.prefix, unit.symbol()) }
     }
 
     fn factor(self, unit: Unit) -> f64 {
-        match unit.is_chosen {
-            true => 1.0 / unit.size,
-            false => self.factor,
-        }
+        if unit.is_chosen { 1.0 / unit.size } else { self.factor }
     }
 
     fn column(self, numbers: impl IntoIterator<Item = f64>, unit: Unit) -> Column {

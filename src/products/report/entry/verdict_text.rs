@@ -2,7 +2,7 @@
 //! inputs that would change its verdict.
 
 use super::joints::name;
-use crate::mechanics::analysis::{Analysis, End, FrameAnalysis, Interval, Motion, Toward, Verdict};
+use crate::mechanics::analysis::{Analysis, End, FALLS, FrameAnalysis, Interval, Motion, STANDS, Toward, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::products::figure::{Joint, joints, moving};
 use crate::products::wording::failure::{shortened, unsupported_phrase};
@@ -101,10 +101,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     let moving = moving(&moved, 0).count();
     let verb = if moving == 1 { "moves" } else { "move" };
     let blocks = format!("{} {verb}", counted(moving, "block"));
-    Some(match said.is_empty() {
-        true => blocks,
-        false => format!("{blocks}, with {}", said.join(", and ")),
-    })
+    Some(if said.is_empty() { blocks } else { format!("{blocks}, with {}", said.join(", and ")) })
 }
 
 /// Makes an analysis that contains only the frame with index `number`.
@@ -171,7 +168,7 @@ fn limit_of_loads(low: Option<f64>, high: Option<f64>) -> String {
         (Some(low), None) => {
             format!("The structure would fall below {} times its loads.", three_down(low))
         }
-        (None, None) => "The structure stands at every factor on its loads.".to_owned(),
+        (None, None) => format!("The structure {STANDS} at every factor on its loads."),
     }
 }
 
@@ -181,7 +178,7 @@ fn loads_that_stand(low: Option<f64>, high: Option<f64>) -> String {
     let factor = match (low, high) {
         (Some(low), _) if low > 1.0 => three_up(low),
         (_, Some(high)) => three_down(high),
-        _ => return "The structure falls at every factor on its loads.".to_owned(),
+        _ => return format!("The structure {FALLS} at every factor on its loads."),
     };
     format!("The structure would stand at {factor} times its loads.")
 }

@@ -7,7 +7,6 @@
 //! them at once. With scripts, they are only displayed when the reader opens the scene, so that a page with a thousand
 //! scenes opens quickly.
 
-mod bar;
 mod part;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

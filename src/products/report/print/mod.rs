@@ -4,7 +4,6 @@
 //! drawing have roles, such as heading or table cell. Tables break between rows and repeat their column heads. Figures
 //! are scaled down if they do not fit, and are never cut.
 
-mod badge;
 mod bar;
 mod flow;
 mod table;

@@ -58,10 +58,7 @@ impl Flow {
     /// Returns the height, in pixels, that must be free on a page for a table to begin there; 0 for a table without
     /// rows.
     pub fn least(&self, grid: &Grid) -> f64 {
-        match grid.lines.is_empty() {
-            true => 0.0,
-            false => self.layout(grid).least(grid),
-        }
+        if grid.lines.is_empty() { 0.0 } else { self.layout(grid).least(grid) }
     }
 
     fn layout(&self, grid: &Grid) -> Layout {
@@ -106,10 +103,7 @@ impl Flow {
             self.page().charts.push((small(picture), "A small picture of the blocks".to_owned(), at, scale));
             return;
         }
-        let (at, anchor) = match is_number {
-            true => (x + wide, Anchor::End),
-            false => (x, Anchor::Start),
-        };
+        let (at, anchor) = if is_number { (x + wide, Anchor::End) } else { (x, Anchor::Start) };
         let top = self.y;
         let face = face(cell);
         let colour = self.theme.ink;
@@ -131,9 +125,10 @@ impl Layout {
     /// this is its whole height. For a long table, it is the height of the caption, the head and two rows.
     fn least(&self, grid: &Grid) -> f64 {
         let whole: f64 = self.rows.iter().map(|row| self.height(row)).sum();
-        let rows = match whole < MAX_UNBROKEN_SHARE * (TEXT_BOTTOM - MARGIN) {
-            true => whole,
-            false => 2.0 * LINE_HEIGHT * SMALL_TEXT_SIZE,
+        let rows = if whole < MAX_UNBROKEN_SHARE * (TEXT_BOTTOM - MARGIN) {
+            whole
+        } else {
+            2.0 * LINE_HEIGHT * SMALL_TEXT_SIZE
         };
         let caption = if grid.caption.is_empty() { 0.2 } else { 1.6 };
         caption * TEXT_SIZE + self.height(&self.head) + rows

@@ -4,7 +4,7 @@
 use super::super::number::NO_BREAK;
 use super::confirmed;
 use super::list::friction;
-use crate::mechanics::analysis::{FrameAnalysis, Interval, Verdict};
+use crate::mechanics::analysis::{FALLS, FrameAnalysis, Interval, Verdict};
 use crate::mechanics::scene::Scene;
 
 /// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame
@@ -18,7 +18,7 @@ pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<S
     let lack = loads
         .and_then(|interval| load_lack(scene, interval))
         .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))?;
-    Some(format!("falls: {lack}"))
+    Some(format!("{FALLS}: {lack}"))
 }
 
 /// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.
@@ -33,9 +33,10 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
         // Round down, so that the frame carries at least the written fraction.
         (_, Some(high)) if high < 1.0 => {
             let share = libm::floor(100.0 * high + 1e-4);
-            Some(match share >= 1.0 {
-                true => format!("carries {share}{NO_BREAK}% of its {loads}"),
-                false => format!("carries less than 1{NO_BREAK}% of its {loads}"),
+            Some(if share >= 1.0 {
+                format!("carries {share}{NO_BREAK}% of its {loads}")
+            } else {
+                format!("carries less than 1{NO_BREAK}% of its {loads}")
             })
         }
         (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", above(low))),

@@ -12,7 +12,7 @@ pub use list::stated;
 pub use range::stands;
 
 use super::number::{amount, digits};
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, UNDECIDED};
 use crate::mechanics::scene::{Scene, Unit};
 
 /// The parameter that a margin varies.
@@ -121,7 +121,7 @@ impl StatedMargin<'_> {
         let is_interval = matches!(self.interval, Interval::Between { .. });
         Some(match self.position {
             Position::Outside if is_interval => format!("{now}, outside"),
-            Position::Unknown if is_interval && low == high => format!("{now}, undecided"),
+            Position::Unknown if is_interval && low == high => format!("{now}, {UNDECIDED}"),
             _ => now,
         })
     }

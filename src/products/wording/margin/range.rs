@@ -1,7 +1,7 @@
 //! [`stands`] describes in words at which values of a parameter a frame stands.
 
 use super::{Parameter, confirmed};
-use crate::mechanics::analysis::{End, Exclusion, Interval};
+use crate::mechanics::analysis::{End, Exclusion, FALLS, Interval, STANDS};
 
 /// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
 pub fn stands(parameter: Parameter, interval: &Interval) -> String {
@@ -15,15 +15,16 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
             return match conflict(excluded) {
                 Some([low, high]) => {
                     let [low, high] = [low, high].map(|value| parameter.value(value));
-                    match parameter.is_signed() {
-                        true => format!("{none}: falls to the left of {low}, and falls to the right of {high}"),
-                        false => format!("{none}: falls below {low}, and falls above {high}"),
+                    if parameter.is_signed() {
+                        format!("{none}: {FALLS} to the left of {low}, and {FALLS} to the right of {high}")
+                    } else {
+                        format!("{none}: {FALLS} below {low}, and {FALLS} above {high}")
                     }
                 }
                 None => none.to_owned(),
             };
         }
-        Interval::Undecided => return "no verdict shows at which values it stands".to_owned(),
+        Interval::Undecided => return format!("no verdict shows at which values it {STANDS}"),
     };
     let unconfirmed = [("lower", low), ("upper", high)].into_iter().filter_map(|(name, end)| {
         let End::Unconfirmed { stands, beyond } = end else {
@@ -38,7 +39,7 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
         })
     });
     let unconfirmed: String = unconfirmed.collect();
-    format!("stands {}{unconfirmed}", range(parameter, low, high))
+    format!("{STANDS} {}{unconfirmed}", range(parameter, low, high))
 }
 
 /// Returns two values if two collapse motions together exclude all values of the parameter. The first motion excludes

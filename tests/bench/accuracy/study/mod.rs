@@ -2,35 +2,31 @@
 //!
 //! Every [`Method`] solves every frame at every tolerance several times. The results are compared with a certified
 //! [`Reference`] in extended precision. Times are wall times on this machine, so only their ratios are meaningful.
-//! All other numbers are the same on every machine.
+//! All other numbers are the same on every machine. The page `src/doc/accuracy.md` and the picture
+//! `assets/accuracy.svg` show the results.
 
-mod double;
-mod least;
+pub mod double;
 mod method;
 mod optimum;
-mod outcome;
+pub mod picture;
 mod reference;
-mod skyline;
-mod summary;
+pub mod skyline;
+pub mod vallat;
 
-pub use method::Method;
-pub use outcome::Outcome;
+pub use method::{Method, Outcome};
 pub use reference::Reference;
-pub use summary::{Summary, summary};
 
-use crate::clock::Instant;
-use crate::mechanics::analysis::Verdict;
-use crate::mechanics::program::{Program, Scale};
-use crate::mechanics::proof::Proof;
-use crate::mechanics::scene::{Frame, Scene};
-use crate::mechanics::statics::effect::{self, FrameContext};
-use crate::mechanics::statics::interface::Interfaces;
+use std::time::Instant;
+
+use drystone::Scene;
+use drystone::analysis::{Accuracy, Proof, Verdict};
+use drystone::internals::effect::{self, FrameContext};
+use drystone::internals::interface::Interfaces;
+use drystone::internals::program::{Program, Scale};
+use drystone::internals::solve::TOLERANCE;
 
 /// The solver tolerances of the study.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
-
-/// The default tolerance of an analysis.
-pub const DEFAULT_TOLERANCE: f64 = crate::mechanics::solve::TOLERANCE;
 
 /// If a falling frame would need at most this much adhesion to stand, relative to the heaviest load, the verdict
 /// `stable` of a method is not counted as wrong. This is within the documented tolerance of the proofs.
@@ -106,50 +102,51 @@ pub struct Run {
 }
 
 /// The input of the methods: one frame.
-pub(super) struct Task {
-    scene: Scene,
+pub struct Task<'s> {
+    scene: &'s Scene,
+    /// The index of the frame.
+    frame: usize,
+    /// A linear program for each independent part of the frame that has loads.
     programs: Vec<Program>,
 }
 
-/// Runs the study on all frames of some scenes. Calls `tick` with the name of each frame before the frame starts.
-pub fn study(scenes: &[Scene], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -> Study {
+/// Runs the study on all frames of some scenes, each with its name. Calls `tick` with the name of each frame before the
+/// frame starts.
+pub fn study(scenes: &[(String, Scene)], tolerances: &[f64], tick: &mut dyn FnMut(&str)) -> Study {
     let mut cases = Vec::new();
-    for scene in scenes {
-        for (number, frame) in scene.frames.iter().enumerate() {
-            let name = name(scene, frame, number);
+    for (title, scene) in scenes {
+        for (number, frame) in scene.frames().iter().enumerate() {
+            let name = name(title, scene, number);
             tick(&name);
-            let task = Task::new(scene, frame);
+            let task = Task::new(scene, number);
             cases.push(case(name, frame.placed.len(), &task, tolerances));
         }
     }
     Study { cases }
 }
 
-fn name(scene: &Scene, frame: &Frame, number: usize) -> String {
-    let title = if scene.title.is_empty() { "untitled" } else { &scene.title };
-    match (scene.frames.len(), frame.title.as_str()) {
+fn name(title: &str, scene: &Scene, number: usize) -> String {
+    match (scene.frames().len(), scene.frames()[number].title.as_str()) {
         (1, _) => title.to_owned(),
         (_, "") => format!("{title} · {}", number + 1),
         (_, step) => format!("{title} · {step}"),
     }
 }
 
-impl Task {
-    /// Builds the linear programs of a frame, one for each independent part with loads, in the same way as
-    /// `Analysis`.
-    fn new(scene: &Scene, frame: &Frame) -> Task {
-        let mut scene = scene.clone();
-        scene.frames = vec![frame.clone()];
-        let found = Interfaces::new(&scene);
-        let interfaces = found.in_frame(&scene, frame);
-        let (assembly, _) = effect::assemble(&FrameContext { scene: &scene, frame, interfaces: &interfaces });
+impl<'s> Task<'s> {
+    /// Builds the linear programs of a frame in the same way as `Analysis`.
+    fn new(scene: &'s Scene, number: usize) -> Task<'s> {
+        let frame = &scene.frames()[number];
+        let found = Interfaces::new(scene);
+        let interfaces = found.in_frame(scene, frame);
+        let (assembly, _) = effect::assemble(&FrameContext { scene, frame, interfaces: &interfaces });
         let programs = assembly
             .components()
             .iter()
             .filter(|component| component.heaviest_load() > 0.0)
             .map(|component| Program::new(component, Scale::from_assembly(component)))
             .collect();
-        Task { scene, programs }
+        Task { scene, frame: number, programs }
     }
 }
 
@@ -174,7 +171,7 @@ fn truth(programs: &[Program]) -> FrameReference {
     }
 }
 
-fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
+fn case(name: String, blocks: usize, task: &Task<'_>, tolerances: &[f64]) -> Case {
     let truth = truth(&task.programs);
     let mut runs = Vec::with_capacity(Method::ALL.len() * tolerances.len());
     for method in Method::ALL {
@@ -187,7 +184,7 @@ fn case(name: String, blocks: usize, task: &Task, tolerances: &[f64]) -> Case {
 
 /// Runs a method at least three times, and up to nine times as long as the total time is below 0.02 s. The time of the
 /// run is the median.
-fn run(method: Method, tolerance: f64, task: &Task, truth: &FrameReference) -> Run {
+fn run(method: Method, tolerance: f64, task: &Task<'_>, truth: &FrameReference) -> Run {
     let mut times = Vec::with_capacity(9);
     let mut outcome = Outcome::empty();
     let mut spent = 0.0;
@@ -220,4 +217,103 @@ fn run(method: Method, tolerance: f64, task: &Task, truth: &FrameReference) -> R
         largest_error: error(outcome.largest, truth.largest),
         outcome,
     }
+}
+
+/// The results of one method at one tolerance over all frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// The method.
+    pub method: Method,
+    /// The tolerance of the solver.
+    pub tolerance: f64,
+    /// The median over the frames of the time relative to `standard` at the default tolerance.
+    pub time: f64,
+    /// The largest relative error of the total among frames with the right verdict.
+    pub total_error: Option<f64>,
+    /// The median of these relative errors.
+    pub median_error: Option<f64>,
+    /// The largest relative error of the largest single force, among frames with the right verdict.
+    pub largest_error: Option<f64>,
+    /// The number of wrong verdicts.
+    pub wrong: usize,
+    /// The number of frames without a verdict.
+    pub undecided: usize,
+    /// The number of frames with a certified reference.
+    pub frames: usize,
+    /// The median of the iterations.
+    pub iterations: usize,
+}
+
+/// Returns the middle value of a list; of two middle values, the larger one. Returns `None` for an empty list.
+fn median(mut list: Vec<f64>) -> Option<f64> {
+    list.sort_by(f64::total_cmp);
+    list.get(list.len() / 2).copied()
+}
+
+/// Summarises a study over all its frames. Returns one entry for each combination of method and tolerance, in the
+/// order of the runs.
+///
+/// The time of a frame is divided by the time of the method `standard` on the same frame, at the tolerance nearest to
+/// the default. Large frames therefore do not dominate small ones.
+pub fn summary(study: &Study) -> Vec<Summary> {
+    let Some(first) = study.cases.first() else {
+        return Vec::new();
+    };
+    let base: Vec<f64> = study
+        .cases
+        .iter()
+        .map(|case| {
+            let standard = case.runs.iter().filter(|r| r.method == Method::Level(Accuracy::Standard));
+            let far = |r: &&Run| libm::log10(r.tolerance / TOLERANCE).abs();
+            standard.min_by(|a, b| far(a).total_cmp(&far(b))).map_or(1.0, |r| r.seconds).max(1e-9)
+        })
+        .collect();
+    (0..first.runs.len())
+        .map(|k| {
+            let runs = || study.cases.iter().map(move |case| &case.runs[k]);
+            let count = |mark: Mark| runs().filter(|r| r.mark == mark).count();
+            let worst = |of: fn(&Run) -> Option<f64>| runs().filter_map(of).reduce(f64::max);
+            let times = runs().zip(&base).map(|(r, base)| r.seconds / base);
+            let iterations = runs().map(|r| r.outcome.iterations as f64);
+            Summary {
+                method: first.runs[k].method,
+                tolerance: first.runs[k].tolerance,
+                time: median(times.collect()).unwrap_or(1.0),
+                total_error: worst(|r| r.total_error),
+                median_error: median(runs().filter_map(|r| r.total_error).collect()),
+                largest_error: worst(|r| r.largest_error),
+                wrong: count(Mark::Wrong),
+                undecided: count(Mark::Undecided),
+                frames: study.cases.len() - count(Mark::Unknown),
+                iterations: median(iterations.collect()).unwrap_or(0.0) as usize,
+            }
+        })
+        .collect()
+}
+
+/// Writes a relative error: `1.2e-9`, `0` below the rounding error of f64, or `–` for `None`.
+fn small(value: Option<f64>) -> String {
+    value.map_or("–".into(), |v| if v < 1e-16 { "0".into() } else { format!("{v:.1e}") })
+}
+
+/// Returns the summary as the Markdown table of `src/doc/accuracy.md`, with one row for each combination of method and
+/// tolerance.
+pub fn table(study: &Study) -> String {
+    let mut text = String::from(
+        "| method | tolerance | relative time | iterations | median error of total | worst error of total | worst error of largest force | wrong | undecided |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for line in summary(study) {
+        let errors = [line.median_error, line.total_error, line.largest_error].map(small).join(" | ");
+        let wrong = if line.wrong == 0 { "0".into() } else { format!("**{}**", line.wrong) };
+        text += &format!(
+            "| {} | {:.0e} | {:.2} | {} | {errors} | {wrong} | {} |\n",
+            line.method.name(),
+            line.tolerance,
+            line.time,
+            line.iterations,
+            line.undecided
+        );
+    }
+    text
 }

@@ -1,15 +1,14 @@
 //! [`picture`]: draws an accuracy study as one picture. Each row shows one method: its time, its error and its
 //! numbers of wrong and undecided verdicts at every tolerance.
 
-use crate::mechanics::analysis::Accuracy;
-use crate::pictures::drawing::{
-    Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme,
-};
-use crate::pictures::output::svg::{self, OutlineError, Words};
-use crate::products::study::{DEFAULT_TOLERANCE, Method, Summary};
-use crate::products::wording::number::counted;
+use drystone::analysis::Accuracy;
+use drystone::drawing::{Anchor, Colour, Drawing, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
+use drystone::internals::solve::TOLERANCE;
+use drystone::output::svg::{self, OutlineError, Words};
 
-const WIDTH: f64 = 920.0;
+use super::{Method, Summary};
+
+pub const WIDTH: f64 = 920.0;
 /// Height of a row, pixels.
 const ROW_HEIGHT: f64 = 32.0;
 /// y coordinate of the top of the first row, pixels.
@@ -32,11 +31,11 @@ const MIN_DRAWN_ERROR: f64 = 1e-16;
 /// # Errors
 /// [`OutlineError`] if the text cannot be laid out.
 pub fn picture(lines: &[Summary], frames: usize) -> Result<String, OutlineError> {
-    let options = svg::Options { words: Words::Outlines, ..svg::Options::default() };
+    let options = svg::Options::default().words(Words::Outlines);
     svg::write_with(&drawing(lines, frames), &options)
 }
 
-fn drawing(lines: &[Summary], frames: usize) -> Drawing {
+pub fn drawing(lines: &[Summary], frames: usize) -> Drawing {
     let theme = Theme::thesis();
     let mut tolerances: Vec<f64> = lines.iter().map(|l| l.tolerance).collect();
     tolerances.sort_by(|a, b| b.total_cmp(a));
@@ -89,7 +88,7 @@ fn described(lines: &[Summary], frames: usize) -> String {
 
 /// True if a tolerance equals the default of the solver up to about 2 %.
 fn is_default(tolerance: f64) -> bool {
-    libm::log10(tolerance / DEFAULT_TOLERANCE).abs() < 0.01
+    libm::log10(tolerance / TOLERANCE).abs() < 0.01
 }
 
 /// The layout of the picture.
@@ -113,8 +112,7 @@ impl Page<'_> {
         let theme = self.theme;
         let title = "What accuracy costs";
         let title = Text::new(PagePoint::new(24.0, 36.0), title, Face::SerifBold, 22.0, theme.ink);
-        let frames = counted(frames, "frame");
-        let under = format!("{frames}, drystone {}", env!("CARGO_PKG_VERSION"));
+        let under = format!("{frames} frames, drystone {}", env!("CARGO_PKG_VERSION"));
         let mut items: Vec<Item> = vec![title.into(), self.words(PagePoint::new(24.0, 58.0), &under, Face::Sans)];
         let heads = [
             (TIME_AXIS.0, ["time, relative", "to standard"]),
@@ -263,6 +261,3 @@ fn power_of_ten(power: i32) -> String {
     };
     format!("10{}", power.to_string().chars().map(raised).collect::<String>())
 }
-
-#[cfg(test)]
-mod tests;

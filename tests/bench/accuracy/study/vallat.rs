@@ -1,10 +1,9 @@
-//! [`vallat_program`]: the linear program of [Vallat23](crate::doc::references) in which every force may exceed its
+//! [`vallat_program`]: the linear program of \[Vallat23\] in which every force may exceed its
 //! limit at a high cost, exactly as published.
 
-use super::pose::QuadraticProgram;
-use super::{Column, ContactTerm, Force, GripTerm, Program, columns};
+use drystone::internals::program::{Column, ContactTerm, Force, GripTerm, Program, QuadraticProgram, columns};
 
-/// Returns the linear program of [Vallat23](crate::doc::references) §2.0.7–8, in which every force may exceed its limit
+/// Returns the linear program of \[Vallat23\] §2.0.7–8, in which every force may exceed its limit
 /// at the high cost β.
 ///
 /// Every interface and every grip has six unknowns at cost 1. Each of these has an opposite partner at cost β. All
@@ -18,9 +17,9 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
     let n = unknowns.columns.len();
     let mut matrix = Vec::with_capacity(14 * n);
     for (j, column) in unknowns.columns.iter().enumerate() {
-        for (row, value) in column.entries() {
-            matrix.push((row, j, value));
-            matrix.push((row, n + j, -value));
+        for (row, value) in column {
+            matrix.push((*row, j, *value));
+            matrix.push((*row, n + j, -value));
         }
     }
     let mut bound = program.loads.clone();
@@ -46,7 +45,8 @@ pub fn vallat_program(program: &Program, beta: f64) -> QuadraticProgram {
 
 /// The unknowns of Vallat's program without their opposite partners.
 struct SourceUnknowns {
-    columns: Vec<Column>,
+    /// The coefficients of each unknown as (row, value) pairs.
+    columns: Vec<Vec<(usize, f64)>>,
     /// For each application point: the index of its normal force, which is followed by two friction unknowns, and μ.
     cones: Vec<(usize, f64)>,
     /// For each robot unknown: its index and its limit.
@@ -69,11 +69,8 @@ fn source_unknowns(program: &Program) -> SourceUnknowns {
             let friction = program.contacts[contact].friction;
             unknowns.cones.push((unknowns.columns.len(), friction));
         }
-        unknowns.columns.extend([
-            generators[0],
-            generators[1].minus(&generators[2]),
-            generators[2].minus(&generators[1]),
-        ]);
+        let [normal, left, right] = generators else { continue };
+        unknowns.columns.extend([normal.entries().collect(), difference(left, right), difference(right, left)]);
     }
     let unlimited = Program {
         contacts: Vec::new(),
@@ -85,7 +82,19 @@ fn source_unknowns(program: &Program) -> SourceUnknowns {
             let limit = program.grips[grip].limits[component];
             unknowns.limits.push((unknowns.columns.len(), limit));
         }
-        unknowns.columns.push(column);
+        unknowns.columns.push(column.entries().collect());
     }
     unknowns
+}
+
+/// Returns the coefficients of one column minus those of another column.
+fn difference(column: &Column, other: &Column) -> Vec<(usize, f64)> {
+    let mut difference: Vec<(usize, f64)> = column.entries().collect();
+    for (row, value) in other.entries() {
+        match difference.iter_mut().find(|entry| entry.0 == row) {
+            Some(entry) => entry.1 -= value,
+            None => difference.push((row, -value)),
+        }
+    }
+    difference
 }

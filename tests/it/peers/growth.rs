@@ -1,12 +1,51 @@
-//! Draws lines on two logarithmic axes, with the name of each line at its right end.
+//! Draws lines on two logarithmic axes, with the name of each line at its right end. The picture of the README that
+//! compares drystone with other programs is drawn in this way.
 
+use drystone::internals::chart::{
+    ChartError, DrawingResult, Page, Point, UNITS_PER_PIXEL, decades, document, font, tick, words_from,
+};
 use plotters::prelude::*;
 use plotters::style::{FontStyle, RGBColor};
 
-use super::{
-    DrawingResult, FONT_FAMILY, GRID, INK, LogAxes, Page, UNITS_PER_PIXEL, decades, font, large, tick, words_from,
-};
-use crate::pictures::chart::{Growth, GrowthLine, LARGE_SIZE, Point};
+const INK_RGB: RGBColor = RGBColor(45, 45, 50);
+const GRID_RGB: RGBColor = RGBColor(225, 225, 228);
+
+/// Width and height of the chart, pixels.
+const LARGE_SIZE: (i32, i32) = (900, 620);
+
+/// Axes with a logarithmic scale in both directions.
+type LogAxes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
+
+/// Lines on two logarithmic axes.
+///
+/// Lines have no colours of their own: important lines are dark and thick, and all others are thin and grey.
+pub struct Growth {
+    /// The title above the picture.
+    pub title: String,
+    /// The name of the horizontal axis.
+    pub x: String,
+    /// The name of the vertical axis.
+    pub y: String,
+    /// The lines.
+    pub lines: Vec<GrowthLine>,
+    /// The meaning of the crosses that replace the dots of wrong points.
+    pub wrong: String,
+}
+
+/// A line of a growth chart.
+pub struct GrowthLine {
+    /// The name, which is written at the right end of the line.
+    pub name: String,
+    /// Whether the line is important, and therefore dark and thick.
+    pub is_highlighted: bool,
+    /// The points of the line, by ascending x.
+    pub points: Vec<Point>,
+}
+
+/// Draws lines on two logarithmic axes and returns the chart as an SVG document.
+pub fn growth(chart: &Growth) -> Result<String, ChartError> {
+    document(LARGE_SIZE, &chart.title, |area| draw(chart, area))
+}
 
 /// The colour of highlighted lines.
 const HIGHLIGHT_COLOUR: RGBColor = RGBColor(20, 70, 130);
@@ -25,16 +64,15 @@ struct LineEnd<'c> {
     line: &'c GrowthLine,
 }
 
-/// Draws lines on two logarithmic axes into `svg`.
-pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> DrawingResult {
-    let area = large(svg);
+/// Draws all lines on two logarithmic axes.
+fn draw(chart: &Growth, area: &Page<'_>) -> DrawingResult {
     area.fill(&WHITE)?;
     let all = || chart.lines.iter().flat_map(|line| &line.points);
     let (low, high) = decades(all().map(|p| p.y));
     let sizes = all().map(|p| p.x);
     let (least, most) = sizes.fold((f64::INFINITY, 0.0), |(a, b), x| (x.min(a), x.max(b)));
     let ten = |e: i32| libm::exp10(f64::from(e));
-    let mut axes = ChartBuilder::on(&area)
+    let mut axes = ChartBuilder::on(area)
         .margin(14 * UNITS_PER_PIXEL)
         .margin_right(250 * UNITS_PER_PIXEL)
         .caption(&chart.title, font(17))
@@ -50,13 +88,13 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
         .y_desc(&chart.y)
         .label_style(font(12))
         .axis_desc_style(font(13))
-        .axis_style(INK.stroke_width(UNITS_PER_PIXEL as u32))
-        .bold_line_style(GRID.stroke_width(UNITS_PER_PIXEL as u32))
+        .axis_style(INK_RGB.stroke_width(UNITS_PER_PIXEL as u32))
+        .bold_line_style(GRID_RGB.stroke_width(UNITS_PER_PIXEL as u32))
         .light_line_style(TRANSPARENT)
         .draw()?;
     let mut ends = draw_lines(&mut axes, &chart.lines)?;
     ends.sort_by_key(|end| (end.y, end.x));
-    draw_names(&area, &ends)?;
+    draw_names(area, &ends)?;
     if all().any(|p| p.wrong) {
         let y = (LARGE_SIZE.1 - 24) * UNITS_PER_PIXEL;
         let cross = Cross::new((NAMES_LEFT + 5 * UNITS_PER_PIXEL, y), 5 * UNITS_PER_PIXEL, cross_stroke());
@@ -64,7 +102,6 @@ pub(in crate::pictures::chart) fn growth(chart: &Growth, svg: &mut String) -> Dr
         let at = (NAMES_LEFT + 18 * UNITS_PER_PIXEL, y);
         area.draw(&Text::new(chart.wrong.clone(), at, words_from(font(12))))?;
     }
-    area.present()?;
     Ok(())
 }
 
@@ -75,7 +112,7 @@ fn style(is_highlighted: bool) -> (RGBColor, i32) {
 
 /// Returns the stroke of the crosses that mark wrong results.
 fn cross_stroke() -> ShapeStyle {
-    INK.stroke_width(2 * UNITS_PER_PIXEL as u32)
+    INK_RGB.stroke_width(2 * UNITS_PER_PIXEL as u32)
 }
 
 /// Draws all lines, the highlighted lines above the others. Returns the right end of each line.
@@ -116,12 +153,11 @@ fn draw_names(area: &Page<'_>, ends: &[LineEnd<'_>]) -> DrawingResult {
         ];
         let thin = colour.mix(0.8).stroke_width(UNITS_PER_PIXEL as u32 / 2);
         area.draw(&PathElement::new(joint, thin))?;
-        let face = match end.line.is_highlighted {
-            true => {
-                let bold = (FONT_FAMILY, 12 * UNITS_PER_PIXEL).into_font().style(FontStyle::Bold);
-                bold.color(&HIGHLIGHT_COLOUR)
-            }
-            false => font(12),
+        let face = if end.line.is_highlighted {
+            let bold = ("sans-serif", 12 * UNITS_PER_PIXEL).into_font().style(FontStyle::Bold);
+            bold.color(&HIGHLIGHT_COLOUR)
+        } else {
+            font(12)
         };
         let at = (NAMES_LEFT, y);
         area.draw(&Text::new(end.line.name.clone(), at, words_from(face)))?;

@@ -15,11 +15,11 @@
 
 use super::double::Double;
 use super::skyline::Skyline;
-use crate::mechanics::program::{Column, Force};
-use crate::mechanics::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
+use drystone::internals::program::{Column, Force};
+use drystone::internals::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
 
 /// A certified optimum.
-pub(super) struct Optimum {
+pub struct Optimum {
     /// The objective value.
     pub value: Double,
     /// The largest possible relative error of the value.
@@ -37,7 +37,7 @@ pub(super) struct Optimum {
 /// errors of the columns (about 1e-16) make one of them the only optimum. The guessed face is the face of the exact
 /// geometry. Therefore the tolerance must be above these rounding errors. The gap is computed separately and counts
 /// such violations, so the tolerance hides no error.
-pub(super) const OPTIMALITY_TOL: f64 = 1e-13;
+pub const OPTIMALITY_TOL: f64 = 1e-13;
 
 /// Solver tolerances for the first guess at the face.
 const GUESS_TOLERANCES: [f64; 4] = [1e-10, 1e-8, 1e-12, 1e-7];
@@ -53,7 +53,7 @@ const LIMIT_TOL: f64 = 1e-6;
 const MIN_WEIGHT: f64 = 1e-12;
 
 /// Returns the certified optimum of a linear program; `None` if no guess at the optimal face passes the checks.
-pub(super) fn optimum(loads: &[f64], columns: &[Column], cost: impl Fn(&Column) -> f64 + Copy) -> Option<Optimum> {
+pub fn optimum(loads: &[f64], columns: &[Column], cost: impl Fn(&Column) -> f64 + Copy) -> Option<Optimum> {
     let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
     for tolerance in GUESS_TOLERANCES {
         let settings = SolverSettings { tolerance, choice: Choice::Any, ..Conditioning::Full.into() };
@@ -230,23 +230,23 @@ impl Guess<'_> {
 }
 
 /// Returns the nonzero entries of a column as pairs of row and value, in extended precision.
-pub(super) fn entries(column: &Column) -> Vec<(usize, Double)> {
+pub fn entries(column: &Column) -> Vec<(usize, Double)> {
     column.entries().map(|(row, value)| (row, Double::from(value))).collect()
 }
 
 /// Returns the dot product of a sparse column and a vector.
-pub(super) fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
+pub fn product(entries: &[(usize, Double)], y: &[Double]) -> Double {
     entries.iter().fold(Double::ZERO, |sum, (row, value)| sum + *value * y[*row])
 }
 
 /// Adds a multiple of a sparse column to a vector.
-pub(super) fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Double) {
+pub fn add(sum: &mut [Double], entries: &[(usize, Double)], amount: Double) {
     for (row, value) in entries {
         sum[*row] = sum[*row] + amount * *value;
     }
 }
 
 /// Returns the power of the loads at the velocities `y`: their dot product.
-pub(super) fn power(loads: &[f64], y: &[Double]) -> Double {
+pub fn power(loads: &[f64], y: &[Double]) -> Double {
     loads.iter().zip(y).fold(Double::ZERO, |sum, (n, y)| sum + Double::from(*n) * *y)
 }
