@@ -127,6 +127,88 @@ macro_rules! optional_setters {
     };
 }
 
+/// Declares an enum whose values users choose by name: each value with its documentation, its name and a line of help.
+macro_rules! words {
+    ($(#[$meta:meta])* $vis:vis enum $name:ident {
+        $($(#[$about:meta])* $value:ident = $word:literal $(, $help:literal)?;)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        $vis enum $name {
+            $($(#[$about])* $value,)*
+        }
+
+        impl crate::text::Word for $name {
+            fn all() -> Vec<$name> {
+                vec![$($name::$value),*]
+            }
+
+            fn word(self) -> &'static str {
+                match self {
+                    $($name::$value => $word),*
+                }
+            }
+
+            fn help(self) -> &'static str {
+                match self {
+                    $($name::$value => concat!($($help)?)),*
+                }
+            }
+        }
+    };
+}
+
+/// Declares what users ask for: a struct whose fields are options of the command line and keys of JSON. Each field has
+/// its documentation, its type, the expression that reads it from the keys that were given, and how `clap` declares it.
+/// The default of a field is what the expression gives without keys. With `pub`, each field gets a setter method.
+macro_rules! request {
+    ($(#[$meta:meta])* pub struct $name:ident($given:ident) {
+        $($(#[$about:meta])* pub $field:ident: $type:ty = $read:expr, $clap:ident($($args:tt)*);)*
+    }) => {
+        request! {
+            @declare ($(#[$meta])* #[non_exhaustive]) (pub) $name($given)
+            $($(#[$about])* (pub) $field: $type = $read, $clap($($args)*);)*
+        }
+
+        impl $name {
+            $($(#[$about])* #[must_use] pub fn $field(mut self, $field: impl Into<$type>) -> Self {
+                self.$field = $field.into();
+                self
+            })*
+        }
+    };
+    ($(#[$meta:meta])* pub(crate) struct $name:ident($given:ident) {
+        $($(#[$about:meta])* $field:ident: $type:ty = $read:expr, $clap:ident($($args:tt)*);)*
+    }) => {
+        request! {
+            @declare ($(#[$meta])*) (pub(crate)) $name($given)
+            $($(#[$about])* (pub(crate)) $field: $type = $read, $clap($($args)*);)*
+        }
+    };
+    (@declare ($(#[$meta:meta])*) ($vis:vis) $name:ident($given:ident)
+        $($(#[$about:meta])* ($field_vis:vis) $field:ident: $type:ty = $read:expr, $clap:ident($($args:tt)*);)*
+    ) => {
+        $(#[$meta])*
+        #[cfg_attr(feature = "cli", derive(clap::Args), group(skip))]
+        $vis struct $name {
+            $($(#[$about])* #[cfg_attr(feature = "cli", $clap($($args)*))] $field_vis $field: $type,)*
+        }
+
+        impl $name {
+            /// Reads the options from the keys that were given.
+            pub(crate) fn read($given: &mut crate::read::Given<'_, '_>) -> $name {
+                $name { $($field: $read),* }
+            }
+        }
+
+        impl Default for $name {
+            fn default() -> $name {
+                $name::read(&mut crate::read::Given::none())
+            }
+        }
+    };
+}
+
 // Blank lines between the modules keep them in this order. Without blank lines the formatter would sort them.
 
 #[doc(hidden)]

@@ -11,9 +11,10 @@ from ._check import check, check_many
 from ._drystone import __version__, kinds, schema, themes
 from ._errors import DrystoneError, Problem, SceneError
 from ._figure import Figure
-from ._result import Frame, Record, Result, Results, Table
+from ._result import Frame, Result, Results
 from ._scene import Scene
 from ._session import Session
+from ._table import Record, Table
 
 
 def figure_kinds() -> dict[str, str]:

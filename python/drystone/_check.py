@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import Any
 
 from . import _drystone
 from ._errors import SceneError
-from ._geometry import capacity_word
+from ._figure import request_json
 from ._result import Result, Results
-from ._scene import Scene
+from ._scene import AnyScene, Scene, as_scene
 
 Margins = bool | str | Iterable[str]
 Capacity = str | tuple[Any, ...]
-AnyScene = Scene | Mapping[str, Any] | os.PathLike[str]
 
 
 def check(
@@ -55,7 +53,19 @@ def check(
     True
     """
     scene = as_scene(scene)
-    options = analysis_options(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, scene._located, capacity, for_all, sensitivity)
+    options = analysis_options(
+        margins,
+        wedging=wedging,
+        verdict_only=verdict_only,
+        accuracy=accuracy,
+        time_limit=time_limit,
+        contact_tolerance=contact_tolerance,
+        no_notes=not notes,
+        located=scene._located,
+        capacity=capacity,
+        for_all=for_all,
+        sensitivity=sensitivity,
+    )
     return Result(_drystone.check(scene._json(), options), scene)
 
 
@@ -86,8 +96,19 @@ def check_many(
     if errors not in ("raise", "keep"):
         raise ValueError(f'errors is "raise" or "keep", not {errors!r}')
     given = [as_scene(scene) for scene in scenes]
-    located = all(scene._located for scene in given)
-    options = analysis_options(margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity, for_all, sensitivity)
+    options = analysis_options(
+        margins,
+        wedging=wedging,
+        verdict_only=verdict_only,
+        accuracy=accuracy,
+        time_limit=time_limit,
+        contact_tolerance=contact_tolerance,
+        no_notes=not notes,
+        located=all(scene._located for scene in given),
+        capacity=capacity,
+        for_all=for_all,
+        sensitivity=sensitivity,
+    )
     answers = _drystone.check_many([scene._json() for scene in given], options, progress, threads)
     results: list[Result | SceneError] = []
     for number, (scene, answer) in enumerate(zip(given, answers)):
@@ -102,48 +123,15 @@ def check_many(
     return Results(results)
 
 
-def as_scene(scene: AnyScene) -> Scene:
-    """Converts a scene, a dict with the keys of a scene file, or the path of a scene file to a scene."""
-    if isinstance(scene, Scene):
-        return scene
-    if isinstance(scene, Mapping):
-        return Scene.from_dict(scene)
-    if isinstance(scene, os.PathLike):
-        return Scene.from_file(scene)
-    kind = type(scene).__name__
-    raise TypeError(f"a {kind} is not a scene; give a Scene, a dict or a pathlib.Path, and read text with Scene.from_json")
-
-
-def analysis_options(
-    margins: Margins,
-    wedging: bool,
-    verdict_only: bool,
-    accuracy: str,
-    time_limit: float | None,
-    contact_tolerance: float | None,
-    notes: bool,
-    located: bool,
-    capacity: Capacity | None = None,
-    for_all: str | None = None,
-    sensitivity: str | None = None,
-) -> _drystone.Options:
+def analysis_options(margins: Margins = False, *, located: bool = False, **options: Any) -> _drystone.Options:
     """Converts the arguments of an analysis to an ``Options`` object. Recently used objects are cached.
 
-    ``located`` is true if problems have lines and columns, because the scene was read from text.
+    ``located`` is true if problems have lines and columns, because the scene was read from text. ``options`` have the
+    names of the options of ``drystone check``.
     """
-    names: tuple[str, ...] | None
-    if isinstance(margins, str):
-        names = (margins,)
-    elif isinstance(margins, bool):
-        names = () if margins else None
-    else:
-        names = tuple(margins)
-    if for_all is not None and capacity is None:
-        raise ValueError("for_all limits the forces that a block can carry, so it needs capacity too")
-    where = None if capacity is None else capacity_word(capacity)
-    return _options(names, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, where, for_all, sensitivity)
+    if not isinstance(margins, (bool, str)):
+        margins = list(margins) or True
+    return _options(request_json({"margins": margins, "located": located, **options}))
 
 
-@lru_cache(maxsize=64)
-def _options(names: tuple[str, ...] | None, *others: Any) -> _drystone.Options:
-    return _drystone.Options(None if names is None else list(names), *others)
+_options = lru_cache(maxsize=64)(_drystone.Options)

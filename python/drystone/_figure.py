@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import base64
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from . import _drystone
+from . import _drystone, _geometry
 from ._errors import DrystoneError
 from ._geometry import capacity_word
 
@@ -36,9 +37,7 @@ class Figure:
     @classmethod
     def of_analysis(cls, analysis: _drystone.Analysis, frame: int | None, options: Mapping[str, Any]) -> Figure:
         """Makes a figure of one frame of an analysis, or of all frames if ``frame`` is ``None``."""
-        made = cls(analysis, frame, options)
-        words(options)
-        return made
+        return cls(analysis, frame, options)
 
     @classmethod
     def of_problems(cls, text: str) -> Figure:
@@ -71,10 +70,10 @@ class Figure:
         Path(path).write_bytes(self._bytes(ending, options))
 
     def _bytes(self, ending: str, options: Mapping[str, Any]) -> bytes:
-        arguments = words({**self._options, **options})
+        request = request_json({**self._options, **options})
         if self._analysis is None:
-            return _drystone.sketch(self._text, arguments, ending)
-        return self._analysis.figure(arguments, ending, self._frame)
+            return _drystone.sketch(self._text, request, ending)
+        return self._analysis.figure(request, ending, self._frame)
 
     def _repr_svg_(self) -> str:
         return self.svg()
@@ -86,25 +85,12 @@ class Figure:
         return f"<Figure: {self._options.get('kind', 'problems')}>"
 
 
-def words(options: Mapping[str, Any]) -> list[str]:
-    """Converts keyword arguments to command-line options of ``drystone render``.
-
-    For example, ``width_mm=84`` becomes ``--width-mm=84``. A value that is ``None`` or ``False`` is left out.
-    """
-    made = []
-    for name, value in options.items():
-        option = "--" + name.replace("_", "-")
-        if value is None or value is False:
-            continue
-        if value is True:
-            made.append(option)
-        elif name == "capacity":
-            made.append(f"{option}={capacity_word(value)}")
-        elif isinstance(value, (list, tuple)):
-            made += [f"{option}={one}" for one in value]
-        else:
-            made.append(f"{option}={os.fspath(value) if isinstance(value, os.PathLike) else value}")
-    return made
+def request_json(options: Mapping[str, Any]) -> str:
+    """Returns options as a JSON object, with the names of the options of ``drystone check`` and ``drystone render``."""
+    given = {name: value for name, value in options.items() if value is not None}
+    if "capacity" in given:
+        given["capacity"] = capacity_word(given["capacity"])
+    return json.dumps(given, default=_geometry.plain)
 
 
 def animate(
@@ -117,7 +103,7 @@ def animate(
     ending = Path(path).suffix.lower()
     if ending not in (".png", ".gif"):
         raise DrystoneError(f"{os.fspath(path)}: an animation can be saved as .png or .gif")
-    Path(path).write_bytes(analysis.figure(words(options), ending[1:], frame))
+    Path(path).write_bytes(analysis.figure(request_json(options), ending[1:], frame))
 
 
 def html_image(svg: str) -> str:

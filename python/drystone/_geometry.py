@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -16,6 +17,8 @@ Outline = Any
 
 def plain(value: object) -> Any:
     """Converts a value, such as a numpy array, to a value that JSON can represent. Used as ``default`` of ``json``."""
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     for method in ("tolist", "item"):
         convert = getattr(value, method, None)
         if convert is not None:

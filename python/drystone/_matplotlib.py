@@ -7,6 +7,7 @@ from typing import Any
 
 from . import _drystone
 from ._errors import DrystoneError
+from ._table import Table
 
 
 _PLATE = {"facecolor": "#e9e4d8", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
@@ -89,6 +90,4 @@ def _forces(ax: Any, analysis: _drystone.Analysis, frame: int, corners: list[lis
 
 
 def _rows(analysis: _drystone.Analysis, name: str, frame: int) -> list[dict[str, Any]]:
-    from ._result import Table
-
     return Table(analysis.table(name, frame), name).to_dicts()

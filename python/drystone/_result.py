@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from collections.abc import Iterator, Sequence
@@ -10,103 +11,12 @@ from typing import TYPE_CHECKING, Any, overload
 from . import _drystone
 from ._errors import DrystoneError, SceneError
 from ._figure import Figure, animate, html_image
+from ._matplotlib import draw
+from ._scene import Scene
+from ._table import Record, Table
 
 if TYPE_CHECKING:
     import numpy
-
-    from ._scene import Scene
-
-
-class Record(dict[str, Any]):
-    """An object in a result: a dict whose keys can also be read as attributes."""
-
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"there is no {name}; there are {', '.join(self)}") from None
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(key for key in self if key.isidentifier())]
-
-
-class Table:
-    """A table of a result, stored by column.
-
-    Libraries that read Arrow's ``__arrow_c_stream__`` accept a table directly: ``pyarrow.table(t)``,
-    ``polars.DataFrame(t)``.
-    """
-
-    def __init__(self, native: _drystone.Table, name: str) -> None:
-        self._native = native
-        self._name = name
-
-    @property
-    def columns(self) -> list[str]:
-        """The names of the columns."""
-        return self._native.names()
-
-    def __len__(self) -> int:
-        return len(self._native)
-
-    def __getitem__(self, column: str) -> numpy.ndarray[Any, Any]:
-        """Returns the column with this name as an array."""
-        for name, (kind, values) in zip(self._native.names(), self._native.columns()):
-            if name == column:
-                return _array(kind, values)
-        raise KeyError(f"there is no column {column}; there are {', '.join(self.columns)}")
-
-    def __iter__(self) -> Iterator[str]:
-        """Iterates over the names of the columns."""
-        return iter(self.columns)
-
-    def to_numpy(self) -> numpy.ndarray[Any, Any]:
-        """Returns the table as a structured array with a field for each column."""
-        import numpy
-
-        columns = self._arrays()
-        rows = numpy.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
-        for name, column in columns.items():
-            rows[name] = column
-        return rows
-
-    def to_pandas(self) -> Any:
-        """Returns the table as a pandas DataFrame."""
-        import pandas
-
-        return pandas.DataFrame(self._arrays())
-
-    def _arrays(self) -> dict[str, numpy.ndarray[Any, Any]]:
-        return {name: _array(*column) for name, column in zip(self._native.names(), self._native.columns())}
-
-    def to_dicts(self) -> list[dict[str, Any]]:
-        """Returns the table as a list with a dict for each row. The method needs no other package."""
-        columns: list[Any] = []
-        for kind, values in self._native.columns():
-            if kind == "U":
-                columns.append(values)
-            else:
-                columns.append(memoryview(values).cast(_CODES[kind]))
-        names = self.columns
-        return [dict(zip(names, row)) for row in zip(*columns)]
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray[Any, Any]:
-        rows = self.to_numpy()
-        return rows if dtype is None else rows.astype(dtype)
-
-    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return self._native.__arrow_c_stream__(requested_schema)
-
-    def __repr__(self) -> str:
-        rows = len(self)
-        return f"<{self._name}: {rows} {'row' if rows == 1 else 'rows'} of {', '.join(self.columns)}>"
-
-    def _repr_html_(self) -> str:
-        shown = self.to_dicts()[:50]
-        head = "".join(f"<th>{_escaped(name)}</th>" for name in self.columns)
-        body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row.values()) + "</tr>" for row in shown)
-        more = f"<p>… {len(self)} rows in all</p>" if len(self) > len(shown) else ""
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
 
 
 class _Answer:
@@ -165,8 +75,6 @@ class _Answer:
         and forces are arrows in ``ax.patches``. The ``gid`` of a patch or an arrow is "ground", "block:NAME",
         "force:NAME" or "failure:NAME", so that a script can find and change it.
         """
-        from ._matplotlib import draw
-
         frame = self._frame if self._frame is not None else len(self._native.verdicts()) - 1
         return draw(self._native, frame, ax, forces=forces, labels=labels)
 
@@ -225,7 +133,7 @@ class Frame(_Answer):
         return f"<Frame {self.number}{title}: {_WORDS[self.verdict]}>"
 
     def _repr_html_(self) -> str:
-        return f"<p><b>{_escaped(repr(self)[1:-1])}</b></p>{self.figure()._repr_html_()}"
+        return f"<p><b>{html.escape(repr(self)[1:-1])}</b></p>{self.figure()._repr_html_()}"
 
 
 class Result(_Answer):
@@ -317,7 +225,7 @@ class Result(_Answer):
     def _repr_html_(self) -> str:
         frames = self.frames
         rows = "".join(
-            f"<tr><td>{frame.number}</td><td style='text-align:left'>{_escaped(frame.title)}</td>"
+            f"<tr><td>{frame.number}</td><td style='text-align:left'>{html.escape(frame.title)}</td>"
             f"<td>{_WORDS[frame.verdict]}</td><td>{frame.weight:.4g} N</td><td>{frame.total_sticking:.4g} N</td></tr>"
             for frame in frames
         )
@@ -374,11 +282,8 @@ class Results(Sequence["Result | SceneError"]):
         return f"<Results: {len(self)} scenes{': ' if counts else ''}{counts}>"
 
     def _repr_html_(self) -> str:
-        return f"<p>{_escaped(repr(self)[1:-1])}</p>{self.table._repr_html_()}"
+        return f"<p>{html.escape(repr(self)[1:-1])}</p>{self.table._repr_html_()}"
 
-
-_CODES: dict[str, Any] = {"f8": "d", "i8": "q", "?": "?"}
-"""For each numpy type of a column, the format code of ``memoryview``."""
 
 _WORDS = {"stable": "stands", "unstable": "falls", "undecided": "undecided"}
 
@@ -390,20 +295,3 @@ def _counted(verdicts: list[str]) -> str:
     """Returns the number of scenes or frames with each verdict in words, such as "2 stand, 1 falls"."""
     counts = [(verdicts.count(word), word, plural) for word, plural in _PLURALS.items() if word in verdicts]
     return ", ".join(f"{count} {_WORDS.get(word, plural) if count == 1 else plural}" for count, word, plural in counts)
-
-
-def _array(kind: str, values: Any) -> numpy.ndarray[Any, Any]:
-    """Converts the values of a column to an array. ``kind`` is the numpy type of the values, or "U" for text."""
-    import numpy
-
-    return numpy.array(values, dtype=str) if kind == "U" else numpy.frombuffer(values, dtype=kind)
-
-
-def _escaped(text: str) -> str:
-    import html
-
-    return html.escape(text)
-
-
-def _cell(value: object) -> str:
-    return f"{value:.5g}" if isinstance(value, float) else _escaped(str(value))

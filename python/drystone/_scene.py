@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import _drystone, _geometry
+from . import _compas, _drystone, _geometry
 from ._errors import DrystoneError, SceneError
 from ._figure import Figure
 from ._geometry import Outline, Point
@@ -91,9 +91,10 @@ class Scene:
         prisms in this plane. Supports become parts of the ground. ``keys`` are keyword arguments of :class:`Scene`; the
         default of ``thickness`` is the thickness of the blocks.
         """
-        from ._compas import scene_of
-
-        return scene_of(cls, assembly, plane, keys)
+        scene = cls(**keys)
+        sections = json.loads(_drystone.compas(_compas.to_json(assembly), plane, keys.get("thickness")))
+        scene._file = {**sections, **scene._loaded(), "ground": sections.get("ground", []), "blocks": sections["blocks"]}
+        return scene
 
     def ground(
         self,
@@ -295,12 +296,11 @@ class Scene:
         return self._picture()._repr_html_()
 
     def _picture(self) -> Figure:
-        from ._check import check
-
         try:
-            return check(self).figure()
+            analysis = _drystone.check(self._json(), _drystone.Options("{}"))
         except SceneError:
             return Figure.of_problems(self._json())
+        return Figure.of_analysis(analysis, None, {"kind": "forces"})
 
     def _json(self) -> str:
         """Returns the text of the scene file that an analysis reads."""
@@ -341,6 +341,21 @@ class Scene:
     def _name(self, key: str, name: str, entry: dict[str, Any]) -> Scene:
         self._changed().setdefault(key, {})[name] = entry
         return self
+
+
+AnyScene = Scene | Mapping[str, Any] | os.PathLike[str]
+
+
+def as_scene(scene: AnyScene) -> Scene:
+    """Converts a scene, a dict with the keys of a scene file, or the path of a scene file to a scene."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, Mapping):
+        return Scene.from_dict(scene)
+    if isinstance(scene, os.PathLike):
+        return Scene.from_file(scene)
+    kind = type(scene).__name__
+    raise TypeError(f"a {kind} is not a scene; give a Scene, a dict or a pathlib.Path, and read text with Scene.from_json")
 
 
 _encode = json.JSONEncoder(default=_geometry.plain, separators=(",", ":"), allow_nan=False).encode

@@ -7,10 +7,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _drystone, _geometry
-from ._check import AnyScene, Margins, analysis_options, as_scene
+from ._check import Margins, analysis_options
 from ._geometry import Outline, Point
-from ._result import Record, Result
-from ._scene import _dumps
+from ._result import Result
+from ._scene import AnyScene, _dumps, as_scene
+from ._table import Record
 
 
 class Session:
@@ -32,7 +33,7 @@ class Session:
 
     def __init__(self, scene: AnyScene, *, accuracy: str = "standard", verdict_only: bool = False) -> None:
         start = as_scene(scene)
-        options = analysis_options(False, False, verdict_only, accuracy, None, None, True, start._located)
+        options = analysis_options(verdict_only=verdict_only, accuracy=accuracy, located=start._located)
         self._native = _drystone.Session(start._json(), options)
 
     def place(
@@ -85,7 +86,7 @@ class Session:
 
     def check(self, *, margins: Margins = False, wedging: bool = False) -> Result:
         """Returns the complete analysis of the placed blocks. The result has no scene."""
-        options = analysis_options(margins, wedging, False, "standard", None, None, True, False)
+        options = analysis_options(margins, wedging=wedging)
         return Result(self._native.analysis(options), None)
 
     def margins(self, *kinds: str) -> Any:

@@ -51,15 +51,19 @@ def test_wrong_options_are_explained(lintel):
         ({"theme": "drak"}, "dark"),
         ({"amonts": True}, "amounts"),
         ({"block": "left"}, "freebody"),
-        ({"width_mm": -1}, "width-mm"),
-        ({"pages": True}, "command line only"),
+        ({"width_mm": -1}, "width_mm: it must be a width"),
+        ({"pages": True}, "pages: unknown key"),
         ({"kind": "freebody", "block": "z"}, "no block z"),
         ({"kind": "sensitivity", "margin": "robots"}, "kernel"),
         ({"kind": "capacity", "capacity": "z"}, "no block z"),
     ):
         with pytest.raises(ds.DrystoneError, match=words) as caught:
             result.figure(**options).svg()
-        assert "error:" not in str(caught.value) and "Usage" not in str(caught.value)
+        assert all(word not in str(caught.value) for word in ("error:", "Usage", "--", "line 1"))
+    # All problems are reported at once.
+    with pytest.raises(ds.DrystoneError) as caught:
+        result.figure("flow", theme="drak", fill="stres", columns=0).png(dpi=0.1)
+    assert all(word in str(caught.value) for word in ('did you mean "dark"', 'did you mean "stress"', "columns", "dpi"))
 
 
 def test_a_notebook_shows_scenes_results_and_problems(lintel, steps):

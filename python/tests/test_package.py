@@ -1,5 +1,6 @@
 """The package itself: types, documentation, memory, the wheel."""
 
+import ast
 import doctest
 import importlib
 import os
@@ -58,6 +59,23 @@ def test_types(tmp_path):
         cwd=tmp_path,
     )
     assert stubs.returncode == 0, stubs.stdout + stubs.stderr
+
+
+def test_modules_do_not_import_each_other_in_a_circle():
+    """Imports inside functions and for types count too."""
+    folder = Path(ds.__file__).parent
+    uses = {}
+    for path in folder.glob("*.py"):
+        found = set()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                found.update([node.module] if node.module else [name.name for name in node.names])
+        uses[path.stem] = {name for name in found if (folder / f"{name}.py").exists()}
+    assert {"_figure", "_scene"} <= uses["_result"]
+    while free := [name for name, found in uses.items() if not found & uses.keys()]:
+        for name in free:
+            del uses[name]
+    assert not uses, f"these modules import each other in a circle, or import such modules: {sorted(uses)}"
 
 
 def test_the_package_says_that_it_has_types():

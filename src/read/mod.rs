@@ -28,6 +28,7 @@
 //!
 //! If only some fields of a struct are keys, the macro `read_keys!` implements [`Read`] for these fields.
 
+mod given;
 pub mod mistake;
 pub mod path;
 pub mod reader;
@@ -37,9 +38,10 @@ pub mod syntax;
 mod toml;
 pub mod tree;
 
+pub use given::{Given, requested};
 pub use mistake::{Broken, Cause, Dialect, Expected, Kind, Mistake, Problem, Problems};
 pub use path::{Path, Segment, Trail};
-pub use reader::{Finding, Reader};
+pub use reader::{Fields, Finding, Reader};
 pub use source::{Mark, Notation, Source};
 pub use tree::{Node, NodeKind};
 

@@ -6,8 +6,12 @@
 //! [`HIDDEN`], so that the reader sees where they were.
 
 mod spelling;
+mod word;
 
 pub use spelling::nearest;
+pub use word::Word;
+#[cfg(feature = "cli")]
+pub(crate) use word::typed_word;
 
 /// The character that replaces control characters, except line breaks and tabs, and characters that change the reading
 /// direction.
@@ -201,6 +205,29 @@ pub fn github(text: &str) -> String {
 /// Escapes text for a property of a GitHub annotation, such as its file or title.
 pub fn github_property(text: &str) -> String {
     github(&line(text)).replace(':', "%3A").replace(',', "%2C")
+}
+
+/// Returns ` and 3 more` for the parts of a list that are left out, and nothing if no part is.
+pub fn and_more(left_out: usize) -> String {
+    if left_out == 0 { String::new() } else { format!(" and {left_out} more") }
+}
+
+/// Joins the first parts of a list by commas, at most `max`, and adds how many are left out.
+///
+/// ```
+/// use drystone::internals::text::first_of;
+/// assert_eq!(first_of(["a", "b"], 2), "a, b");
+/// assert_eq!(first_of(["a", "b", "c", "d"], 2), "a, b and 2 more");
+/// ```
+pub fn first_of<T, I>(parts: I, max: usize) -> String
+where
+    T: Into<String>,
+    I: IntoIterator<Item = T, IntoIter: ExactSizeIterator>,
+{
+    let parts = parts.into_iter();
+    let left_out = parts.len().saturating_sub(max);
+    let shown: Vec<String> = parts.take(max).map(Into::into).collect();
+    shown.join(", ") + &and_more(left_out)
 }
 
 /// True if a line is a conflict marker of a version control system: it starts with seven `<`, `=` or `>`.

@@ -5,7 +5,6 @@ mod csv;
 mod input;
 mod output;
 mod pace;
-mod picture;
 mod resume;
 
 use std::path::{Path, PathBuf};
@@ -14,23 +13,24 @@ use std::thread;
 
 use clap::Args;
 
-use crate::entry::cli::analysis_args::AnalysisArgs;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
-use crate::entry::cli::margins::MarginArgs;
+use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::{AnalysisArgs, MarginArgs};
 use crate::mechanics::analysis::{Analysis, Options, Verdict, verdicts};
 use crate::mechanics::batch::{Capacity, Record, Records, in_order};
 use crate::mechanics::scene::{Code, Problem, Scene, isolate};
+use crate::pictures::output::file::Existing;
+use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
 use crate::products::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
 use crate::text;
 use output::{Output, Target};
 use pace::BatchProgress;
-use picture::PictureOutput;
 use resume::Settings;
 
 /// The default width of a picture in pixels.
@@ -89,15 +89,15 @@ fn fields(typed: &str) -> Result<Fields, String> {
 
 impl Batch {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let form = self.form().map_err(|c| vec![c])?;
-        let work = self.work(form).map_err(|c| vec![c])?;
+        let form = self.form()?;
+        let work = self.work(form)?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;
         let mut records = Records::new(inputs.list);
         let mut pace = BatchProgress::begin(terminal, self.progress, inputs.bytes, records.read());
         let target = Target { path: self.output.as_deref(), resume: self.resume, settings: self.settings(&work), form };
-        let mut output = Output::open(&target, &inputs.files, &mut records).map_err(|c| vec![c])?;
+        let mut output = Output::open(&target, &inputs.files, &mut records)?;
         if let Some(folder) = &self.render {
-            destination::make_folder(folder).map_err(|c| vec![c])?;
+            destination::make_folder(folder)?;
         }
         pace.skipped(output.done());
         let mut ending = ExitStatus::Done;
@@ -114,18 +114,12 @@ impl Batch {
                         pace.step(answer.ending);
                         output.write(answer.line.as_bytes(), answer.scene)
                     }
-                    Some(Err(complaint)) => {
-                        failed = Some(complaint);
-                        return std::ops::ControlFlow::Break(());
-                    }
+                    Some(Err(complaint)) => Err(complaint),
                 };
-                match written {
-                    Ok(flow) => flow,
-                    Err(complaint) => {
-                        failed = Some(complaint);
-                        std::ops::ControlFlow::Break(())
-                    }
-                }
+                written.unwrap_or_else(|complaint| {
+                    failed = Some(complaint);
+                    std::ops::ControlFlow::Break(())
+                })
             },
         );
         // Write the answers that are still in memory, even after an error: answers from before the error are valid.
@@ -160,12 +154,12 @@ impl Batch {
             .as_deref()
             .and_then(Path::extension)
             .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-        let refuse = |why: &str| Err(CliError::CommandLine(why.into()));
+        let refuse = |why: &str| Err(CliError::from(why));
         match ending.as_deref() {
             Some("csv") if self.resume => refuse(
                 "--resume needs one line for each scene, and a .csv file has one row for each frame; write an .ndjson file",
             ),
-            Some("csv") if self.fields != Fields::default() || self.margins.are_requested() => refuse(
+            Some("csv") if self.fields != Fields::default() || self.margins.margins.is_some() => refuse(
                 "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
             ),
             Some("csv") => Ok(Form::Csv),
@@ -197,10 +191,10 @@ impl Batch {
             }
         };
         let mut fields = self.fields.clone();
-        if self.margins.are_requested() {
+        if self.margins.margins.is_some() {
             fields = fields.with_margins();
         }
-        if self.level.requests_wedging() {
+        if self.level.wedging {
             fields = fields.with_wedging();
         }
         Ok(SceneWork { level: self.level, margins: self.margins.clone(), fields, form, drawn: drawn.map(Arc::new) })
@@ -317,6 +311,39 @@ impl SceneWork {
             options.wedging = true;
         }
         options
+    }
+}
+
+/// The options for pictures, and their folder.
+struct PictureOutput {
+    folder: PathBuf,
+    format: Format,
+    picture: Picture,
+    fonts: Fonts,
+    options: figure::Options,
+}
+
+impl PictureOutput {
+    /// Draws a scene and writes the picture file, whose name without the extension is `name`. Returns the name of the
+    /// file, or the reason why the picture cannot be drawn. Returns an error if the file cannot be written.
+    fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
+        let name = format!("{name}.{}", self.format.ending());
+        let legible = if self.picture.draws_words(self.format) {
+            Arc::new(missing_glyphs::legible(&analysis.scene, &self.fonts))
+        } else {
+            Arc::clone(&analysis.scene)
+        };
+        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new() };
+        let drawing = figure::forces(&shown, &self.options);
+        match self.picture.bytes(drawing, self.format, &self.fonts) {
+            Ok(bytes) => {
+                let file = (self.folder.join(&name), bytes);
+                destination::write(&[file], Existing::Replace)?;
+                Ok(PictureOutcome::Drawn(name))
+            }
+            Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => Ok(PictureOutcome::Refused(why)),
+            Err(other) => Err(other),
+        }
     }
 }
 

@@ -5,22 +5,20 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::entry::cli::analysis_args::AnalysisArgs;
-use crate::entry::cli::capacity::CapacityArgs;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
-use crate::entry::cli::margins::{MarginArgs, SensitivityMargin};
 use crate::entry::cli::page::Page;
 use crate::entry::cli::progress::{BarVisibility, Progress};
-use crate::entry::cli::source::{self, FrameChoice, Source};
+use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::table::{self, Detail};
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::scene::Note;
 use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::products::wording::number::letter;
 use crate::products::wording::sensitivity;
-use crate::products::wording::verdict::counted;
+use crate::products::wording::verdict::tally;
 
 /// Decide whether structures stand, show what fails, and prove the verdicts
 #[derive(Debug, Args)]
@@ -39,20 +37,7 @@ pub(crate) struct Check {
     #[arg(long)]
     no_timing: bool,
     #[command(flatten)]
-    margins: MarginArgs,
-    /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the largest
-    /// effect; --json has them all
-    #[arg(long, value_enum, value_name = "MARGIN")]
-    sensitivity: Option<SensitivityMargin>,
-    #[command(flatten)]
-    capacity: CapacityArgs,
-    /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
-    #[arg(long)]
-    verdict_only: bool,
-    /// Leave out notes about allowed input that is rarely intended; a scene silences single notes with "silence":
-    /// ["code"]
-    #[arg(long)]
-    no_notes: bool,
+    what: CheckArgs,
     /// Add the sum of all forces, the sum of the missing forces, the proof, the time and the contact tolerance
     #[arg(long, short, conflicts_with = "json")]
     verbose: bool,
@@ -62,17 +47,11 @@ pub(crate) struct Check {
     /// Explain the words of the tables, in a list below the tables
     #[arg(long, conflicts_with = "json")]
     explain: bool,
-    /// Analyse only one frame: its number from 1, its letter in the strip, or last
-    #[arg(long, value_name = "N")]
-    frame: Option<FrameChoice>,
-    #[command(flatten)]
-    level: AnalysisArgs,
 }
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let outcomes =
-            source::read_each(&self.scenes, self.frame, self.level.contact_tolerance).map_err(|c| vec![c])?;
+        let outcomes = source::read_each(&self.scenes, self.what.frame, self.what.level.contact_tolerance)?;
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
         let mut sources = Vec::new();
@@ -80,9 +59,9 @@ impl Check {
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
                 // A scene without the block of `--capacity` is refused before any scene is analysed.
-                Ok(source) => match self.capacity.add_to(Options::default(), &source.scene) {
+                Ok(source) => match self.what.capacity.add_to(Options::default(), &source.scene) {
                     Ok(_) => sources.push((number, source)),
-                    Err(complaint) => refused.push((number, path, complaint)),
+                    Err(why) => refused.push((number, path, why.into())),
                 },
                 Err(complaint) => refused.push((number, path, complaint)),
             }
@@ -114,12 +93,9 @@ impl Check {
         for (.., complaint) in &refused {
             terminal.refuse(complaint);
         }
-        printed.map_err(|c| vec![c])?;
+        printed?;
         let wrong = refused.iter().map(|(.., complaint)| complaint.ending());
-        let endings = done.iter().map(|(ending, ..)| match self.exit_zero {
-            true => ExitStatus::Done,
-            false => *ending,
-        });
+        let endings = done.iter().map(|(ending, ..)| if self.exit_zero { ExitStatus::Done } else { *ending });
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
@@ -134,11 +110,7 @@ impl Check {
     ) -> Vec<Result<SceneResult, CliError>> {
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(sources.len(), shown);
-        let options = Options {
-            verdict_only: self.verdict_only,
-            sensitivity: self.sensitivity.map(|margin| margin.0),
-            ..self.margins.add_to(self.level.options())
-        };
+        let options = self.what.base();
         sources
             .par_iter()
             .map(|(_, source)| {
@@ -159,9 +131,9 @@ impl Check {
         layout: Layout,
         width: Option<usize>,
     ) -> Result<SceneResult, CliError> {
-        let options = self.capacity.add_to(*options, &source.scene)?;
+        let options = self.what.capacity.add_to(*options, &source.scene)?;
         let mut analysis = Analysis::with(&source.scene, &options);
-        if self.no_notes {
+        if self.what.no_notes {
             analysis.notes.clear();
         }
         let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };
@@ -169,9 +141,10 @@ impl Check {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
         if self.json {
             let file = source.path.to_string_lossy();
-            let json = match self.blocks {
-                true => to_json_with_blocks(Some(&file), &analysis, timing, layout),
-                false => to_json_of(&file, &analysis, timing, layout),
+            let json = if self.blocks {
+                to_json_with_blocks(Some(&file), &analysis, timing, layout)
+            } else {
+                to_json_of(&file, &analysis, timing, layout)
             };
             return Ok((ending, verdicts, json, Page::default()));
         }
@@ -199,10 +172,7 @@ impl Check {
     }
 
     fn detail(&self, timing: Timing) -> Detail {
-        match self.verbose {
-            true => Detail::Full(timing),
-            false => Detail::Short,
-        }
+        if self.verbose { Detail::Full(timing) } else { Detail::Short }
     }
 }
 
@@ -231,19 +201,12 @@ fn objects(done: &[SceneResult], refused: &[RefusedFile], layout: Layout) -> Str
 /// Returns how many scenes and frames have each verdict: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`. The
 /// verdict of a scene is the worst verdict of its frames.
 fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
-    let counts = |verdicts: &[Verdict]| {
-        let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
-        let count = |kind: Verdict| verdicts.iter().filter(|v| **v == kind).count();
-        let found = kinds.into_iter().filter(|kind| count(*kind) > 0);
-        let words: Vec<String> = found.map(|kind| counted(count(kind), kind)).collect();
-        words.join(", ")
-    };
     let worst = |frames: &[Verdict]| frames.iter().max().copied().unwrap_or(Verdict::Stable);
     let by_scene: Vec<Verdict> = scenes.clone().map(worst).collect();
     let by_frame: Vec<Verdict> = scenes.flatten().copied().collect();
-    let mut words = format!("{} scenes: {}", by_scene.len(), counts(&by_scene));
+    let mut words = format!("{} scenes: {}", by_scene.len(), tally(&by_scene));
     if by_frame.len() > by_scene.len() {
-        words += &format!("; {} frames: {}", by_frame.len(), counts(&by_frame));
+        words += &format!("; {} frames: {}", by_frame.len(), tally(&by_frame));
     }
     words
 }

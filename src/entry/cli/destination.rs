@@ -5,6 +5,7 @@ use std::{fs, io};
 
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::name;
 use crate::pictures::output::file::{Existing, same, write_whole};
 
 /// The destination of pictures.
@@ -43,17 +44,19 @@ impl Destination {
         let Some(by_name) = by_name else {
             let shown = path.display();
             let endings = Format::ALL.map(|format| format!(".{}", format.ending()));
-            return Err(CliError::CommandLine(format!(
+            return Err(format!(
                 "{shown}: the name of a picture ends in {}; for a folder, end the name with a slash",
                 one_of(&endings)
-            )));
+            )
+            .into());
         };
         match requested {
             Some(format) if format != by_name => {
                 let (shown, requested) = (path.display(), format.ending());
-                Err(CliError::CommandLine(format!(
+                Err(format!(
                     "the extension of {shown} and --format {requested} contradict each other; leave out --format"
-                )))
+                )
+                .into())
             }
             _ => Ok(by_name),
         }
@@ -77,25 +80,21 @@ pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result
     let is_stdin = |input: &Path| input == Path::new("-");
     for (number, output) in outputs.iter().enumerate() {
         let shown = output.display();
-        let clash = |input: &Path| match is_stdin(input) {
-            true => same(output, stdin),
-            false => same(output, input),
-        };
+        let clash = |input: &Path| same(output, if is_stdin(input) { stdin } else { input });
         if let Some(input) = inputs.iter().find(|input| clash(input)) {
-            let input = match is_stdin(input) {
-                true => "standard input".to_owned(),
-                false => input.display().to_string(),
-            };
-            return Err(CliError::CommandLine(format!(
+            let input = name(input);
+            return Err(format!(
                 "the output {shown} and the input {input} are the same file; give the output another name"
-            )));
+            )
+            .into());
         }
         let twice = |other: &&PathBuf| *other == output || same(other, output);
         if let Some(other) = outputs[..number].iter().find(twice) {
-            return Err(CliError::CommandLine(format!(
+            return Err(format!(
                 "the outputs {} and {shown} are the same file; give one of them another name",
                 other.display()
-            )));
+            )
+            .into());
         }
     }
     Ok(())
@@ -115,8 +114,7 @@ pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<
 
 /// Creates a folder and its parents, if they do not exist.
 pub(crate) fn make_folder(folder: &Path) -> Result<(), CliError> {
-    fs::create_dir_all(folder)
-        .map_err(|error| CliError::NotWritten { what: folder.display().to_string(), why: error.to_string() })
+    fs::create_dir_all(folder).map_err(|error| CliError::not_written(folder.display(), error))
 }
 
 #[cfg(test)]

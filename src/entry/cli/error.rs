@@ -68,7 +68,35 @@ pub(crate) enum CliError {
     },
 }
 
+impl From<String> for CliError {
+    fn from(why: String) -> CliError {
+        CliError::CommandLine(why)
+    }
+}
+
+impl From<&str> for CliError {
+    fn from(why: &str) -> CliError {
+        CliError::CommandLine(why.into())
+    }
+}
+
+impl From<CliError> for Vec<CliError> {
+    fn from(one: CliError) -> Vec<CliError> {
+        vec![one]
+    }
+}
+
 impl CliError {
+    /// Returns the error for an input that cannot be read.
+    pub(crate) fn not_read(what: impl ToString, why: impl ToString) -> CliError {
+        CliError::NotRead { what: what.to_string(), why: why.to_string() }
+    }
+
+    /// Returns the error for an output that cannot be written.
+    pub(crate) fn not_written(what: impl ToString, why: impl ToString) -> CliError {
+        CliError::NotWritten { what: what.to_string(), why: why.to_string() }
+    }
+
     /// Returns the exit status for this error.
     pub(crate) fn ending(&self) -> ExitStatus {
         match self {
@@ -111,13 +139,24 @@ impl CliError {
         match self {
             CliError::Scene { problems, .. } => problems.list.clone(),
             CliError::NoSuchFrame(what) => alone(Code::NoSuchFrame, what.clone(), "give a smaller number"),
-            CliError::NotRead { what, why } => alone(
-                Code::NotReadable,
-                format!("cannot read {what}: {why}"),
-                "check the path and the permissions of the file",
-            ),
+            CliError::NotRead { .. } => {
+                alone(Code::NotReadable, self.message(), "check the path and the permissions of the file")
+            }
             // The other errors have only a message.
-            other => alone(Code::NotReadable, other.page(None).text().to_owned(), ""),
+            other => alone(Code::NotReadable, other.message(), ""),
+        }
+    }
+
+    /// Returns what is wrong, without advice about the command line.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            CliError::Scene { name, problems } => format!("{name}: {problems}"),
+            CliError::Style { name, problems } => format!("{name}: {problems}"),
+            CliError::NotRead { what, why } => format!("cannot read {what}: {why}"),
+            CliError::NotWritten { what, why } => format!("cannot write {what}: {why}"),
+            CliError::Drawing(page) => page.text().to_owned(),
+            CliError::Book(problems) => problems.join("\n"),
+            CliError::CommandLine(why) | CliError::NoSuchFrame(why) => why.clone(),
         }
     }
 
@@ -141,9 +180,6 @@ impl CliError {
                     page.line(&format!("error: {name}: {problem}"));
                 }
             }
-            CliError::NotRead { what, why } => {
-                page.line(&format!("error: cannot read {what}: {why}"));
-            }
             CliError::Drawing(page) => return page.clone(),
             CliError::CommandLine(what) | CliError::NoSuchFrame(what) => {
                 page.line(&format!("error: {what}"));
@@ -158,8 +194,8 @@ impl CliError {
                     page.block(problem);
                 }
             }
-            CliError::NotWritten { what, why } => {
-                page.line(&format!("error: cannot write {what}: {why}"));
+            CliError::NotRead { .. } | CliError::NotWritten { .. } => {
+                page.line(&format!("error: {}", self.message()));
             }
         }
         page

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::entry::cli::analysis_args::AnalysisArgs;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
-use crate::entry::cli::source::{self, FrameChoice};
+use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::{AnalysisArgs, FrameChoice};
 use crate::mechanics::analysis::Analysis;
 use crate::pictures::output::file::Existing;
 use crate::products::figure;
@@ -41,8 +41,8 @@ impl Export {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
         if let Some(file) = file {
-            check_name(file).map_err(|c| vec![c])?;
-            destination::refuse_overwrites(&[file.to_owned()], &[&self.scene]).map_err(|c| vec![c])?;
+            check_name(file)?;
+            destination::refuse_overwrites(&[file.to_owned()], &[&self.scene])?;
         }
         let scenes = [self.scene.clone()];
         let sources = source::read(&scenes, Some(self.frame), self.level.contact_tolerance)?;
@@ -53,7 +53,7 @@ impl Export {
         let text = source::isolated(&self.scene, || {
             figure::dxf(&Analysis::with(source.scene.clone(), &self.level.options()), 0)
         });
-        let bytes = text.map_err(|c| vec![c])?.into_bytes();
+        let bytes = text?.into_bytes();
         match file {
             // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
             Some(path) => {
@@ -62,8 +62,7 @@ impl Export {
                 written.map(|()| terminal.note(&format!("wrote {}", path.display())))
             }
             None => terminal.print_bytes(&bytes),
-        }
-        .map_err(|c| vec![c])?;
+        }?;
         Ok(ExitStatus::Done)
     }
 }
@@ -75,5 +74,5 @@ fn check_name(file: &Path) -> Result<(), CliError> {
         Some(ending) if ending == "dxf" => return Ok(()),
         _ => "does not end in .dxf, the only format of export; pictures come from drystone render",
     };
-    Err(CliError::CommandLine(format!("{} {why}", file.display())))
+    Err(format!("{} {why}", file.display()).into())
 }

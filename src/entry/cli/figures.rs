@@ -1,15 +1,15 @@
-//! `drystone figures`: draws the gallery, figures 1 to 9 of Vallat (2023), as SVG, PNG and PDF, and writes their
-//! captions.
+//! `drystone figures`: draws the gallery, figures 1 to 9 of Vallat (2023), with captions. `drystone shapes`: draws a sheet
+//! of the built-in shapes.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::entry::cli::destination;
+use crate::entry::cli::destination::{self, Destination};
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
-use crate::entry::cli::picture::Format;
+use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
 use crate::pictures::output::file::Existing;
@@ -18,6 +18,7 @@ use crate::pictures::output::format::Settings;
 use crate::pictures::output::png::{Compression, Size};
 use crate::pictures::output::svg::Words;
 use crate::products::figure::{self, Plate};
+use crate::text::typed_word;
 
 /// Draw the gallery: figures 1 to 9 of Vallat (2023), each as SVG, PNG and PDF, with captions
 #[derive(Debug, Args)]
@@ -26,8 +27,20 @@ pub(crate) struct Figures {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Only this format
-    #[arg(long, value_enum, value_name = "FORMAT")]
+    #[arg(long, value_parser = typed_word::<Format>(), value_name = "FORMAT")]
     format: Option<Format>,
+    #[command(flatten)]
+    look: StyleArgs,
+}
+
+/// Draw the built-in shapes of the triangular lattice, with their cells and origins
+#[derive(Debug, Args)]
+pub(crate) struct Shapes {
+    /// The output: a .svg, .png or .pdf file, a folder, or - for standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    picture: Picture,
     #[command(flatten)]
     look: StyleArgs,
 }
@@ -37,7 +50,7 @@ type Files = Vec<(PathBuf, Vec<u8>)>;
 
 impl Figures {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let theme = self.look.theme().map_err(|c| vec![c])?;
+        let theme = self.look.theme()?;
         let plates = figure::gallery(&theme);
         let formats: Vec<Format> = match self.format {
             Some(format) => vec![format],
@@ -60,10 +73,10 @@ impl Figures {
         files.push((captions, captions_of(&plates).into_bytes()));
         let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
         let style: Vec<&Path> = self.look.file().into_iter().collect();
-        destination::refuse_overwrites(&paths, &style).map_err(|c| vec![c])?;
+        destination::refuse_overwrites(&paths, &style)?;
         let count = files.len();
-        destination::make_folder(&self.output).map_err(|c| vec![c])?;
-        destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+        destination::make_folder(&self.output)?;
+        destination::write(&files, Existing::Replace)?;
         terminal.note(&format!("{}: {} figures, {count} files", self.output.display(), plates.len()));
         Ok(ExitStatus::Done)
     }
@@ -79,8 +92,7 @@ fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliE
     };
     let file = |format: &Format| {
         let bytes = format.write(&plate.drawing, &settings);
-        let bytes =
-            bytes.map_err(|error| CliError::NotWritten { what: plate.name.to_owned(), why: error.to_string() })?;
+        let bytes = bytes.map_err(|error| CliError::not_written(plate.name, error))?;
         let path = folder.join(format!("{}.{}", plate.name, format.ending()));
         Ok((path, bytes))
     };
@@ -90,4 +102,33 @@ fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliE
 fn captions_of(plates: &[Plate]) -> String {
     let one = |plate: &Plate| format!("**{}** {}\n", plate.name, plate.caption);
     plates.iter().map(one).collect::<Vec<_>>().join("\n")
+}
+
+impl Shapes {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+        let theme = self.look.theme()?;
+        let destination = Destination::from_path(&self.output);
+        let format = destination.format(self.picture.requested_format())?;
+        self.picture.check(format)?;
+        if let (Destination::Stdout, true, Some(why)) = (&destination, terminal.is_watched(), format.unreadable()) {
+            return Err(CliError::from(why).into());
+        }
+        let fonts = self.picture.fonts()?;
+        let bytes = self.picture.bytes(figure::shapes(&theme), format, &fonts)?;
+        let path = match &destination {
+            Destination::Stdout => {
+                terminal.print_bytes(&bytes)?;
+                return Ok(ExitStatus::Done);
+            }
+            Destination::File(path) => path.clone(),
+            Destination::Folder(folder) => folder.join(format!("shapes.{}", format.ending())),
+        };
+        let style: Vec<&Path> = self.look.file().into_iter().collect();
+        destination::refuse_overwrites(std::slice::from_ref(&path), &style)?;
+        if let Destination::Folder(folder) = &destination {
+            destination::make_folder(folder)?;
+        }
+        destination::write(&[(path, bytes)], Existing::Replace)?;
+        Ok(ExitStatus::Done)
+    }
 }

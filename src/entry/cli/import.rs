@@ -1,25 +1,22 @@
 //! `drystone import`: turns a drawing, a contact list or an assembly of COMPAS into a scene file.
 
-mod value;
-
-use std::fs;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
-use crate::entry::cli::source::FrameChoice;
+use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::FrameChoice;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
 use crate::pictures::output::file::Existing;
 use crate::products::result::import_json;
-use crate::sources::import::{self, Format, Imported, Options, Remark, Stone};
-use value::{FormatArg, ScaleArg, Unit, gravity, scale, stone};
+use crate::sources::import::{self, Format, Imported, Options, Remark, STONES, Stone};
+use crate::text::{Word, typed_word};
 
 /// At most this many bodies whose corners were moved are listed; `--json` lists all.
 const MAX_LISTED_BODIES: usize = 12;
@@ -43,8 +40,8 @@ pub(crate) struct Import {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Format of the drawing, if its file name does not show it
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<FormatArg>,
+    #[arg(long, value_parser = typed_word::<Format>(), value_name = "FORMAT")]
+    format: Option<Format>,
     /// Replace the scene file if it exists
     #[arg(long, requires = "output")]
     force: bool,
@@ -101,11 +98,11 @@ impl Import {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let stdout = Path::new("-");
         let file = self.output.as_deref().filter(|path| *path != stdout);
-        self.check_options(file).map_err(|c| vec![c])?;
+        self.check_options(file)?;
         let existing = if self.force { Existing::Replace } else { Existing::Keep };
-        let format = self.format().map_err(|c| vec![c])?;
-        let name = if self.drawing == stdout { "standard input".into() } else { self.drawing.display().to_string() };
-        let text = self.text(&name, format).map_err(|c| vec![c])?;
+        let format = self.format()?;
+        let name = source::name(&self.drawing);
+        let text = self.text(&name, format)?;
         // A .json file may have one of three formats. Its content decides which.
         let format = match (self.format, format) {
             (None, Format::GeoJson) => Format::of_json(&text),
@@ -127,14 +124,14 @@ impl Import {
         match file {
             Some(path) => {
                 let files = [(path.to_owned(), scene.into_bytes())];
-                destination::write(&files, existing).map_err(|c| vec![c])?;
+                destination::write(&files, existing)?;
             }
-            None => terminal.print_bytes(scene.as_bytes()).map_err(|c| vec![c])?,
+            None => terminal.print_bytes(scene.as_bytes())?,
         }
         self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
-            terminal.print_bytes(json.as_bytes()).map_err(|c| vec![c])?;
+            terminal.print_bytes(json.as_bytes())?;
         }
         Ok(ExitStatus::Done)
     }
@@ -143,34 +140,25 @@ impl Import {
     fn check_options(&self, file: Option<&Path>) -> Result<(), CliError> {
         if self.json && file.is_none() {
             let why = "--json and the scene cannot both go to standard output; give the scene a file with -o";
-            return Err(CliError::CommandLine(why.into()));
+            return Err(CliError::from(why));
         }
         if let Some(file) = file.filter(|f| f.is_dir()) {
-            let why = format!("{} is a folder; name the scene file in it", file.display());
-            return Err(CliError::CommandLine(why));
+            return Err(format!("{} is a folder; name the scene file in it", file.display()).into());
         }
         if let Some(file) = file {
             destination::refuse_overwrites(&[file.to_owned()], &[&self.drawing])?;
         }
         if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit) {
-            let why = format!(
+            return Err(format!(
                 "--scale {metres} is already in metres per unit, so --unit has no effect; leave one of them out, or give the scale as 1:50"
-            );
-            return Err(CliError::CommandLine(why));
+            ).into());
         }
         Ok(())
     }
 
     fn format(&self) -> Result<Format, CliError> {
         if let Some(format) = self.format {
-            return Ok(match format {
-                FormatArg::Svg => Format::Svg,
-                FormatArg::Dxf => Format::Dxf,
-                FormatArg::Geojson => Format::GeoJson,
-                FormatArg::Wkt => Format::Wkt,
-                FormatArg::Contacts => Format::Contacts,
-                FormatArg::Compas => Format::Compas,
-            });
+            return Ok(format);
         }
         let ending = self.drawing.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
@@ -179,37 +167,31 @@ impl Import {
             Some("geojson" | "json") => Ok(Format::GeoJson),
             Some("wkt") => Ok(Format::Wkt),
             Some("csv") => Ok(Format::Contacts),
-            Some("svgz") => Err(CliError::CommandLine(format!(
+            Some("svgz") => Err(format!(
                 "{} is compressed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
-            ))),
-            Some("dwg") => Err(CliError::CommandLine(format!(
+            ).into()),
+            Some("dwg") => Err(format!(
                 "{} is a DWG file, which only CAD programs read; save it there as DXF",
                 self.drawing.display()
-            ))),
-            _ => Err(CliError::CommandLine(format!(
+            ).into()),
+            _ => Err(format!(
                 "the file name {} does not show the format of the drawing; give --format svg, dxf, geojson, wkt, contacts or compas",
                 self.drawing.display()
-            ))),
+            ).into()),
         }
     }
 
     fn text(&self, name: &str, format: Format) -> Result<String, CliError> {
-        let bytes = if self.drawing == Path::new("-") {
-            let mut bytes = Vec::new();
-            io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-        } else {
-            fs::read(&self.drawing)
-        };
-        let bytes = bytes.map_err(|error| CliError::NotRead { what: name.into(), why: error.to_string() })?;
+        let bytes = source::bytes(&self.drawing)?;
         // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these
         // files are read as Latin-1, even if some letters of names are then wrong.
         if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
             return Ok(bytes.into_iter().map(char::from).collect());
         }
-        String::from_utf8(bytes).map_err(|error| CliError::NotRead {
-            what: name.into(),
-            why: format!("it is not valid UTF-8 from byte {} on; save it as UTF-8", error.utf8_error().valid_up_to()),
+        String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            CliError::not_read(name, format!("it is not valid UTF-8 from byte {at} on; save it as UTF-8"))
         })
     }
 
@@ -307,4 +289,104 @@ fn default_density_note(imported: &Imported) -> Option<String> {
     let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
     let note = scene.notes().iter().find(is_it)?;
     Some(format!("{}; give --density in kg/m³ or --material limestone", note.message))
+}
+
+impl Word for Format {
+    fn all() -> Vec<Format> {
+        vec![Format::Svg, Format::Dxf, Format::GeoJson, Format::Wkt, Format::Contacts, Format::Compas]
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Format::Svg => "svg",
+            Format::Dxf => "dxf",
+            Format::GeoJson => "geojson",
+            Format::Wkt => "wkt",
+            Format::Contacts => "contacts",
+            Format::Compas => "compas",
+        }
+    }
+}
+
+/// A unit of length in drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Unit {
+    Mm,
+    Cm,
+    M,
+    In,
+    Ft,
+}
+
+impl Unit {
+    /// Returns the length of the unit in metres.
+    fn metres(self) -> f64 {
+        match self {
+            Unit::Mm => 1e-3,
+            Unit::Cm => 1e-2,
+            Unit::M => 1.0,
+            Unit::In => 0.0254,
+            Unit::Ft => 0.3048,
+        }
+    }
+}
+
+/// The value of `--scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ScaleArg {
+    /// Real lengths divided by drawn lengths.
+    Ratio(f64),
+    /// Metres per unit of the drawing.
+    Metres(f64),
+}
+
+/// Parses the name of a material.
+fn stone(typed: &str) -> Result<Stone, String> {
+    Stone::from_name(typed).ok_or_else(|| {
+        let names = STONES.map(|stone| stone.name);
+        format!("the known materials are {}; for others give --density and --friction", names.join(", "))
+    })
+}
+
+/// Parses a scale: `1:50` is a ratio, and `0.02` is the number of metres per unit of the drawing.
+fn scale(typed: &str) -> Result<ScaleArg, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
+    let wrong = || "give a ratio such as 1:50, or metres per unit of the drawing such as 0.02".to_owned();
+    match typed.split_once(':') {
+        Some((drawn, real)) => match (number(drawn), number(real)) {
+            (Some(drawn), Some(real)) if drawn > 0.0 && real > 0.0 => Ok(ScaleArg::Ratio(real / drawn)),
+            _ => Err(wrong()),
+        },
+        None => number(typed).map(ScaleArg::Metres).ok_or_else(wrong),
+    }
+}
+
+/// Parses gravity in m/s²: `9.81` acts downwards, and `0,-9.81` gives both components.
+fn gravity(typed: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = typed.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([g]) => Ok([0.0, -g]),
+        Ok([x, y]) => Ok([*x, *y]),
+        _ => Err("give gravity in m/s²: the downward value, such as 9.81, or both components, such as 0,-9.81".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_a_ratio_or_metres() {
+        assert_eq!(scale("1:50"), Ok(ScaleArg::Ratio(50.0)));
+        assert_eq!(scale("2 : 1"), Ok(ScaleArg::Ratio(0.5)));
+        assert_eq!(scale("0.02"), Ok(ScaleArg::Metres(0.02)));
+        assert!(scale("1:0").is_err() && scale("1:x").is_err() && scale("big").is_err());
+    }
+
+    #[test]
+    fn gravity_is_one_number_or_two() {
+        assert_eq!(gravity("9.81"), Ok([0.0, -9.81]));
+        assert_eq!(gravity("1, -2"), Ok([1.0, -2.0]));
+        assert!(gravity("down").is_err() && gravity("1,2,3").is_err());
+    }
 }

@@ -1,6 +1,6 @@
 //! `drystone mdbook`: runs a preprocessor for mdBook that replaces scenes in the chapters by figures.
 
-use std::io::{self, Read};
+use std::io;
 
 use clap::{Args, Subcommand};
 
@@ -34,13 +34,10 @@ impl MdBook {
         if let Some(MdBookCommand::Supports { renderer }) = &self.command {
             return Ok(if renderer == "html" { ExitStatus::Done } else { ExitStatus::Unstable });
         }
-        let mut input = String::new();
-        io::stdin()
-            .lock()
-            .read_to_string(&mut input)
-            .map_err(|error| vec![CliError::NotRead { what: "standard input".into(), why: error.to_string() }])?;
-        let drawn = book::illustrate(&input).map_err(|problems| vec![CliError::Book(problems.0)])?;
-        terminal.print_bytes(drawn.as_bytes()).map_err(|c| vec![c])?;
+        let input = io::read_to_string(io::stdin().lock());
+        let input = input.map_err(|error| CliError::not_read("standard input", error))?;
+        let drawn = book::illustrate(&input).map_err(|problems| CliError::Book(problems.0))?;
+        terminal.print_bytes(drawn.as_bytes())?;
         Ok(ExitStatus::Done)
     }
 }

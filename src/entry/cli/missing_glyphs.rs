@@ -8,6 +8,7 @@ use crate::entry::cli::source::Source;
 use crate::entry::cli::terminal::Terminal;
 use crate::mechanics::scene::Scene;
 use crate::pictures::output::fonts::Fonts;
+use crate::text::and_more;
 
 /// Prints a warning for each scene with characters that no font has.
 pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
@@ -17,10 +18,7 @@ pub(crate) fn warn(sources: &[Source], fonts: &Fonts, terminal: &Terminal) {
             continue;
         }
         let shown: Vec<String> = lacking.iter().take(20).map(|c| character(*c)).collect();
-        let more = match lacking.len().saturating_sub(20) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
+        let more = and_more(lacking.len() - shown.len());
         terminal.complain(&Page::new(&format!(
             "warning: {}: no font has {}{more}; they are shown as code points. Give a font that has them with \
              --font FILE",

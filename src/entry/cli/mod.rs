@@ -17,39 +17,34 @@
 
 mod accuracy;
 mod batch;
-pub(super) mod capacity;
 mod check;
-mod error;
-mod completions;
+pub(super) mod error;
 mod destination;
+pub(super) mod draw;
 mod exit_status;
 mod export;
 mod figures;
 mod import;
-mod analysis_args;
 mod style_args;
-mod man;
-pub(super) mod margins;
 mod mdbook;
 mod new;
 mod page;
-mod picture;
+pub(super) mod picture;
+mod print;
 mod progress;
-pub(super) mod render;
-mod report;
-mod schema;
+mod render;
+pub(super) mod report;
 pub(super) mod missing_glyphs;
-mod shapes;
 mod signal;
 mod snapshot;
 mod source;
-mod style;
 mod table;
 mod terminal;
 mod watch;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -84,18 +79,18 @@ enum Command {
     Batch(Box<batch::Batch>),
     Report(report::Report),
     Accuracy(accuracy::Accuracy),
-    Schema(schema::Schema),
+    Schema(print::Schema),
     New(new::New),
     Import(import::Import),
     Export(export::Export),
     #[command(name = "mdbook")]
     MdBook(mdbook::MdBook),
-    Shapes(shapes::Shapes),
+    Shapes(figures::Shapes),
     Snapshot(snapshot::Snapshot),
-    Style(style::Style),
-    Completions(completions::Completions),
+    Style(print::Style),
+    Completions(print::Completions),
     #[command(name = "man")]
-    Manual(man::Manual),
+    Manual(print::Manual),
 }
 
 /// Runs the command line of this process and returns its exit code.
@@ -105,7 +100,7 @@ pub fn run() -> ExitCode {
 
 /// Runs a command line, whose first word is the name of the program, and returns the exit code.
 pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
-    let line = match CommandLine::try_parse_from(margins::join_list(words)) {
+    let line = match CommandLine::try_parse_from(join_list(words)) {
         Ok(line) => line,
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());
@@ -159,4 +154,29 @@ fn complain(terminal: &Terminal, complaints: &[CliError]) -> ExitStatus {
         terminal.refuse(complaint);
     }
     complaints.iter().map(CliError::ending).max().unwrap_or(ExitStatus::Done)
+}
+
+/// Joins the option `--margins` and a list in the next argument into one argument, `--margins=LIST`.
+///
+/// `check --margins scene.json` requests all margins, and `check --margins friction,tilt scene.json` requests two. The
+/// argument after `--margins` is taken as a list if it looks like names, unless a file with this name exists.
+fn join_list(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::new();
+    for word in words {
+        if let (Some(last), Some(list)) = (joined.last_mut(), word.to_str())
+            && last == "--margins"
+            && is_list(list)
+        {
+            last.push("=");
+            last.push(list);
+        } else {
+            joined.push(word);
+        }
+    }
+    joined
+}
+
+fn is_list(word: &str) -> bool {
+    let letters = |c: char| c.is_ascii_lowercase() || matches!(c, ',' | '-' | '_');
+    !word.starts_with('-') && word.chars().all(letters) && !Path::new(word).exists()
 }

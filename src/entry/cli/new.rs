@@ -175,8 +175,7 @@ impl New {
         match self.output.as_deref().filter(|path| *path != Path::new("-")) {
             None => terminal.print_bytes(text.as_bytes()),
             Some(path) => self.write(path, &text, terminal),
-        }
-        .map_err(|c| vec![c])?;
+        }?;
         Ok(ExitStatus::Done)
     }
 

@@ -3,78 +3,83 @@
 use std::fs;
 use std::path::PathBuf;
 
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum};
-
 use crate::entry::cli::error::CliError;
-use crate::pictures::drawing::{Colour, Drawing};
+use crate::entry::request::{Background, between, millimetres};
+use crate::pictures::drawing::Drawing;
 use crate::pictures::output::animation::Step;
 use crate::pictures::output::fonts::Fonts;
 pub(crate) use crate::pictures::output::format::Format;
 use crate::pictures::output::format::{Animate, FormatError, Settings};
 use crate::pictures::output::page_width;
-use crate::pictures::output::pdf;
 use crate::pictures::output::png::{self, Compression, PngError, Size};
 use crate::pictures::output::svg::{self, Words};
+use crate::text::{Word, typed_word};
 
-/// Format, size, background and text of a picture.
-#[derive(Clone, Debug, Args)]
-pub(crate) struct Picture {
-    /// Format, if the output is a folder or standard output [default: svg]
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<Format>,
-    /// Width of a PNG or GIF in pixels [default of an animation: 800]
-    #[arg(long, value_name = "PX", conflicts_with_all = ["scale", "width_mm"])]
-    width: Option<u32>,
-    /// Pixels of a PNG per unit of the drawing [default: 2]
-    #[arg(long, value_name = "FACTOR", conflicts_with = "width_mm")]
-    scale: Option<f64>,
-    /// Width in print in millimetres; 84 is one column of a journal, 174 two
-    #[arg(long, value_name = "MM", value_parser = millimetres)]
-    width_mm: Option<f64>,
-    /// Pixels of a PNG per inch, with --width-mm [default: 300]
-    #[arg(long, value_name = "DPI", value_parser = dots)]
-    dpi: Option<f64>,
-    /// Colour of the page: white, #rrggbb, or none for a transparent page; outlines around arrows keep the page
-    /// colour of the theme [default: the page colour of the theme]
-    #[arg(long, value_name = "COLOUR", value_parser = background)]
-    background: Option<Background>,
-    /// How an SVG contains text: with names of fonts, with fonts in the file, or as outlines [default: names]
-    #[arg(long, value_enum, value_name = "FORM")]
-    text: Option<TextForm>,
-    /// A font file (.ttf, .otf, .ttc) for scripts that the built-in fonts lack; may be given several times. Without
-    /// it, drystone writes these characters as code points wherever it lays out the text itself
-    #[arg(long = "font", value_name = "FILE")]
-    fonts: Vec<PathBuf>,
-    /// The compression of a PNG.
-    #[arg(skip)]
-    compression: Compression,
-}
-
-impl ValueEnum for Format {
-    fn value_variants<'a>() -> &'a [Format] {
-        &Format::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.ending()).help(self.help()))
+request! {
+    /// Format, size, background and text of a picture.
+    #[derive(Clone, Debug)]
+    pub(crate) struct Picture(given) {
+        /// Format, if the output is a folder or standard output [default: svg]
+        format: Option<Format> = None, arg(long, value_parser = typed_word::<Format>(), value_name = "FORMAT");
+        /// Width of a PNG or GIF in pixels [default of an animation: 800]
+        width: Option<u32> = given.whole("width", [0, u32::MAX]),
+            arg(long, value_name = "PX", conflicts_with_all = ["scale", "width_mm"]);
+        /// Pixels of a PNG per unit of the drawing [default: 2]
+        scale: Option<f64> = given.number("scale"),
+            arg(long, value_name = "FACTOR", conflicts_with = "width_mm");
+        /// Width in print in millimetres; 84 is one column of a journal, 174 two
+        width_mm: Option<f64> = given.value("width_mm", millimetres),
+            arg(long, value_name = "MM", value_parser = millimetres);
+        /// Pixels of a PNG per inch, with --width-mm [default: 300]
+        dpi: Option<f64> = given.value("dpi", dots), arg(long, value_name = "DPI", value_parser = dots);
+        /// Colour of the page: white, #rrggbb, or none for a transparent page; outlines around arrows keep the page
+        /// colour of the theme [default: the page colour of the theme]
+        background: Option<Background> = given.value("background", str::parse), arg(long, value_name = "COLOUR");
+        /// How an SVG contains text: with names of fonts, with fonts in the file, or as outlines [default: names]
+        text: Option<Words> = given.word("text"), arg(long, value_parser = typed_word::<Words>(), value_name = "FORM");
+        /// A font file (.ttf, .otf, .ttc) for scripts that the built-in fonts lack; may be given several times. Without
+        /// it, drystone writes these characters as code points wherever it lays out the text itself
+        fonts: Vec<PathBuf> = given.list("font", |r, node, at| r.text(node, at).map(PathBuf::from)).unwrap_or_default(),
+            arg(long = "font", value_name = "FILE");
+        /// The compression of a PNG.
+        compression: Compression = Compression::default(), arg(skip);
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TextForm {
-    /// A small file; the reader's program sets the text in its own fonts
-    Names,
-    /// For browsers: text that looks the same everywhere and can be searched
-    Embed,
-    /// For all other programs: looks the same everywhere, but the text cannot be searched
-    Paths,
+impl Word for Format {
+    fn all() -> Vec<Format> {
+        Format::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        self.ending()
+    }
+
+    fn help(self) -> &'static str {
+        Format::help(self)
+    }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Background {
-    Clear,
-    Plain(Colour),
+impl Word for Words {
+    fn all() -> Vec<Words> {
+        vec![Words::Names, Words::Embedded, Words::Outlines]
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Words::Names => "names",
+            Words::Embedded => "embed",
+            Words::Outlines => "paths",
+        }
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            Words::Names => "A small file; the reader's program sets the text in its own fonts",
+            Words::Embedded => "For browsers: text that looks the same everywhere and can be searched",
+            Words::Outlines => "For all other programs: looks the same everywhere, but the text cannot be searched",
+        }
+    }
 }
 
 impl Picture {
@@ -116,25 +121,13 @@ impl Picture {
         if wrong.is_empty() { Ok(()) } else { Err(CliError::CommandLine(wrong.join("\n"))) }
     }
 
-    /// Returns the drawing with the background that `--background` selects.
-    fn on_page(&self, drawing: Drawing) -> Drawing {
-        Drawing {
-            background: match self.background {
-                Some(Background::Clear) => None,
-                Some(Background::Plain(colour)) => Some(colour),
-                None => drawing.background,
-            },
-            ..drawing
-        }
-    }
-
     /// Returns a drawing as the bytes of a file in this format.
     pub(crate) fn bytes(&self, drawing: Drawing, format: Format, fonts: &Fonts) -> Result<Vec<u8>, CliError> {
-        let drawing = self.on_page(drawing);
+        let drawing = Background::under(self.background, drawing);
         let settings = Settings {
             size: self.size(),
             width_mm: self.width_mm,
-            words: self.words(),
+            words: self.text.unwrap_or_default(),
             compression: self.compression,
             fonts,
         };
@@ -152,7 +145,8 @@ impl Picture {
         if let Some((drawing, _)) = drawings.first() {
             self.check_png((drawing.width, drawing.height))?;
         }
-        let step = |(drawing, seconds)| Step { svg: svg::for_pixels(&self.on_page(drawing)), seconds };
+        let step =
+            |(drawing, seconds)| Step { svg: svg::for_pixels(&Background::under(self.background, drawing)), seconds };
         let steps: Vec<Step> = drawings.into_iter().map(step).collect();
         animate(&steps, self.size(), fonts).map_err(png_error)
     }
@@ -179,31 +173,18 @@ impl Picture {
 
     /// Returns the built-in fonts and the fonts of `--font`.
     pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
-        let mut files = Vec::new();
-        for path in &self.fonts {
-            files.push(
-                fs::read(path)
-                    .map_err(|error| CliError::NotRead { what: path.display().to_string(), why: error.to_string() })?,
-            );
-        }
+        let read = |path: &PathBuf| fs::read(path).map_err(|error| CliError::not_read(path.display(), error));
+        let files = self.fonts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         Fonts::with(files).map_err(|number| {
             let name = self.fonts[number].display();
-            CliError::CommandLine(format!("--font {name}: it is not a font; give a .ttf, .otf or .ttc file"))
+            CliError::from(format!("--font {name}: it is not a font; give a .ttf, .otf or .ttc file"))
         })
     }
 
     /// True if drystone itself lays out the text of a picture in this format; false if the program that shows the
     /// picture does.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
-        format.lays_out_words(self.words())
-    }
-
-    fn words(&self) -> Words {
-        match self.text {
-            None | Some(TextForm::Names) => Words::Names,
-            Some(TextForm::Embed) => Words::Embedded,
-            Some(TextForm::Paths) => Words::Outlines,
-        }
+        format.lays_out_words(self.text.unwrap_or_default())
     }
 
     /// Returns the size that the options select. The default is two pixels per unit of the drawing, which is sharp on
@@ -234,7 +215,7 @@ pub(super) fn or_split(complaint: CliError, steps: usize) -> CliError {
 fn format_error(error: FormatError) -> CliError {
     match error {
         FormatError::Size(why) => CliError::CommandLine(why),
-        FormatError::Write(why) => CliError::NotWritten { what: "the picture".into(), why },
+        FormatError::Write(why) => CliError::not_written("the picture", why),
     }
 }
 
@@ -242,55 +223,7 @@ fn png_error(error: PngError) -> CliError {
     format_error(FormatError::from(error))
 }
 
-fn millimetres(typed: &str) -> Result<f64, String> {
-    between(typed, pdf::MIN_SIDE_MM, pdf::MAX_SIDE_MM, "a width in millimetres, such as 84 or 174")
-}
-
 fn dots(typed: &str) -> Result<f64, String> {
-    between(typed, 1.0, 10_000.0, "a number of pixels per inch, such as 300 or 600")
-}
-
-fn between(typed: &str, least: f64, most: f64, what: &str) -> Result<f64, String> {
-    match typed.parse::<f64>() {
-        Ok(number) if (least..=most).contains(&number) => Ok(number),
-        _ => Err(format!("it must be {what}, from {least} to {most}")),
-    }
-}
-
-fn background(typed: &str) -> Result<Background, String> {
-    let hex = |digits: &str| {
-        let sound = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        sound.then(|| u32::from_str_radix(digits, 16).ok()).flatten()
-    };
-    match typed {
-        "none" => Ok(Background::Clear),
-        "white" => Ok(Background::Plain(Colour::WHITE)),
-        _ => match typed.strip_prefix('#').and_then(hex) {
-            Some(value) => Ok(Background::Plain(Colour::hex(value))),
-            None => Err("give none, white or #rrggbb, such as #f4f1ea; in a shell, put the colour in quotes".into()),
-        },
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_background_is_none_or_a_colour_of_six_digits() {
-        assert_eq!(background("none"), Ok(Background::Clear));
-        assert_eq!(background("#F4f1ea"), Ok(Background::Plain(Colour([0xf4, 0xf1, 0xea]))));
-        for wrong in ["", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï"] {
-            assert!(background(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn widths_are_limited_to_possible_pages() {
-        assert_eq!(millimetres("84"), Ok(84.0));
-        for wrong in ["0", "-84", "nan", "inf", "84mm", "1e9", ""] {
-            let refused = millimetres(wrong).expect_err(wrong);
-            assert!(refused.contains("from 2 to 5080"), "{refused}");
-        }
-    }
+    let wrong = || "it must be a number of pixels per inch, such as 300 or 600, from 1 to 10000".into();
+    between(typed, [1.0, 10_000.0], wrong)
 }

@@ -1,81 +1,98 @@
 //! `drystone render`: draws figures of scenes.
 
-mod args;
 mod broken;
-mod choice;
-#[cfg(feature = "python")]
-pub(in crate::entry) mod embedded;
 mod output;
-mod pair;
-mod target;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-pub(crate) use args::Render;
-use choice::KindChoice;
-use output::{Rendered, all, summary, without_faults};
-use target::paths;
+use output::{Rendered, all, paths, summary, without_faults};
 
 use crate::entry::cli::destination::{self, Destination};
+use crate::entry::cli::draw::DrawArgs;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
-use crate::entry::cli::picture::{Format, or_split};
+use crate::entry::cli::picture::Format;
 use crate::entry::cli::progress::{BarVisibility, Progress};
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::watch;
-use crate::mechanics::analysis::{self, Analysis, Toward};
+use crate::entry::request::FrameChoice;
+use crate::mechanics::analysis::{self, Analysis};
 use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::{Drawing, Theme};
-use crate::pictures::output::animation;
 use crate::pictures::output::fonts::Fonts;
-use crate::products::figure;
+use crate::products::figure::{self, Kind};
 
-/// A strip of more frames than this may be too large for a PNG.
-const MAX_PNG_FRAMES: usize = 50;
-/// The width of an animation in pixels, if the command line gives none.
-const ANIMATION_WIDTH: u32 = 800;
-/// A strip higher than this many page heights does not fit on a page.
-const MAX_PAGE_HEIGHTS: f64 = 1.02;
+/// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
+#[derive(Debug, Args)]
+pub(crate) struct Render {
+    /// Scene files, or folders of them; - reads standard input
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    /// The output: a .svg, .png, .gif, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for
+    /// standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    #[command(flatten)]
+    draw: DrawArgs,
+    /// Write every panel of a strip to a separate file, with its letter after the name
+    #[arg(long, conflicts_with = "animate")]
+    panels: bool,
+    /// Split a long strip into A4 pages, each a separate file with its number after the name
+    #[arg(long, conflicts_with_all = ["animate", "panels"])]
+    pages: bool,
+    /// Draw only the outlines, with the problems of a scene that is not valid marked and numbered; the exit code is 2
+    /// if there are problems
+    #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners"])]
+    broken: bool,
+    /// Draw again whenever a scene or the style file changes, until the program is stopped
+    #[arg(long)]
+    watch: bool,
+    /// Draw only one frame: its number from 1, its letter in the strip, or last
+    #[arg(long, value_name = "N")]
+    frame: Option<FrameChoice>,
+    /// Exit with 1 or 3, as check does, if something is unstable or undecided
+    #[arg(long)]
+    strict: bool,
+}
 
 impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         if !self.watch {
             return self.once(terminal);
         }
-        let mut files = source::files(&self.scenes).map_err(|c| vec![c])?;
+        let mut files = source::files(&self.scenes)?;
         if files.iter().any(|file| file == Path::new("-")) {
-            let why = "--watch needs files; standard input (-) cannot be read again";
-            return Err(vec![CliError::CommandLine(why.into())]);
+            return Err(vec!["--watch needs files; standard input (-) cannot be read again".into()]);
         }
-        files.extend(self.look.file().map(Path::to_path_buf));
+        files.extend(self.draw.look.file().map(Path::to_path_buf));
         watch::repeat(&files, terminal, || self.once(terminal))
     }
 
     /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let one = |complaint| vec![complaint];
         let destination = Destination::from_path(&self.output);
-        let format = destination.format(self.picture.requested_format()).map_err(one)?;
-        self.check_kind(format).map_err(one)?;
-        let scenes = source::files(&self.scenes).map_err(one)?;
-        self.check_count(&scenes, &destination, format, terminal).map_err(one)?;
-        self.check_parts(&destination).map_err(one)?;
-        let fonts = self.picture.fonts().map_err(one)?;
+        let format = destination.format(self.draw.picture.requested_format())?;
+        self.draw.check(format)?;
+        let scenes = source::files(&self.scenes)?;
+        self.check_count(&scenes, &destination, format, terminal)?;
+        self.check_parts(&destination)?;
+        let fonts = self.draw.picture.fonts()?;
         if self.broken {
             return self.sketched(&scenes, &destination, format, &fonts, terminal);
         }
-        let (theme, (sources, mut faults)) = match (
-            self.look.theme(),
-            source::read_apart_from_faults(&scenes, self.frame, self.level.contact_tolerance),
+        let (options, (sources, mut faults)) = match (
+            self.draw.options(),
+            source::read_apart_from_faults(&scenes, self.frame, self.draw.figure.level.contact_tolerance),
         ) {
-            (Ok(theme), Ok(sources)) => (theme, sources),
-            (theme, sources) => {
+            (Ok(options), Ok(sources)) => (options, sources),
+            (options, sources) => {
                 let scenes = sources.err().into_iter().flatten();
-                return Err(theme.err().into_iter().chain(scenes).collect());
+                return Err(options.err().into_iter().chain(scenes).collect());
             }
         };
         let joins = self.joins(scenes.len(), &destination);
@@ -83,11 +100,10 @@ impl Render {
             return Err(faults);
         }
         let read: Vec<&Path> = sources.iter().map(|source| source.path.as_path()).collect();
-        let paths = paths(&destination, &read, format).map_err(one)?;
-        let inputs: Vec<&Path> = read.into_iter().chain(self.look.file()).collect();
-        destination::refuse_overwrites(&paths, &inputs).map_err(one)?;
+        let paths = paths(&destination, &read, format)?;
+        let inputs: Vec<&Path> = read.into_iter().chain(self.draw.look.file()).collect();
+        destination::refuse_overwrites(&paths, &inputs)?;
 
-        let options = self.options(theme);
         let rendered = self.render_all(&sources, joins, &options, format, &fonts, terminal);
         let (rendered, paths) = without_faults(rendered, paths, &mut faults);
         if rendered.is_empty() {
@@ -95,53 +111,39 @@ impl Render {
         }
         let rendered = all(rendered)?;
         let ending = rendered.iter().map(|r| r.ending).max();
-        if self.picture.draws_words(format) {
+        if self.draw.picture.draws_words(format) {
             missing_glyphs::warn(&sources, &fonts, terminal);
         }
-        self.write(rendered, &destination, &paths, terminal).map_err(one)?;
+        self.write(rendered, &destination, &paths, terminal)?;
         for fault in &faults {
             terminal.refuse(fault);
         }
-        Ok(match (faults.is_empty(), self.strict) {
-            (false, _) => ExitStatus::WrongInput,
-            (true, true) => ending.unwrap_or(ExitStatus::Done),
-            (true, false) => ExitStatus::Done,
-        })
-    }
-
-    /// Refuses options that do not fit the kind of figure or the format.
-    fn check_kind(&self, format: Format) -> Result<(), CliError> {
-        self.picture.check(format)?;
-        let is_freebody = self.kind == KindChoice::Freebody;
-        let why = if self.block.is_some() && !is_freebody {
-            "--block names the block of a free-body diagram; add --kind freebody"
-        } else if self.corners && !is_freebody {
-            "--corners applies to the forces of a free-body diagram; add --kind freebody"
-        } else if self.animate.is_some() && (format.animate().is_none() || self.kind.panels().is_none()) {
-            "--animate makes a GIF or PNG of the frames of a figure; write a .gif or .png, of any kind but freebody"
+        Ok(if !faults.is_empty() {
+            ExitStatus::WrongInput
+        } else if self.strict {
+            ending.unwrap_or(ExitStatus::Done)
         } else {
-            return Ok(());
-        };
-        Err(CliError::CommandLine(why.into()))
+            ExitStatus::Done
+        })
     }
 
     /// Refuses `--margin` and `--capacity` for figures that cannot show the requested margin or the capacity. Refuses
     /// `--panels` and `--pages` for free-body diagrams and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
-        let varies = self.kind.needs_sensitivity();
-        let why = if self.margin.is_some() && !self.kind.needs_margins() && !varies {
+        let figure = &self.draw.figure;
+        let (shows_margin, varies) =
+            (figure.kind.needs(Kind::needs_margins), figure.kind.needs(Kind::needs_sensitivity));
+        let why = if figure.margin.is_some() && !shows_margin && !varies {
             "--margin selects the margin of a figure; add --kind margin or --kind sensitivity"
-        } else if self.margin.is_some() && self.toward().is_none() && !varies {
-            "--kind margin cannot show the margins friction and kernel; use --kind sensitivity"
-        } else if self.capacity.are_requested() && !self.kind.needs_capacity() {
+        } else if figure.capacity.capacity.is_some() && !figure.kind.needs(Kind::needs_capacity) {
             "--capacity selects the block of a capacity figure; add --kind capacity"
-        } else if self.writes_parts() && (self.kind.panels().is_none() || is_stdout) {
+        } else if self.writes_parts() && (figure.kind.panels().is_none() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
             return Ok(());
         };
-        Err(CliError::CommandLine(why.into()))
+        Err(why.into())
     }
 
     /// True if each figure is written as several files, with `--panels` or `--pages`.
@@ -161,8 +163,8 @@ impl Render {
     ) -> Vec<Result<Rendered, CliError>> {
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(2 * sources.len(), shown);
-        let mut analysis_options = self.level.options();
-        analysis_options.margins = self.kind.needs_margins();
+        let mut analysis_options = self.draw.figure.level.options();
+        analysis_options.margins = self.draw.figure.kind.needs(Kind::needs_margins);
         match sources {
             [before, after] if joins => {
                 let work = || self.compared([before, after], &analysis_options, options, format, fonts);
@@ -187,29 +189,20 @@ impl Render {
         format: Format,
         terminal: &Terminal,
     ) -> Result<(), CliError> {
-        if self.joins(scenes.len(), destination) {
-            return match (destination, format.unreadable()) {
-                (Destination::Stdout, Some(why)) if terminal.is_watched() => Err(CliError::CommandLine(why)),
-                _ => Ok(()),
-            };
-        }
+        let several = scenes.len() > 1 && !self.joins(scenes.len(), destination);
         let why = match destination {
-            Destination::File(path) if scenes.len() > 1 => {
-                let (count, shown) = (scenes.len(), path.display());
-                format!(
-                    "{count} scenes cannot be written to the one file {shown}; give a folder, with a slash at the end of its name"
-                )
+            Destination::File(path) if several => Some(format!(
+                "{} scenes cannot be written to the one file {}; give a folder, with a slash at the end of its name",
+                scenes.len(),
+                path.display()
+            )),
+            Destination::Stdout if several => {
+                Some("only one picture can be written to standard output; give a folder".into())
             }
-            Destination::Stdout if scenes.len() > 1 => {
-                "only one picture can be written to standard output; give a folder".into()
-            }
-            Destination::Stdout if terminal.is_watched() => match format.unreadable() {
-                Some(why) => why,
-                None => return Ok(()),
-            },
-            _ => return Ok(()),
+            Destination::Stdout if terminal.is_watched() => format.unreadable(),
+            _ => None,
         };
-        Err(CliError::CommandLine(why))
+        why.map_or(Ok(()), |why| Err(why.into()))
     }
 
     fn render(
@@ -222,132 +215,80 @@ impl Render {
         progress: &Progress,
     ) -> Result<Rendered, CliError> {
         progress.doing(&source.name());
-        let options = &self.zoomed(source, options)?;
-        let scene = if self.picture.draws_words(format) {
-            missing_glyphs::legible(&source.scene, fonts)
-        } else {
-            source.scene.clone()
-        };
-        let analysis_options = self.with_requests(analysis_options, &scene)?;
-        let analysis = self.analysed(&scene, &analysis_options);
+        let figure = &self.draw.figure;
+        let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
+        let options = &figure.zoomed(options, &source.scene).map_err(wrong)?;
+        let free = figure.free(&source.scene).map_err(wrong)?;
+        let scene = self.shown(source, format, fonts);
+        let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?);
         progress.step();
         let mut summary = summary(&analysis);
-        let kind = self.kind.panels();
-        let split = |complaint| match kind {
-            Some(_) => or_split(complaint, analysis.frames.len()),
-            None => complaint,
-        };
-        if let (Some(kind), Format::Png) = (kind, format)
-            && !self.writes_parts()
-            && analysis.frames.len() > MAX_PNG_FRAMES
-        {
-            // Check the size before the layout, which takes a long time for a figure with many frames.
-            let size = figure::least_size(&analysis, kind, options);
-            self.picture.check_png(size).map_err(split)?;
-        }
-        let bytes = match (self.animate, kind) {
-            (None, Some(kind)) if self.writes_parts() => {
-                let parts = self.parts(&analysis, kind, options);
-                let one = |part| self.picture.bytes(part, format, fonts);
+        let bytes = match figure.kind.panels() {
+            Some(kind) if self.writes_parts() => {
+                let parts = self.draw.parts(&analysis, kind, options, self.pages);
+                let one = |part| self.draw.picture.bytes(part, format, fonts);
                 parts.into_iter().map(one).collect::<Result<_, _>>()?
             }
-            (Some(seconds), kind) => {
-                let film = figure::film(&analysis, kind.unwrap_or_default(), options, seconds);
-                let animate = format.animate().unwrap_or(animation::gif);
-                let picture = self.picture.clone().or_width(ANIMATION_WIDTH, format);
-                vec![picture.animated(film, animate, fonts)?]
-            }
-            (None, kind) => {
-                let drawing = self.drawing(source, &analysis, options)?;
-                let high = self.picture.page_ratio() * drawing.width;
-                if kind.is_some() && analysis.frames.len() > 1 && drawing.height > MAX_PAGE_HEIGHTS * high {
+            _ => {
+                let (bytes, is_high) = self.draw.bytes(&analysis, free, options, format, fonts)?;
+                if is_high {
                     summary.push_str("; taller than an A4 page, --pages splits it");
                 }
-                let bytes = self.picture.bytes(drawing, format, fonts);
-                vec![bytes.map_err(split)?]
+                vec![bytes]
             }
         };
         progress.step();
         Ok(Rendered { bytes, ending: ExitStatus::from_analysis(&analysis), summary })
     }
 
-    /// Returns the options with the block that `--zoom` names.
-    fn zoomed(&self, source: &Source, options: &figure::Options) -> Result<figure::Options, CliError> {
-        let mut options = options.clone();
-        if let Some(name) = &self.zoom {
-            let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
-            options.zoom = Some(figure::named_block(&source.scene, name).map_err(wrong)?);
-        }
-        Ok(options)
-    }
-
-    /// Draws the pages or the panels of a figure.
-    fn parts(&self, analysis: &Analysis, kind: figure::Kind, options: &figure::Options) -> Vec<Drawing> {
-        if self.pages {
-            figure::split(analysis, kind, options, self.picture.page_ratio())
+    /// Returns the scene as the figure shows it: with code points instead of characters that no font has, if drystone
+    /// lays out its text.
+    fn shown(&self, source: &Source, format: Format, fonts: &Fonts) -> Scene {
+        if self.draw.picture.draws_words(format) {
+            missing_glyphs::legible(&source.scene, fonts)
         } else {
-            figure::panels(analysis, kind, options)
+            source.scene.clone()
         }
     }
 
-    /// Returns the analysis options with the block of `--capacity` and the ranges of `--for-all`. If the figure shows
-    /// the sensitivity of a margin, the options also name the margin of `--margin`.
-    fn with_requests(
+    /// True if the command draws one figure that compares two scenes, instead of one figure for each scene.
+    fn joins(&self, scenes: usize, destination: &Destination) -> bool {
+        self.draw.figure.kind.panels() == Some(figure::Kind::Compare)
+            && scenes == 2
+            && !matches!(destination, Destination::Folder(_))
+    }
+
+    /// Draws the last frames of two scenes next to each other, with the changes between them.
+    fn compared(
         &self,
+        sources: [&Source; 2],
         analysis_options: &analysis::Options,
-        scene: &Scene,
-    ) -> Result<analysis::Options, CliError> {
-        let mut analysis_options = self.capacity.add_to(*analysis_options, scene)?;
-        if self.kind.needs_sensitivity() {
-            analysis_options.sensitivity = self.margin.map(|margin| margin.0);
+        options: &figure::Options,
+        format: Format,
+        fonts: &Fonts,
+    ) -> Result<Rendered, CliError> {
+        if self.draw.figure.zoom.is_some() || self.panels || self.pages || self.draw.animate.is_some() {
+            let why = "a comparison of two scenes is one picture; leave out --zoom, --panels, --pages and --animate";
+            return Err(why.into());
         }
-        Ok(analysis_options)
-    }
-
-    /// Returns the parameter of the margin that `--margin` names: tilt, horizontal load or load factor. Returns `None`
-    /// without this option, and for the margins of friction and kernel.
-    fn toward(&self) -> Option<Toward> {
-        self.margin.and_then(|margin| Toward::from_margin(margin.0))
-    }
-
-    /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that this kind of figure shows.
-    fn analysed(&self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
-        match self.kind.panels() {
-            Some(kind) => kind.analysed(scene, analysis_options),
-            None => Analysis::with(scene, analysis_options),
-        }
-    }
-
-    fn drawing(&self, source: &Source, analysis: &Analysis, options: &figure::Options) -> Result<Drawing, CliError> {
-        if let Some(kind) = self.kind.panels() {
-            return Ok(figure::draw(analysis, kind, options));
-        }
-        let (frame, block) = figure::free_block(&source.scene, self.block.as_deref())
-            .map_err(|why| CliError::CommandLine(format!("{}: {why}", source.name())))?;
-        let drawing = figure::freebody(analysis, frame, block, options);
-        Ok(drawing.expect("the block was found in this frame"))
-    }
-
-    fn options(&self, theme: Theme) -> figure::Options {
-        figure::Options {
-            style: self.arrows.figure(),
-            normalisation: self.normalise.figure(),
-            scale: self.arrow_scale.figure(),
-            fill: self.fill.figure(),
-            toward: self.toward().unwrap_or_default(),
-            titles: !self.no_title,
-            captions: !self.no_caption,
-            verdicts: !self.no_verdict,
-            keys: !self.no_key,
-            scale_bar: self.scale_bar,
-            dimensions: self.dimensions,
-            with_polygon: self.with_polygon,
-            corners: if self.corners { figure::Corners::All } else { figure::Corners::Few },
-            columns: self.columns.map(usize::from),
-            amounts: self.amounts,
-            width: self.picture.page(),
-            theme,
-            ..figure::Options::default()
-        }
+        let scenes = sources.map(|source| self.shown(source, format, fonts));
+        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, analysis_options));
+        let title = |number: usize| match scenes[number].title.as_str() {
+            title if title.is_empty() || scenes[0].title == scenes[1].title => sources[number].stem(),
+            title => title.to_owned(),
+        };
+        let last = |analysis: &Analysis| analysis.frames.len() - 1;
+        let (a, b) = ((&before, last(&before)), (&after, last(&after)));
+        let (scene, frames) = analysis::pair(a, b, [title(0), title(1)]).map_err(|why| {
+            let names = sources.map(Source::name);
+            CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
+        })?;
+        let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new() };
+        let drawing = figure::draw(&joined, figure::Kind::Compare, options);
+        Ok(Rendered {
+            bytes: vec![self.draw.picture.bytes(drawing, format, fonts)?],
+            ending: ExitStatus::from_analysis(&joined),
+            summary: summary(&joined),
+        })
     }
 }

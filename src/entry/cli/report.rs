@@ -1,18 +1,15 @@
 //! `drystone report`: writes a report on one or more scenes as HTML, Markdown, PDF or JSON.
 
-mod content;
-mod interactive;
 mod task;
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use content::{entry, make_figures_legible};
 use task::Task;
 
-use crate::entry::cli::analysis_args::AnalysisArgs;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
@@ -21,11 +18,12 @@ use crate::entry::cli::progress::{BarVisibility, Progress};
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
-use crate::products::report::entry::ReportOptions;
+use crate::products::report::entry::{Entry, File, ReportOptions, Side, compared};
 use crate::products::report::page::{Form, Piece, Refused, Report as Page};
 use crate::products::result::Timing;
 use crate::products::study::{TOLERANCES, study};
@@ -77,6 +75,11 @@ pub(crate) struct Report {
     level: AnalysisArgs,
 }
 
+/// The name of the script file that `examples/playground/build.sh` makes.
+const SCRIPT_NAME: &str = "interactive.js";
+/// How to make the file, for error messages.
+const SCRIPT_MADE: &str = "examples/playground/build.sh in the repository of drystone makes it";
+
 /// The margins in a report, unless `--margins` requests all margins.
 const DEFAULT_MARGINS: [MarginKind; 3] = [MarginKind::LoadFactor, MarginKind::Friction, MarginKind::Tilt];
 
@@ -96,11 +99,11 @@ struct TaskResults {
 
 impl Report {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let form = self.form().map_err(|c| vec![c])?;
-        let interactive = self.interactive_script(form).map_err(|c| vec![c])?;
-        let theme = self.look.theme().map_err(|c| vec![c])?;
+        let form = self.form()?;
+        let interactive = self.interactive_script(form)?;
+        let theme = self.look.theme()?;
         let (tasks, mut notes) = self.tasks()?;
-        self.check_targets(&tasks, form).map_err(|c| vec![c])?;
+        self.check_targets(&tasks, form)?;
         // Without a chosen theme, a web page follows the light or dark mode of the reader's system, so it needs figures
         // for both.
         let follows = matches!(form, Form::Html | Form::Split) && !self.look.is_chosen();
@@ -111,8 +114,7 @@ impl Report {
             theme_name: self.look.name().map(str::to_owned),
             timing: if self.timing { Timing::Included } else { Timing::LeftOut },
         };
-        let TaskResults { pieces, wrong, ending } =
-            self.describe_all(&tasks, form, &report_options, terminal).map_err(|c| vec![c])?;
+        let TaskResults { pieces, wrong, ending } = self.describe_all(&tasks, form, &report_options, terminal)?;
         let (refused, complaints): (Vec<Refused>, Vec<CliError>) = wrong.into_iter().unzip();
         if pieces.is_empty() && !complaints.is_empty() {
             return Err(complaints);
@@ -136,12 +138,14 @@ impl Report {
             interactive,
         };
         let words = report.summary();
-        self.write(report, form).map_err(|c| vec![c])?;
+        write(report, form, &self.output)?;
         terminal.note(&format!("{}: {words}", self.output.display()));
-        Ok(match (complaints.is_empty(), self.strict) {
-            (false, _) => ExitStatus::WrongInput,
-            (true, true) => ending,
-            (true, false) => ExitStatus::Done,
+        Ok(if !complaints.is_empty() {
+            ExitStatus::WrongInput
+        } else if self.strict {
+            ending
+        } else {
+            ExitStatus::Done
         })
     }
 
@@ -150,11 +154,10 @@ impl Report {
         match &self.interactive {
             Some(_) if form != Form::Html => {
                 let shown = self.output.display();
-                Err(CliError::CommandLine(format!(
-                    "{shown}: only an HTML report can be interactive; give --output a name that ends in .html"
-                )))
+                Err(format!("{shown}: only an HTML report can be interactive; give --output a name that ends in .html")
+                    .into())
             }
-            Some(path) => interactive::script(path).map(Some),
+            Some(path) => script(path).map(Some),
             None => Ok(None),
         }
     }
@@ -183,10 +186,7 @@ impl Report {
         let options = analysis::Options {
             // As in `check`, JSON contains margins only if they were requested.
             margins: self.margins || form != Form::Json,
-            margin_kinds: match self.margins {
-                true => MarginKinds::ALL,
-                false => MarginKinds::new(&DEFAULT_MARGINS),
-            },
+            margin_kinds: if self.margins { MarginKinds::ALL } else { MarginKinds::new(&DEFAULT_MARGINS) },
             ..self.level.options()
         };
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
@@ -226,30 +226,19 @@ impl Report {
 
     fn form(&self) -> Result<Form, CliError> {
         let shown = self.output.display();
-        let ending = self.output.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let form = match ending.as_deref() {
-            Some("html") => Form::Html,
-            Some("md") => Form::Markdown,
-            Some("pdf") => Form::Pdf,
-            Some("json") => Form::Json,
-            _ if self.split => return Ok(Form::Split),
-            _ => {
-                let why = format!(
-                    "{shown}: the file name of a report must end in .html, .md, .pdf or .json; a folder needs --split"
-                );
-                return Err(CliError::CommandLine(why));
+        let Some(form) = form_of(&self.output) else {
+            if self.split {
+                return Ok(Form::Split);
             }
+            return Err(format!(
+                "{shown}: the file name of a report must end in .html, .md, .pdf or .json; a folder needs --split"
+            )
+            .into());
         };
         if self.split {
-            let why = format!("{shown}: --split writes many pages; give a folder, without an ending");
-            return Err(CliError::CommandLine(why));
+            return Err(format!("{shown}: --split writes many pages; give a folder, without an ending").into());
         }
         Ok(form)
-    }
-
-    fn stem(&self) -> String {
-        let stem = self.output.file_stem().unwrap_or_default();
-        stem.to_string_lossy().into_owned()
     }
 
     fn heading(&self, pieces: &[Piece]) -> String {
@@ -299,7 +288,7 @@ impl Report {
             let measured = study(&[scene], &TOLERANCES, &mut |_| {});
             entry.add_study(&measured).map_err(|e| undone(&e))?;
         }
-        let piece = Piece::new(&entry, number, form, &self.stem()).map_err(|e| undone(&e))?;
+        let piece = Piece::new(&entry, number, form, &stem_of(&self.output)).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 
@@ -315,36 +304,107 @@ impl Report {
         }
         if wrong.is_empty() { Ok(read) } else { Err(wrong) }
     }
+}
 
-    fn write(&self, report: Page, form: Form) -> Result<(), CliError> {
-        let folder = match form {
-            Form::Split => self.output.clone(),
-            _ => self.output.parent().unwrap_or(Path::new("")).to_owned(),
-        };
-        let made = report.files(form, &self.stem()).map_err(|error| undone(&error))?;
-        let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::with_capacity(made.len());
-        for (number, (name, bytes)) in made.into_iter().enumerate() {
-            let path = match (form, number) {
-                (Form::Split, _) | (_, 1..) => folder.join(name),
-                // Use the path as the user typed it: its extension may be in upper case.
-                _ => self.output.clone(),
-            };
-            files.push((path, bytes));
-        }
-        let mut folders: Vec<&Path> =
-            files.iter().skip(usize::from(form != Form::Split)).filter_map(|f| f.0.parent()).collect();
-        folders.dedup();
-        for folder in folders {
-            destination::make_folder(folder)?;
-        }
-        destination::write(&files, Existing::Replace)
+/// Returns the form of a report that the extension of its file selects.
+pub(crate) fn form_of(output: &Path) -> Option<Form> {
+    let ending = output.extension()?.to_string_lossy().to_ascii_lowercase();
+    match ending.as_str() {
+        "html" => Some(Form::Html),
+        "md" => Some(Form::Markdown),
+        "pdf" => Some(Form::Pdf),
+        "json" => Some(Form::Json),
+        _ => None,
     }
 }
 
+/// Returns the name of a report's file without folders and extension.
+pub(crate) fn stem_of(output: &Path) -> String {
+    output.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Writes the files of a report, all or none. `output` is the file of the report, or the folder of a split report.
+pub(crate) fn write(report: Page, form: Form, output: &Path) -> Result<(), CliError> {
+    let folder = if form == Form::Split { output } else { output.parent().unwrap_or(Path::new("")) };
+    let made = report.files(form, &stem_of(output)).map_err(|error| undone(&error))?;
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::with_capacity(made.len());
+    for (number, (name, bytes)) in made.into_iter().enumerate() {
+        // Use the path of a file as the user typed it: its extension may be in upper case.
+        let is_typed = number == 0 && form != Form::Split;
+        files.push((if is_typed { output.to_owned() } else { folder.join(name) }, bytes));
+    }
+    let mut folders: Vec<&Path> =
+        files.iter().skip(usize::from(form != Form::Split)).filter_map(|f| f.0.parent()).collect();
+    folders.dedup();
+    for folder in folders {
+        destination::make_folder(folder)?;
+    }
+    destination::write(&files, Existing::Replace)
+}
+
 fn undone(error: &dyn std::error::Error) -> CliError {
-    CliError::NotWritten { what: "the report".into(), why: error.to_string() }
+    CliError::not_written("the report", error)
 }
 
 fn refused(path: &Path, complaint: &CliError) -> Refused {
     Refused { name: path.display().to_string(), problems: complaint.problems() }
+}
+
+/// Returns the report entry of one scene, or of two scenes that are compared. Returns `None` if there is no scene.
+fn entry(read: &[(Source, String)], analyses: &[Analysis], report_options: &ReportOptions) -> Option<Entry> {
+    let names: Vec<String> = read.iter().map(|(s, _)| s.path.display().to_string()).collect();
+    let file = |i: usize| File { name: &names[i], text: &read[i].1 };
+    match analyses {
+        [was, is] => {
+            let side = |i: usize, analysis| Side { file: file(i), analysis };
+            Some(compared([side(0, was), side(1, is)], report_options))
+        }
+        [one, ..] => Some(Entry::new(file(0), one, report_options)),
+        [] => None,
+    }
+}
+
+/// If a scene has characters that drystone's fonts lack, draws the figures of the entry again with code points instead
+/// of these characters. The other text stays unchanged, because the program that shows the Markdown has its own fonts.
+fn make_figures_legible(
+    entry: &mut Entry,
+    read: &[(Source, String)],
+    mut analyses: Vec<Analysis>,
+    report_options: &ReportOptions,
+) {
+    let fonts = Fonts::default();
+    let lacks = |analysis: &Analysis| missing_glyphs::lacks(&analysis.scene, &fonts);
+    if !analyses.iter().any(lacks) {
+        return;
+    }
+    for analysis in &mut analyses {
+        analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
+    }
+    if let Some(drawn) = self::entry(read, &analyses, report_options) {
+        entry.take_figures(drawn);
+    }
+}
+
+/// Reads the script. `path` is the file, or the folder that contains it.
+///
+/// # Errors
+/// Returns an error if the file cannot be read, is not this script, or belongs to another version of drystone.
+fn script(path: &Path) -> Result<String, CliError> {
+    let path = if path.is_dir() { path.join(SCRIPT_NAME) } else { path.to_owned() };
+    let shown = path.display();
+    let script =
+        fs::read_to_string(&path).map_err(|error| CliError::not_read(&shown, format!("{error}; {SCRIPT_MADE}")))?;
+    let version = env!("CARGO_PKG_VERSION");
+    let found = script
+        .strip_prefix("// drystone ")
+        .and_then(|rest| rest.split_once(": interactive figures\n"))
+        .filter(|(_, rest)| !rest.contains("</script") && !rest.contains("<!--"));
+    match found {
+        Some((own, _)) if own == version => Ok(script),
+        Some((own, _)) if own.len() < 40 && !own.contains('\n') => Err(format!(
+            "{shown} belongs to drystone {own}, and this is drystone {version}; {SCRIPT_MADE} for its own version"
+        )
+        .into()),
+        _ => Err(format!("{shown} is not the script of interactive figures, {SCRIPT_NAME}; {SCRIPT_MADE}").into()),
+    }
 }

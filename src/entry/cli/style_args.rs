@@ -3,24 +3,24 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
-use clap::builder::PossibleValuesParser;
-
 use crate::entry::cli::error::CliError;
+use crate::entry::request::ThemeName;
 use crate::pictures::drawing::Theme;
 use crate::pictures::drawing::style::format::Notation;
+use crate::text::typed_word;
 
-/// The theme, and a style file that changes it.
-#[derive(Clone, Debug, Args)]
-pub(crate) struct StyleArgs {
-    /// Colours: those of Vallat (2023), for print and greyscale, for all kinds of colour vision, or for a dark page
-    /// [default: thesis]
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::NAMES))]
-    theme: Option<String>,
-    /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
-    /// from
-    #[arg(long, value_name = "FILE")]
-    style: Option<PathBuf>,
+request! {
+    /// The theme, and a style file that changes it.
+    #[derive(Clone, Debug)]
+    pub(crate) struct StyleArgs(given) {
+        /// Colours: those of Vallat (2023), for print and greyscale, for all kinds of colour vision, or for a dark page
+        /// [default: thesis]
+        theme: Option<ThemeName> = given.word("theme"),
+            arg(long, value_name = "NAME", value_parser = typed_word::<ThemeName>());
+        /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
+        /// from
+        style: Option<PathBuf> = given.text("style").map(PathBuf::from), arg(long, value_name = "FILE");
+    }
 }
 
 impl StyleArgs {
@@ -31,7 +31,7 @@ impl StyleArgs {
 
     /// Returns the name of the theme, if one was given and no style file changes it.
     pub(crate) fn name(&self) -> Option<&str> {
-        self.theme.as_deref().filter(|_| self.style.is_none())
+        self.theme.map(|theme| theme.0).filter(|_| self.style.is_none())
     }
 
     /// True if the command line has a theme or a style file.
@@ -41,7 +41,7 @@ impl StyleArgs {
 
     /// Returns the selected theme, with the changes that the style file makes to it.
     pub(crate) fn theme(&self) -> Result<Theme, CliError> {
-        let base = self.theme.as_deref().and_then(Theme::named);
+        let base = self.theme.map(ThemeName::theme);
         match &self.style {
             None => Ok(base.unwrap_or_default()),
             Some(path) => read(path, base.as_ref()),
@@ -56,13 +56,12 @@ fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
         Some("json") => Notation::Json,
         Some("toml") => Notation::Toml,
         _ => {
-            return Err(CliError::CommandLine(format!(
+            return Err(CliError::from(format!(
                 "--style {name}: a style file ends in .json or .toml; to draw normal and friction forces separately, use \
                  --arrows components"
             )));
         }
     };
-    let text =
-        fs::read_to_string(path).map_err(|error| CliError::NotRead { what: name.clone(), why: error.to_string() })?;
+    let text = fs::read_to_string(path).map_err(|error| CliError::not_read(&name, error))?;
     Theme::read(&text, notation, base).map_err(|problems| CliError::Style { name, problems })
 }

@@ -129,9 +129,7 @@ fn fitted(page: &Page, width: Option<usize>) -> Cow<'_, Page> {
 /// output.
 pub(crate) fn written(written: io::Result<()>) -> Result<(), CliError> {
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(CliError::NotWritten { what: "standard output".into(), why: error.to_string() })
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::not_written("standard output", error)),
         _ => Ok(()),
     }
 }

@@ -1,51 +1,72 @@
 //! Draws pictures and writes reports of an analysis for Python.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
 
 use super::{Ring, fault};
+use crate::entry::cli::draw::DrawArgs;
+use crate::entry::cli::error::CliError;
 use crate::entry::cli::missing_glyphs;
-use crate::entry::cli::render::embedded;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::report::{form_of, stem_of, write};
+use crate::entry::request::{in_json, read_json};
 use crate::geometry::Polygon;
 use crate::mechanics::analysis::Analysis;
-use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::{Scene, Sketch};
 use crate::pictures::drawing::Theme;
-use crate::pictures::output::file::{Existing, write_whole};
 use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 use crate::products::report::entry::{Entry, File, ReportOptions};
 use crate::products::report::page::{Form, Piece, Report};
 
 /// Draws a figure of all frames, or only of frame number `frame`, counted from 0. Returns the bytes of the picture
-/// file. `words` are options of `render`, and the file extension `ending` selects the format.
-pub(super) fn drawn(
-    analysis: &Analysis,
-    words: &[String],
-    ending: &str,
-    frame: Option<usize>,
-) -> Result<Vec<u8>, String> {
-    match frame {
-        None => embedded::figure(words, ending, analysis),
-        Some(number) => embedded::figure(words, ending, &alone(analysis, number)),
-    }
-}
-
-/// Returns a copy of an analysis with only one of its frames. `frame` is counted from 0.
-fn alone(analysis: &Analysis, frame: usize) -> Analysis {
-    let mut one = analysis.clone();
-    let mut scene = (*analysis.scene).clone();
-    scene.frames = scene.frames.into_iter().skip(frame).take(1).collect();
-    one.frames = one.frames.into_iter().skip(frame).take(1).collect();
-    one.scene = Arc::new(scene);
-    one
+/// file. `request` are options of a figure as JSON, and the file extension `ending` selects the format.
+pub(super) fn drawn(analysis: &Analysis, request: &str, ending: &str, frame: Option<usize>) -> Result<Vec<u8>, String> {
+    let (args, format) = requested(request, ending)?;
+    let one = frame.and_then(|number| analysis.alone(number));
+    let mut analysis = args.figure.completed(one.as_ref().unwrap_or(analysis)).map_err(|why| in_json(&why))?;
+    let mut drawn = || -> Result<Vec<u8>, CliError> {
+        let fonts = args.picture.fonts()?;
+        let options = args.figure.zoomed(&args.options()?, &analysis.scene)?;
+        let free = args.figure.free(&analysis.scene)?;
+        if args.picture.draws_words(format) && missing_glyphs::lacks(&analysis.scene, &fonts) {
+            analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
+        }
+        Ok(args.bytes(&analysis, free, &options, format, &fonts)?.0)
+    };
+    drawn().map_err(message)
 }
 
 /// Draws the outlines of a scene that is not valid, with its problems marked, and returns the bytes of the picture
 /// file. `text` is the scene as JSON.
 #[pyfunction]
-pub(super) fn sketch(py: Python<'_>, text: &str, words: Vec<String>, ending: &str) -> PyResult<Vec<u8>> {
-    py.detach(|| embedded::sketch(&words, ending, text)).map_err(|why| fault(py, &why))
+pub(super) fn sketch(py: Python<'_>, text: &str, request: &str, ending: &str) -> PyResult<Vec<u8>> {
+    let drawn = || {
+        let (args, format) = requested(request, ending)?;
+        let sketch = Sketch::from_bytes(text.as_bytes(), args.figure.level.contact_tolerance);
+        let drawing = figure::broken(&sketch, &args.options().map_err(message)?);
+        let fonts = args.picture.fonts().map_err(message)?;
+        args.picture.bytes(drawing, format, &fonts).map_err(message)
+    };
+    py.detach(drawn).map_err(|why| fault(py, &why))
+}
+
+/// Reads the options of a figure from JSON, and checks that they fit the format of the file extension `ending`.
+fn requested(request: &str, ending: &str) -> Result<(DrawArgs, Format), String> {
+    let args = read_json(Some(request), DrawArgs::read)?;
+    let format = Format::from_ending(ending).ok_or_else(|| {
+        let known = Format::ALL.map(Format::ending).join(", ");
+        format!("there is no format {ending}; a figure is one of {known}")
+    })?;
+    args.check(format).map_err(message)?;
+    Ok((args, format))
+}
+
+/// Returns the message of an error, with the names that options have in Python.
+fn message(error: CliError) -> String {
+    in_json(&error.message())
 }
 
 /// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
@@ -71,24 +92,10 @@ pub(super) fn report(
     title: Option<String>,
     theme: Option<&str>,
 ) -> Result<(), String> {
-    let path = PathBuf::from(path);
-    let part = |part: Option<&std::ffi::OsStr>| part.map_or_else(String::new, |p| p.to_string_lossy().into_owned());
-    let form = match part(path.extension()).to_ascii_lowercase().as_str() {
-        "html" => Form::Html,
-        "md" => Form::Markdown,
-        "pdf" => Form::Pdf,
-        "json" => Form::Json,
-        other => {
-            return Err(format!("the file name of a report must end in .html, .md, .pdf or .json, not in {other:?}"));
-        }
-    };
-    let chosen = match theme {
-        Some(name) => Theme::named(name).ok_or_else(|| {
-            let known = Theme::NAMES.join(", ");
-            format!("there is no theme {name}; the themes are {known}")
-        })?,
-        None => Theme::default(),
-    };
+    let path = Path::new(path);
+    let form = form_of(path).ok_or("the file name of a report must end in .html, .md, .pdf or .json")?;
+    let unknown = |name: &str| format!("there is no theme {name}; the themes are {}", Theme::NAMES.join(", "));
+    let chosen = theme.map(|name| Theme::named(name).ok_or_else(|| unknown(name))).transpose()?.unwrap_or_default();
     let mut analysis = analysis.clone();
     if form == Form::Pdf {
         // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts lack.
@@ -96,10 +103,8 @@ pub(super) fn report(
     }
     let report_options =
         ReportOptions { theme: chosen, theme_name: theme.map(str::to_owned), ..ReportOptions::default() };
-    let stem = part(path.file_stem());
     let entry = Entry::new(File { name, text }, &analysis, &report_options);
-    let words = |error: &dyn std::error::Error| error.to_string();
-    let piece = Piece::new(&entry, 1, form, &stem).map_err(|e| words(&e))?;
+    let piece = Piece::new(&entry, 1, form, &stem_of(path)).map_err(|error| error.to_string())?;
     let report = Report {
         title: title.unwrap_or_else(|| piece.row.title.clone()),
         pieces: vec![piece],
@@ -109,19 +114,5 @@ pub(super) fn report(
         dark: theme.map(|_| report_options.theme.page.brightness() < 0.5),
         interactive: None,
     };
-    let made = report.files(form, &stem).map_err(|e| words(&e))?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::with_capacity(made.len());
-    for (number, (name, bytes)) in made.into_iter().enumerate() {
-        let target = match number {
-            0 => path.clone(),
-            _ => folder.join(name),
-        };
-        if let (1.., Some(folder)) = (number, target.parent()) {
-            std::fs::create_dir_all(folder).map_err(|e| words(&e))?;
-        }
-        files.push((target, bytes));
-    }
-    write_whole(&files, Existing::Replace)
-        .map_err(|error| format!("cannot write {}: {}", error.path.display(), error.why))
+    write(report, form, path).map_err(message)
 }

@@ -17,141 +17,60 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-use crate::clock::Instant;
 use crate::entry::cli;
-use crate::mechanics::analysis::{self, Accuracy, MarginKind, MarginKinds, Verdict};
+use crate::entry::request::{CheckArgs, Refused, read_json};
+use crate::mechanics::analysis::{self, Verdict};
 use crate::mechanics::scene::format::{SceneFile, parsed};
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::drawing::Theme;
 use crate::products::result::{self, Layout, Timing};
 
+request! {
+    /// What an analysis computes, and how its problems are reported.
+    #[derive(Clone, Debug)]
+    pub(crate) struct AnalysisRequest(given) {
+        what: CheckArgs = CheckArgs::read(given), command(flatten);
+        /// Whether problems and notes state their position in the text. This is useful only if the scene was read from
+        /// text.
+        located: bool = given.flag("located"), arg(skip);
+    }
+}
+
 /// The options of an analysis, read once and used for many scenes.
 #[pyclass(frozen, module = "drystone._drystone")]
 #[derive(Clone, Debug)]
 struct Options {
-    analysis_options: analysis::Options,
-    /// The block whose capacity is computed, written like the value of `--capacity`.
-    capacity: Option<String>,
-    /// The ranges in which the block must carry the forces, written like the value of `--for-all`.
-    for_all: Option<String>,
-    time_limit: Option<Duration>,
-    contact_tolerance: Option<f64>,
-    notes: bool,
-    /// Whether problems and notes state their position in the text. This is useful only if the scene was read from
-    /// text.
-    located: bool,
+    request: AnalysisRequest,
 }
 
 #[pymethods]
 impl Options {
+    /// Reads the options from a JSON object, whose keys are the names of the options of `drystone check`.
     #[new]
-    #[pyo3(signature = (margins, wedging, verdict_only, accuracy, time_limit, contact_tolerance, notes, located, capacity=None, for_all=None, sensitivity=None))]
-    #[expect(clippy::too_many_arguments, reason = "one for each keyword of the Python function")]
-    fn new(
-        py: Python<'_>,
-        margins: Option<Vec<String>>,
-        wedging: bool,
-        verdict_only: bool,
-        accuracy: &str,
-        time_limit: Option<f64>,
-        contact_tolerance: Option<f64>,
-        notes: bool,
-        located: bool,
-        capacity: Option<String>,
-        for_all: Option<String>,
-        sensitivity: Option<String>,
-    ) -> PyResult<Options> {
-        let accuracy = match accuracy {
-            "standard" => Accuracy::Standard,
-            "proved" => Accuracy::Proved,
-            other => {
-                let why = format!("accuracy must be \"standard\" or \"proved\", not {other:?}");
-                return Err(fault(py, &why));
-            }
-        };
-        let mut analysis_options =
-            analysis::Options::default().accuracy(accuracy).wedging(wedging).verdict_only(verdict_only);
-        if let Some(names) = margins {
-            let read = |name: &String| {
-                MarginKind::from_word(name).ok_or_else(|| {
-                    let why = "margins are friction, tilt, horizontal_load, kernel, load_factor and robots";
-                    fault(py, &format!("there is no margin {name:?}; {why}"))
-                })
-            };
-            let kinds = names.iter().map(read).collect::<PyResult<Vec<_>>>()?;
-            let kinds = match kinds.is_empty() {
-                true => MarginKinds::ALL,
-                false => MarginKinds::new(&kinds),
-            };
-            analysis_options = analysis_options.margins(true).margin_kinds(kinds);
-        }
-        if let Some(name) = sensitivity {
-            let kind = MarginKind::from_word(&name).filter(|kind| kind.has_sensitivity());
-            let Some(kind) = kind else {
-                let known = "load_factor, tilt, horizontal_load, friction and kernel";
-                let why = "a sensitivity can be computed for the margins";
-                return Err(fault(py, &format!("{why} {known}, not for {name:?}")));
-            };
-            analysis_options = analysis_options.sensitivity(kind);
-        }
-        let time_limit = match time_limit {
-            Some(seconds) if !(0.0..=1e6).contains(&seconds) => {
-                return Err(fault(py, "time_limit is a time in seconds, from 0 to 1000000"));
-            }
-            limit => limit.map(Duration::from_secs_f64),
-        };
-        if contact_tolerance.is_some_and(|metres| !(0.0..=1e12).contains(&metres)) {
-            return Err(fault(py, "contact_tolerance is a length in metres, at least 0"));
-        }
-        Ok(Options { analysis_options, capacity, for_all, time_limit, contact_tolerance, notes, located })
+    fn new(py: Python<'_>, text: &str) -> PyResult<Options> {
+        let request = read_json(Some(text), AnalysisRequest::read).map_err(|why| fault(py, &why))?;
+        Ok(Options { request })
     }
 }
 
 impl Options {
     /// Analyses a scene, given as JSON text. An internal fault of the program becomes a problem of the scene.
-    fn analysis(&self, text: &str) -> Result<analysis::Analysis, Refusal> {
-        let mut analysis_options = self.analysis_options;
-        analysis_options.deadline = self.time_limit.and_then(|t| Instant::now().checked_add(t));
+    fn analysis(&self, text: &str) -> Result<analysis::Analysis, Refused> {
         let analysis = isolate("scene", || {
-            let scene = Scene::from_json_within(text, self.contact_tolerance)?;
-            if let Some(typed) = &self.capacity {
-                match analysis::typed_capacity(&scene, typed, self.for_all.as_deref()) {
-                    Ok(request) => analysis_options = analysis_options.capacity(request),
-                    Err(why) => return Err(Refusal::Request(why)),
-                }
-            }
-            let mut analysis = analysis::Analysis::with(scene, &analysis_options);
-            if !self.notes {
-                analysis.notes.clear();
-            }
-            if !self.located {
+            let mut analysis = self.request.what.analysis(text)?;
+            if !self.request.located {
                 analysis.notes.iter_mut().for_each(|note| note.line = 0);
             }
             Ok(analysis)
         });
-        analysis.map_err(Refusal::Scene).flatten()
+        analysis.map_err(Refused::Scene).flatten()
     }
-}
 
-/// Why a scene was not analysed.
-enum Refusal {
-    /// The scene is not valid.
-    Scene(SceneError),
-    /// The request of a capacity does not fit the scene. The text is the message.
-    Request(String),
-}
-
-impl From<SceneError> for Refusal {
-    fn from(problems: SceneError) -> Refusal {
-        Refusal::Scene(problems)
-    }
-}
-
-impl Refusal {
-    fn raised(self, py: Python<'_>, located: bool) -> PyErr {
-        match self {
-            Refusal::Scene(problems) => refused(py, problems, located),
-            Refusal::Request(why) => fault(py, &why),
+    /// Returns the Python exception for a scene that was not analysed.
+    fn raised(&self, py: Python<'_>, why: Refused) -> PyErr {
+        match why {
+            Refused::Scene(problems) => refused(py, problems, self.request.located),
+            Refused::Option(why) => fault(py, &why),
         }
     }
 }
@@ -184,14 +103,8 @@ impl Analysis {
     /// Returns the result in the form that `check --json` prints. The result states `file` as the name of the scene
     /// file. With `timing`, it contains times; with `lines`, the JSON is broken into lines.
     fn to_json(&self, py: Python<'_>, file: Option<&str>, timing: bool, lines: bool) -> String {
-        let timing = match timing {
-            true => Timing::Included,
-            false => Timing::LeftOut,
-        };
-        let layout = match lines {
-            true => Layout::Lines,
-            false => Layout::OneLine,
-        };
+        let timing = if timing { Timing::Included } else { Timing::LeftOut };
+        let layout = if lines { Layout::Lines } else { Layout::OneLine };
         py.detach(|| match file {
             Some(file) => result::to_json_of(file, &self.analysis, timing, layout),
             None => result::to_json(&self.analysis, timing, layout),
@@ -217,9 +130,9 @@ impl Analysis {
     }
 
     /// Draws a figure of all frames, or only of the frame with the index `frame`, and returns the bytes of the picture
-    /// file. `words` are options of `render`, and the file extension `ending` selects the format.
-    fn figure(&self, py: Python<'_>, words: Vec<String>, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
-        py.detach(|| figure::drawn(&self.analysis, &words, ending, frame)).map_err(|why| fault(py, &why))
+    /// file. `request` are options of `render` as JSON, and the file extension `ending` selects the format.
+    fn figure(&self, py: Python<'_>, request: &str, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
+        py.detach(|| figure::drawn(&self.analysis, request, ending, frame)).map_err(|why| fault(py, &why))
     }
 
     /// Writes a report on the scene to the file `path`. `name` and `text` are the name and the content of the scene
@@ -271,7 +184,7 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
 /// does not fit the scene.
 #[pyfunction]
 fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
-    py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| why.raised(py, options.located))
+    py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| options.raised(py, why))
 }
 
 /// Analyses scenes on several threads. Returns an analysis or an exception for each scene, in the order of the scenes.
@@ -336,9 +249,9 @@ fn check_many(
         return Err(error);
     }
     let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
-    let one = |answer: Result<analysis::Analysis, Refusal>| match answer {
+    let one = |answer: Result<analysis::Analysis, Refused>| match answer {
         Ok(analysis) => Ok(Py::new(py, Analysis::new(analysis))?.into_any()),
-        Err(why) => Ok(why.raised(py, options.located).into_value(py).into_any()),
+        Err(why) => Ok(options.raised(py, why).into_value(py).into_any()),
     };
     answers.into_iter().flatten().map(one).collect()
 }
@@ -357,6 +270,15 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
     let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
     Ok(file.to_json())
+}
+
+/// Reads an assembly of `compas_assembly`, given as JSON. Returns the text of a scene file with the sections of its blocks
+/// in a coordinate plane such as `xz`. `thickness`, in metres, replaces that of the blocks.
+#[pyfunction]
+fn compas(py: Python<'_>, text: &str, plane: &str, thickness: Option<f64>) -> PyResult<String> {
+    let scene = SceneFile { thickness, ..SceneFile::default() };
+    let sections = crate::sources::import::sections(text, plane, scene);
+    sections.map(|scene| scene.to_json()).map_err(|why| fault(py, &why))
 }
 
 /// Returns the JSON Schema of scene files.
@@ -394,7 +316,9 @@ mod _drystone {
     #[pymodule_export]
     use crate::entry::python::table::{Table, summary};
     #[pymodule_export]
-    use crate::entry::python::{Analysis, Options, check, check_many, formatted, kinds, read, run, schema, themes};
+    use crate::entry::python::{
+        Analysis, Options, check, check_many, compas, formatted, kinds, read, run, schema, themes,
+    };
 
     /// The version of drystone.
     #[pymodule_export]

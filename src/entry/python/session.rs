@@ -4,6 +4,7 @@
 use pyo3::prelude::*;
 
 use super::{Analysis, Options, Ring, fault, refused};
+use crate::entry::request::in_json;
 use crate::geometry::Point;
 use crate::mechanics::analysis;
 use crate::mechanics::scene::Scene;
@@ -23,9 +24,9 @@ impl Session {
     #[new]
     fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
         // Check the text first, because only `Scene::from_json` reports the lines of problems.
-        Scene::from_json(text).map_err(|problems| refused(py, problems, options.located))?;
+        Scene::from_json(text).map_err(|problems| refused(py, problems, options.request.located))?;
         let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
-        let inner = py.detach(|| session::Session::with(file, options.analysis_options));
+        let inner = py.detach(|| session::Session::with(file, options.request.what.base()));
         let inner = inner.map_err(|error| complaint(py, error))?;
         Ok(Session { inner })
     }
@@ -88,18 +89,18 @@ impl Session {
             .collect()
     }
 
-    /// Analyses the placed blocks. The time limit, the capacity, the contact tolerance, `notes` and `located` in
+    /// Analyses the placed blocks. The capacity, the contact tolerance, `notes` and `located` in
     /// `options` have no effect.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.inner.scene();
-        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.analysis_options)))
+        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.request.what.base())))
     }
 
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written
     /// like the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
         let request = analysis::typed_capacity(self.inner.scene(), typed, for_all);
-        let request = request.map_err(|why| fault(py, &why))?;
+        let request = request.map_err(|why| fault(py, &in_json(&why)))?;
         let found = py.detach(|| self.inner.capacity(&request));
         let found = found.map_err(|why| fault(py, &why.to_string()))?;
         Ok(result::capacity_json(self.inner.scene(), &found))

@@ -6,24 +6,72 @@
 //! of problems that `drystone check --json` prints, and is empty if an option is not valid. After an internal error (an
 //! `Error` without `problems`) the module has to be started again.
 
-mod draw;
-mod drawing;
-mod error;
-mod examine;
-mod figure_options;
-mod option;
+mod import;
+mod request;
 mod session;
 
 use std::panic;
 
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-pub use error::Refusal;
 pub use session::Session;
 
-use crate::mechanics::scene::Scene;
-use crate::products::figure::{FREEBODY, FREEBODY_HELP, Kind};
-use crate::products::result::quoted;
+use crate::entry::request::{KindChoice, Refused, read_json};
+use crate::mechanics::scene::{Scene, SceneError};
+use crate::products::result::{problem_list, quoted, remark_list};
+use crate::sources::import::DrawingProblems;
+use crate::text::Word;
+use request::{PageArgs, ResultArgs};
+
+/// Why the input was refused. JavaScript receives an `Error` with this message, whose property `problems` is the list
+/// of the problems.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The message, which contains all problems.
+    message: String,
+    /// The problems as a JSON list; empty if an option is not valid.
+    problems: String,
+}
+
+/// The refusal of options that are not valid; the text is the message.
+impl From<String> for Refusal {
+    fn from(message: String) -> Refusal {
+        Refusal { message, problems: "[]".into() }
+    }
+}
+
+impl From<SceneError> for Refusal {
+    fn from(error: SceneError) -> Refusal {
+        Refusal { message: error.to_string(), problems: problem_list(&error.list) }
+    }
+}
+
+impl From<Refused> for Refusal {
+    fn from(why: Refused) -> Refusal {
+        match why {
+            Refused::Scene(error) => error.into(),
+            Refused::Option(why) => why.into(),
+        }
+    }
+}
+
+impl From<DrawingProblems> for Refusal {
+    fn from(error: DrawingProblems) -> Refusal {
+        let messages: Vec<&str> = error.problems.iter().map(|p| p.message.as_str()).collect();
+        Refusal { message: messages.join("\n"), problems: remark_list(&error.problems) }
+    }
+}
+
+impl From<Refusal> for JsValue {
+    fn from(refusal: Refusal) -> JsValue {
+        let error = js_sys::Error::new(&refusal.message);
+        let list = js_sys::JSON::parse(&refusal.problems).unwrap_or_default();
+        // Setting a property of a new object cannot fail.
+        let _ = js_sys::Reflect::set(&error, &"problems".into(), &list);
+        error.into()
+    }
+}
 
 /// Prepares the module, so that a panic becomes a JavaScript error with the same message.
 #[wasm_bindgen(start)]
@@ -42,13 +90,12 @@ pub fn version() -> String {
 /// Returns the kinds of figures as a JSON list of objects `{ "kind", "label", "help" }`.
 #[wasm_bindgen]
 pub fn kinds() -> String {
-    let panels = Kind::ALL.map(|kind| (kind.name(), kind.help()));
-    let entry = |(kind, help): &(&str, &str)| {
-        let mut label = (*kind).to_owned();
+    let entry = |kind: KindChoice| {
+        let mut label = kind.word().to_owned();
         label[..1].make_ascii_uppercase();
-        format!("{{\"kind\":{},\"label\":{},\"help\":{}}}", quoted(kind), quoted(&label), quoted(help))
+        format!("{{\"kind\":{},\"label\":{},\"help\":{}}}", quoted(kind.word()), quoted(&label), quoted(kind.help()))
     };
-    let entries: Vec<String> = panels.iter().chain([&(FREEBODY, FREEBODY_HELP)]).map(entry).collect();
+    let entries: Vec<String> = KindChoice::all().into_iter().map(entry).collect();
     format!("[{}]", entries.join(","))
 }
 
@@ -60,10 +107,11 @@ pub fn kinds() -> String {
 /// add the times to the result) and `file` (the name of the file in the result).
 ///
 /// # Errors
-/// Returns the problems of the scene, or a message about an option that is not valid.
+/// Returns the problems of the scene, or a message about all options that are not valid.
 #[wasm_bindgen]
 pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
-    examine::checked(scene, &option::read(options.as_deref())?)
+    let args = read_json(options.as_deref(), ResultArgs::read)?;
+    Ok(args.written(&args.what.analysis(scene)?))
 }
 
 /// Draws a scene as SVG, as `drystone render` does. `options` is a JSON object with the names of the options of
@@ -75,7 +123,7 @@ pub fn check(scene: &str, options: Option<String>) -> Result<String, Refusal> {
 /// Returns the same errors as [`check`].
 #[wasm_bindgen]
 pub fn figure(scene: &str, options: Option<String>) -> Result<String, Refusal> {
-    draw::figure(scene, &option::read(options.as_deref())?)
+    read_json(options.as_deref(), PageArgs::read)?.figure(scene)
 }
 
 /// Returns the problems of a scene as a JSON list of objects `{ code, path, line, column, message, hint }`. The list is
@@ -97,5 +145,5 @@ pub fn problems(scene: &str) -> String {
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.
 #[wasm_bindgen(js_name = importDrawing)]
 pub fn import_drawing(text: &str, format: &str, options: Option<String>) -> Result<String, Refusal> {
-    drawing::imported(text, format, option::read(options.as_deref())?)
+    import::imported(text, format, options.as_deref())
 }

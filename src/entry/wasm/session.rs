@@ -3,8 +3,9 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::option::{self, CheckOptions};
-use super::{Refusal, draw, examine};
+use super::Refusal;
+use super::request::{PageArgs, ResultArgs};
+use crate::entry::request::read_json;
 use crate::mechanics::analysis::Analysis;
 use crate::products::result::word;
 
@@ -13,7 +14,7 @@ use crate::products::result::word;
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct Session {
-    options: CheckOptions,
+    args: ResultArgs,
     analysis: Analysis,
 }
 
@@ -25,9 +26,9 @@ impl Session {
     /// Returns the problems of the scene, or a message about an option that is not valid.
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
-        let options: CheckOptions = option::read(options.as_deref())?;
-        let analysis = options.analysis(scene)?;
-        Ok(Session { options, analysis })
+        let args = read_json(options.as_deref(), ResultArgs::read)?;
+        let analysis = args.what.analysis(scene)?;
+        Ok(Session { args, analysis })
     }
 
     /// Replaces the scene and analyses it. Returns the worst verdict of its frames; from best to worst: stable,
@@ -37,7 +38,7 @@ impl Session {
     /// Returns the problems of the scene, or a message about an option that does not fit the scene, such as a frame
     /// that does not exist. The session then keeps the previous scene.
     pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
-        self.analysis = self.options.analysis(scene)?;
+        self.analysis = self.args.what.analysis(scene)?;
         Ok(self.verdict())
     }
 
@@ -48,7 +49,7 @@ impl Session {
 
     /// Returns the result of the analysis as JSON, as the function `check` does.
     pub fn result(&self) -> String {
-        examine::written(self.analysis.clone(), &self.options)
+        self.args.written(&self.analysis)
     }
 
     /// Draws a figure of the scene as SVG. `options` are those of the function `figure`; `frame`, `broken`, `accuracy`,
@@ -58,6 +59,6 @@ impl Session {
     /// # Errors
     /// Returns a message about an option that is not valid.
     pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
-        draw::drawn(&self.analysis, &option::read(options.as_deref())?)
+        read_json(options.as_deref(), PageArgs::read)?.drawn(&self.analysis)
     }
 }

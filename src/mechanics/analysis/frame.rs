@@ -5,6 +5,7 @@ use crate::mechanics::program::UnknownCounts;
 use crate::mechanics::proof::Proof;
 use crate::mechanics::statics::effect::sticking::AdhesionSearch;
 use crate::mechanics::statics::effect::{EffectName, FrameContext, mechanism, sticking};
+use crate::text::first_of;
 
 /// Returns the weaker of two proofs. If both are of the same kind, the result has the worse value of each error. If
 /// only one is a proof by a mechanism, the result is that proof.
@@ -72,14 +73,7 @@ fn add_notices(analysis: &mut FrameAnalysis, context: &FrameContext, verdict_onl
             .push("the forces shown balance every block; it was not proved that their sum is the least".into());
     }
     if !analysis.unsupported.is_empty() {
-        let names: Vec<&str> =
-            analysis.unsupported.iter().take(10).map(|b| context.scene.blocks[b.0].id.as_str()).collect();
-        let more = match analysis.unsupported.len() - names.len() {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        analysis
-            .notices
-            .push(format!("no sticking at the points where forces act could hold {}{more}", names.join(", ")));
+        let names = first_of(analysis.unsupported.iter().map(|b| context.scene.blocks[b.0].id.as_str()), 10);
+        analysis.notices.push(format!("no sticking at the points where forces act could hold {names}"));
     }
 }

@@ -13,6 +13,7 @@ use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::geometry::Point;
 use crate::mechanics::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 use crate::mechanics::statics::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
+use crate::text::first_of;
 
 /// The largest number of places that a message names.
 const MAX_NAMED_PLACES: usize = 3;
@@ -212,23 +213,18 @@ fn recheck_with_slivers(scene: &Scene, interfaces: &Interfaces, frames: &mut [Fr
 fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let mut slivers = slivers.to_vec();
     slivers.sort_by(|a, b| b.length().total_cmp(&a.length()));
-    let named = slivers.iter().take(MAX_NAMED_PLACES).map(|sliver| {
+    let places = slivers.iter().map(|sliver| {
         let [a, b] = sliver.bodies.map(|body| scene.name(body));
         let (length, at) = (sliver.length(), sliver.middle());
         let (length, at) = (scene.units.small_length(length, 2), scene.units.coordinates(at));
         format!("{length} between {a} and {b} at {at}")
     });
-    let named: Vec<String> = named.collect();
-    let more = match slivers.len() - named.len() {
-        0 => String::new(),
-        n => format!(" and {n} more"),
-    };
+    let places = first_of(places, MAX_NAMED_PLACES);
     let length = |sliver: Option<&&Interface>| sliver.map_or(0.0, |s| s.length());
     let (counting, ignoring) = (0.5 * length(slivers.last()), CLOSING_FACTOR * length(slivers.first()));
     let words = format!(
-        "it stands if contacts of almost no length carry force and falls if they are only touching corners: {}{more}; \
+        "it stands if contacts of almost no length carry force and falls if they are only touching corners: {places}; \
          a contact_tolerance of {} counts them, one of {} does not",
-        named.join(", "),
         scene.units.small_length(counting, 2),
         scene.units.small_length(ignoring, 2),
     );
@@ -306,7 +302,7 @@ fn gaps_explanation(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPl
 
 /// Lists the first few gaps and overlaps with their sizes and bodies, and adds the number of the others.
 fn list_places(scene: &Scene, places: &[AmbiguousPlace]) -> String {
-    let named = places.iter().take(MAX_NAMED_PLACES).map(|place| {
+    let places = places.iter().map(|place| {
         let kind = if place.overlaps { " of overlap" } else { "" };
         format!(
             "{}{kind} between {} and {} at {}",
@@ -316,10 +312,5 @@ fn list_places(scene: &Scene, places: &[AmbiguousPlace]) -> String {
             scene.units.coordinates(place.at)
         )
     });
-    let named: Vec<String> = named.collect();
-    let more = match places.len() - named.len() {
-        0 => String::new(),
-        n => format!(" and {n} more"),
-    };
-    named.join(", ") + &more
+    first_of(places, MAX_NAMED_PLACES)
 }

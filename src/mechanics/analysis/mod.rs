@@ -215,6 +215,13 @@ impl Analysis {
         Analysis { scene, frames, notes }
     }
 
+    /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`
+    /// if there is no such frame.
+    pub(crate) fn alone(&self, number: usize) -> Option<Analysis> {
+        let frames = vec![self.frames.get(number)?.clone()];
+        Some(Analysis { scene: self.scene.alone(number)?.into(), frames, notes: self.notes.clone() })
+    }
+
     /// Returns the worst verdict of all frames; stable if there are no frames.
     pub fn verdict(&self) -> Verdict {
         self.frames.iter().map(|f| f.verdict).max().unwrap_or(Verdict::Stable)

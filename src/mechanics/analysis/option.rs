@@ -37,15 +37,16 @@ pub struct Options {
     pub deadline: Option<Instant>,
 }
 
-/// How strong the proof of a verdict must be. Without such a proof, the verdict is `Undecided`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Accuracy {
-    /// A proof must meet [`ProofThreshold::STANDARD`].
-    #[default]
-    Standard,
-    /// A proof must meet [`ProofThreshold::STRICT`].
-    Proved,
+words! {
+    /// How strong the proof of a verdict must be. Without such a proof, the verdict is `Undecided`.
+    #[non_exhaustive]
+    pub enum Accuracy {
+        /// A proof must meet [`ProofThreshold::STANDARD`].
+        #[default]
+        Standard = "standard";
+        /// A proof must meet [`ProofThreshold::STRICT`].
+        Proved = "proved";
+    }
 }
 
 impl Accuracy {

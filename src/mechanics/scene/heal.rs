@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
+use crate::text::and_more;
 
 /// Rounded coordinates are healed only if rounding can move corners off their edges by at most this fraction of the
 /// median block size. Healing then moves a corner by at most this fraction of its body's size.
@@ -384,10 +385,7 @@ impl Scene {
             let (name, bounds) = (self.name(body), self.body(body).polygon.bounds());
             let [least, most] = [bounds.min, bounds.max]
                 .map(|corner| [corner.x, corner.y].map(|v| self.units.length().value_from_si(v)));
-            let more = match kept {
-                1 => String::new(),
-                n => format!(" and {} more", n - 1),
-            };
+            let more = and_more(kept - 1);
             words += &format!(
                 "; {name} (from {:.4}, {:.4} to {:.4}, {:.4} {unit}){more} stayed as written: healing would damage its shape \
                  or deepen an overlap",

@@ -108,6 +108,12 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Returns the scene with only one of its frames. `number` is counted from 0. `None` if there is no such frame.
+    pub(crate) fn alone(&self, number: usize) -> Option<Scene> {
+        let frames = vec![self.frames.get(number)?.clone()];
+        Some(Scene { frames, ..self.clone() })
+    }
+
     /// Returns the title of the scene; empty if the file gives no title.
     pub fn title(&self) -> &str {
         &self.title

@@ -4,61 +4,65 @@ use crate::mechanics::analysis::Toward;
 use crate::mechanics::scene::BlockId;
 use crate::pictures::drawing::Theme;
 
-/// Whether the force of an interface is drawn as one arrow or as components.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ForceStyle {
-    /// The sum of normal and friction force as one arrow on each of the two bodies.
-    #[default]
-    Resultant,
-    /// Normal and friction force as two arrows, as in the figures of the thesis.
-    Components,
+words! {
+    /// Whether the force of an interface is drawn as one arrow or as components.
+    #[non_exhaustive]
+    pub enum ForceStyle {
+        /// The sum of normal and friction force as one arrow on each of the two bodies.
+        #[default]
+        Resultant = "resultant";
+        /// Normal and friction force as two arrows, as in the figures of the thesis.
+        Components = "components";
+    }
 }
 
-/// The force whose arrow is one unit length long. The unit length is the side of a lattice cell, or a typical size of a
-/// block.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Normalisation {
-    /// The largest force that is drawn.
-    #[default]
-    Drawn,
-    /// The largest weight, load or single unknown of the analysis (normal force of a corner, friction force of an
-    /// interface, force component of a robot). Arrows of sums can then be longer than one unit length. Each block has a
-    /// separate scale for its missing forces. The figures of the thesis use this scale.
-    Source,
+words! {
+    /// The force whose arrow is one unit length long. The unit length is the side of a lattice cell, or a typical size
+    /// of a block.
+    #[non_exhaustive]
+    pub enum Normalisation {
+        /// The largest force that is drawn.
+        #[default]
+        Drawn = "drawn";
+        /// The largest weight, load or single unknown of the analysis (normal force of a corner, friction force of an
+        /// interface, force component of a robot). Arrows of sums can then be longer than one unit length. Each block
+        /// has a separate scale for its missing forces. The figures of the thesis use this scale.
+        Source = "source";
+    }
 }
 
-/// Whether each panel has its own scale of arrows or all panels share one scale.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ArrowScale {
-    /// Each panel has its own scale.
-    #[default]
-    Panel,
-    /// All panels have the same scale, so that lengths can be compared.
-    Strip,
+words! {
+    /// Whether each panel has its own scale of arrows or all panels share one scale.
+    #[non_exhaustive]
+    pub enum ArrowScale {
+        /// Each panel has its own scale.
+        #[default]
+        Panel = "panel";
+        /// All panels have the same scale, so that lengths can be compared.
+        Strip = "strip";
+    }
 }
 
-/// The quantity that the colours of blocks show.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Fill {
-    /// The amplitude: the larger of a block's weight and the largest normal force on its interfaces. The scale ends at
-    /// the largest amplitude in the figure.
-    #[default]
-    Amplitude,
-    /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and are
-    /// left out.
-    Stress,
-    /// The largest used fraction of the available friction on one of its interfaces.
-    Friction,
-    /// No quantity: blocks have one plain colour.
-    None,
-    /// The rule of the thesis, in its colours. A block that a robot holds shows the used fraction of the limits of
-    /// this robot. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If no
-    /// robot has a force limit, every block shows its amplitude as a fraction of the largest amplitude.
-    Source,
+words! {
+    /// The quantity that the colours of blocks show.
+    #[non_exhaustive]
+    pub enum Fill {
+        /// The amplitude: the larger of a block's weight and the largest normal force on its interfaces. The scale ends
+        /// at the largest amplitude in the figure.
+        #[default]
+        Amplitude = "amplitude", "The larger of a block's weight and its largest normal force, N";
+        /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and
+        /// are left out.
+        Stress = "stress", "The largest mean pressure on one of its interfaces, N/m², for the scene's thickness";
+        /// The largest used fraction of the available friction on one of its interfaces.
+        Friction = "friction", "The largest fraction of the available friction that one of its interfaces uses";
+        /// No quantity: blocks have one plain colour.
+        None = "none", "Nothing: plain blocks";
+        /// The rule of the thesis, in its colours. A block that a robot holds shows the used fraction of the limits of
+        /// this robot. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If
+        /// no robot has a force limit, every block shows its amplitude as a fraction of the largest amplitude.
+        Source = "source", "Fractions of the robots' limits, computed and coloured as in Vallat (2023)";
+    }
 }
 
 /// Which forces of interfaces a free-body diagram shows.
@@ -74,87 +78,96 @@ pub enum Corners {
     All,
 }
 
-/// The options of a figure.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Options {
-    /// Whether the force of an interface is drawn as one arrow or as components.
-    pub style: ForceStyle,
-    /// The force whose arrow is one unit length long.
-    pub normalisation: Normalisation,
-    /// Whether each panel has its own scale of arrows or all panels share one scale.
-    pub scale: ArrowScale,
-    /// The quantity that the colours of blocks show.
-    pub fill: Fill,
-    /// Which forces of interfaces a free-body diagram shows.
-    pub corners: Corners,
-    /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
-    pub toward: Toward,
-    /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
-    pub motion_progress: f64,
-    /// The number of panels in a row; `None` to choose it by the shape of the panels.
-    pub columns: Option<usize>,
-    /// Colours, widths and font sizes.
-    pub theme: Theme,
-    /// Whether the title of the figure is drawn.
-    pub titles: bool,
-    /// Whether the captions of frames are drawn.
-    pub captions: bool,
-    /// Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.
-    pub verdicts: bool,
-    /// Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and the
-    /// list of forces.
-    pub keys: bool,
-    /// Whether a scale bar in metres is drawn.
-    pub scale_bar: bool,
-    /// Whether dimension lines show the width and height of all blocks of a frame.
-    pub dimensions: bool,
-    /// Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon next to the structure: a load line, a
-    /// pole, and a ray for each joint.
-    pub with_polygon: bool,
-    /// The block in the centre of a zoomed picture. The picture only shows this block and its surroundings. `None` for
-    /// the whole structure.
-    pub zoom: Option<BlockId>,
-    /// Whether blocks and robots have labels with their names, and loads, missing forces and the largest forces have
-    /// labels with their magnitudes. In frames with more than 60 blocks, most blocks have no names.
-    pub labels: bool,
-    /// Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks. If a frame has more than
-    /// 200 magnitudes, only the largest are written.
-    pub amounts: bool,
-    /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width. Only on a
-    /// page as narrow as a column of print, the texts around the picture become smaller if they would need more space
-    /// than the picture.
-    pub width: Option<f64>,
-    /// Largest height of the picture of a frame without its legend, pixels. `None` to choose it by the number of
-    /// frames.
-    pub height: Option<f64>,
+impl From<bool> for Corners {
+    fn from(all: bool) -> Corners {
+        if all { Corners::All } else { Corners::Few }
+    }
 }
 
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            style: ForceStyle::default(),
-            normalisation: Normalisation::default(),
-            scale: ArrowScale::default(),
-            fill: Fill::default(),
-            corners: Corners::default(),
-            toward: Toward::default(),
-            motion_progress: 1.0,
-            columns: None,
-            theme: Theme::default(),
-            titles: true,
-            captions: true,
-            verdicts: true,
-            keys: true,
-            scale_bar: false,
-            dimensions: false,
-            with_polygon: false,
-            zoom: None,
-            labels: true,
-            amounts: false,
-            width: None,
-            height: None,
-        }
+request! {
+    /// The options of a figure.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Options(given) {
+        /// Whether the force of an interface is drawn as one arrow or as components.
+        pub style: ForceStyle = given.word("arrows").unwrap_or_default(),
+            arg(id = "arrows", long = "arrows", value_name = "ARROWS", default_value = "resultant",
+                value_parser = crate::text::typed_word::<ForceStyle>(),
+                help = "One resultant arrow for each interface and block, or separate arrows for normal and friction \
+                        force");
+        /// Which force has an arrow that is one unit length long.
+        pub normalisation: Normalisation = given.word("normalise").unwrap_or_default(),
+            arg(id = "normalise", long = "normalise", value_name = "NORMALISE", default_value = "drawn",
+                value_parser = crate::text::typed_word::<Normalisation>(),
+                help = "The force whose arrow has unit length: the largest drawn force, or the largest single unknown, \
+                        as in Vallat (2023)");
+        /// Whether each panel has its own scale of arrows or all panels share one scale.
+        pub scale: ArrowScale = given.word("arrow_scale").unwrap_or_default(),
+            arg(id = "arrow_scale", long = "arrow-scale", value_name = "ARROW_SCALE", default_value = "panel",
+                value_parser = crate::text::typed_word::<ArrowScale>(),
+                help = "One scale of arrows for each panel, or for the whole strip");
+        /// Which forces of interfaces a free-body diagram shows.
+        pub corners: Corners = given.flag("corners").into(),
+            arg(long, action = clap::ArgAction::SetTrue,
+                value_parser = clap::builder::TypedValueParser::map(clap::builder::BoolValueParser::new(), Corners::from),
+                help = "In a free-body diagram, name all forces that may act at the ends of its interfaces, even those \
+                        that are zero");
+        /// Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks. If a frame has more
+        /// than 200 magnitudes, only the largest are written.
+        pub amounts: bool = given.flag("amounts"),
+            arg(long, help = "Write the magnitude of the force next to every arrow");
+        /// The quantity that the colours of blocks show.
+        pub fill: Fill = given.word("fill").unwrap_or_default(),
+            arg(long, default_value = "amplitude", value_parser = crate::text::typed_word::<Fill>());
+        /// Whether the title of the figure is drawn.
+        pub titles: bool = !given.flag("no_title"),
+            arg(long = "no-title", action = clap::ArgAction::SetFalse, help = "Leave out the figure's title");
+        /// Whether the captions of frames are drawn.
+        pub captions: bool = !given.flag("no_caption"),
+            arg(long = "no-caption", action = clap::ArgAction::SetFalse, help = "Leave out the frames' captions");
+        /// Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.
+        pub verdicts: bool = !given.flag("no_verdict"),
+            arg(long = "no-verdict", action = clap::ArgAction::SetFalse,
+                help = "Leave out the verdicts and the text below them");
+        /// Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and
+        /// the list of forces.
+        pub keys: bool = !given.flag("no_key"),
+            arg(long = "no-key", action = clap::ArgAction::SetFalse, help = "Leave out the key and the scale of arrows");
+        /// Whether blocks and robots have labels with their names, and loads, missing forces and the largest forces
+        /// have labels with their magnitudes. In frames with more than 60 blocks, most blocks have no names.
+        pub labels: bool = !given.flag("no_labels"),
+            arg(skip = true);
+        /// Whether a scale bar in metres is drawn.
+        pub scale_bar: bool = given.flag("scale_bar"),
+            arg(long, help = "Show a scale bar with a round number of metres");
+        /// Whether dimension lines show the width and height of all blocks of a frame.
+        pub dimensions: bool = given.flag("dimensions"),
+            arg(long, help = "Draw dimension lines at the edges of each panel: width and height of all blocks, or of \
+                              the block of --zoom");
+        /// Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon next to the structure: a load
+        /// line, a pole, and a ray for each joint.
+        pub with_polygon: bool = given.flag("with_polygon"),
+            arg(long, help = "Draw the force polygon next to the line of thrust of --kind thrust: a load line, a pole, \
+                              and a ray for each joint");
+        /// The number of panels in a row; `None` to choose it by the shape of the panels.
+        pub columns: Option<usize> = given.whole("columns", [1, 65535]).map(|columns| columns as usize),
+            arg(long, value_name = "N", help = "Panels per row of a strip",
+                value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
+        /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
+        pub toward: Toward = Toward::default(), arg(skip);
+        /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
+        pub motion_progress: f64 = given.number("way").map_or(1.0, |way| way.clamp(0.0, 1.0)), arg(skip = 1.0);
+        /// The block in the centre of a zoomed picture. The picture only shows this block and its surroundings. `None`
+        /// for the whole structure.
+        pub zoom: Option<BlockId> = None, arg(skip);
+        /// Colours, widths and font sizes.
+        pub theme: Theme = Theme::default(), arg(skip);
+        /// Width of the page, pixels; `None` to choose it by the content. Font sizes do not depend on this width. Only
+        /// on a page as narrow as a column of print, the texts around the picture become smaller if they would need
+        /// more space than the picture.
+        pub width: Option<f64> = None, arg(skip);
+        /// Largest height of the picture of a frame without its legend, pixels. `None` to choose it by the number of
+        /// frames.
+        pub height: Option<f64> = None, arg(skip);
     }
 }
 
@@ -162,33 +175,6 @@ impl Default for Options {
 const PRINT_COLUMN: f64 = 520.0;
 
 impl Options {
-    setters! {
-        style: ForceStyle, "Whether the force of an interface is drawn as one arrow or as components.";
-        normalisation: Normalisation, "Which force has an arrow that is one unit length long.";
-        scale: ArrowScale, "Whether each panel has its own scale of arrows or all panels share one scale.";
-        fill: Fill, "The quantity that the colours of blocks show, such as stresses.";
-        corners: Corners, "Which forces of interfaces a free-body diagram shows.";
-        toward: Toward, "The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.";
-        motion_progress: f64, "How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.";
-        theme: Theme, "Colours, widths and font sizes.";
-        titles: bool, "Whether the title of the figure is drawn.";
-        captions: bool, "Whether the captions of frames are drawn.";
-        verdicts: bool, "Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.";
-        keys: bool, "Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and the list of forces.";
-        scale_bar: bool, "Whether a scale bar in metres is drawn.";
-        dimensions: bool, "Whether dimension lines show the width and height of all blocks of a frame.";
-        with_polygon: bool, "Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon.";
-        labels: bool, "Whether labels show the names of blocks and robots, and the magnitudes of the main forces.";
-        amounts: bool, "Whether all arrows have labels with their magnitudes, in frames with at most 60 blocks.";
-    }
-
-    optional_setters! {
-        columns: usize, "The number of panels in a row.";
-        zoom: BlockId, "The block in the centre of a zoomed picture, which shows only this block and its surroundings.";
-        width: f64, "Width of the page, pixels. On a page narrower than 520, texts are shorter; they are also smaller if the pictures would take less than 55 % of the height of the page.";
-        height: f64, "Largest height of the picture of a frame without its legend, pixels.";
-    }
-
     /// True if arrows look as in the printed figures of the thesis: separate arrows for the components of forces, at
     /// the scale of the thesis.
     pub(crate) fn printed(&self) -> bool {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::number::{self, NO_BREAK, digits, listed, place, quantity};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
 use crate::mechanics::scene::{BlockId, BodyId, Scene, Unit};
+use crate::text::first_of;
 
 /// Largest number of unsupported blocks that are named. All further blocks are only counted.
 const MAX_LISTED_BLOCKS: usize = 6;
@@ -154,15 +155,9 @@ pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) ->
     ];
     let mut sentences = Vec::new();
     for (blocks, reason) in reasons {
-        let names = blocks.iter().take(max);
-        let names: Vec<&str> = names.map(|id| scene.blocks[id.0].id.as_str()).collect();
-        let more = match blocks.len() - names.len() {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        if !names.is_empty() {
-            let names = names.join(", ");
-            sentences.push(format!("nothing carries {names}{more}: {reason}"));
+        if !blocks.is_empty() {
+            let names = first_of(blocks.iter().map(|id| scene.blocks[id.0].id.as_str()), max);
+            sentences.push(format!("nothing carries {names}: {reason}"));
         }
     }
     sentences

@@ -32,6 +32,14 @@ pub fn counted(count: usize, verdict: Verdict) -> String {
     format!("{count} {word}")
 }
 
+/// Writes how many frames or scenes have each verdict: `5 stand, 1 falls`.
+pub fn tally(verdicts: &[Verdict]) -> String {
+    let kinds = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided];
+    let counts = kinds.map(|kind| (verdicts.iter().filter(|verdict| **verdict == kind).count(), kind));
+    let words = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, kind)| counted(count, kind));
+    words.collect::<Vec<_>>().join(", ")
+}
+
 /// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this text below the
 /// verdict. The text is empty for all other frames.
 pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {

@@ -20,10 +20,10 @@ const STEPS_PER_UNIT: f64 = 1e6;
 
 /// A coordinate plane: its name, and the indices of the axes that point to the right, up, and perpendicular to the
 /// plane.
-type Plane = (&'static str, [usize; 3]);
+pub(super) type Plane = (&'static str, [usize; 3]);
 
 /// The planes in the order in which they are tried: z is up in COMPAS.
-const PLANES: [Plane; 3] = [("xz", [0, 2, 1]), ("yz", [1, 2, 0]), ("xy", [0, 1, 2])];
+pub(super) const PLANES: [Plane; 3] = [("xz", [0, 2, 1]), ("yz", [1, 2, 0]), ("xy", [0, 1, 2])];
 
 /// A block of the assembly: the name of its node, whether it is a support, and the corners of its faces.
 struct AssemblyBlock {
@@ -39,13 +39,32 @@ pub(super) fn is_assembly(text: &str) -> bool {
     nodes(&value).is_some()
 }
 
-/// Reads an assembly. Returns the scene file, and notes about the plane of the section, the unit of length and the
-/// thickness.
+/// Reads an assembly, given as JSON, as the sections of its blocks in the coordinate plane with this name. `scene` has
+/// the other properties of the scene.
+///
+/// # Errors
+/// Returns a message if there is no such plane, or for the reasons of [`read`].
+#[cfg(feature = "python")]
+pub(crate) fn sections(text: &str, plane: &str, scene: SceneFile) -> Result<SceneFile, String> {
+    let Some(plane) = PLANES.into_iter().find(|known| known.0 == plane) else {
+        return Err(format!("plane is \"xz\", \"yz\" or \"xy\", not {plane:?}"));
+    };
+    match read(text, &Options::default().scene(scene), &[plane]) {
+        Ok((scene, _)) => Ok(scene),
+        Err(remarks) => {
+            let remarks: Vec<String> = remarks.into_iter().map(|r| format!("{}; {}", r.message, r.help)).collect();
+            Err(remarks.join("\n"))
+        }
+    }
+}
+
+/// Reads an assembly, whose blocks are cut in the first of `planes` to which they are perpendicular. Returns the scene
+/// file, and notes about the plane of the section, the unit of length and the thickness.
 ///
 /// # Errors
 /// Returns an error if the text is not an assembly with blocks, if all blocks are supports, if the blocks are not
-/// prisms perpendicular to one coordinate plane, or if they differ in thickness and `options` has no thickness.
-pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
+/// prisms perpendicular to one of the planes, or if they differ in thickness and `options` has no thickness.
+pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<(SceneFile, Vec<String>), Vec<Remark>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let refuse = |message: String, help: &str| Err(vec![Remark { element: String::new(), message, help: help.into() }]);
     let value: Value = match serde_json::from_str(text) {
@@ -62,9 +81,13 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
         let help = "blocks whose node has is_support become ground";
         return refuse("it has no block that is not a support".into(), help);
     }
-    let Some((plane, axes)) = PLANES.into_iter().find(|plane| solids.iter().all(|s| prism(s, plane.1).is_some()))
+    let Some((plane, axes)) = planes.iter().copied().find(|plane| solids.iter().all(|s| prism(s, plane.1).is_some()))
     else {
-        return refuse(not_prismatic(&solids), "turn the assembly, or cut a plane section of it first");
+        let help = match planes {
+            [_] => "choose another plane, or turn the assembly",
+            _ => "turn the assembly, or cut a plane section of it first",
+        };
+        return refuse(not_prismatic(&solids, planes), help);
     };
     let prisms = solids.iter().filter_map(|s| Some((s, prism(s, axes)?)));
     let mut scene = options.scene.clone();
@@ -81,7 +104,7 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     if scene.thickness.is_none() {
         if thick - thin > EQUAL_COORDINATE_TOL * thick {
             let message = format!("its blocks are {thin} to {thick} m thick, and a plane scene has one thickness");
-            return refuse(message, "give the thickness with --thickness");
+            return refuse(message, "give the thickness with --thickness, in Python with thickness=");
         }
         scene.thickness = Some(thick);
     }
@@ -92,14 +115,18 @@ pub(super) fn read(text: &str, options: &Options) -> Result<(SceneFile, Vec<Stri
     Ok((scene, notes))
 }
 
-/// Returns a message that names the first block that is not a prism perpendicular to one of the coordinate planes. If
+/// Returns a message that names the first block that is not a prism perpendicular to one of the planes. If
 /// there is no such block, the message says that the blocks are prisms perpendicular to different planes.
-fn not_prismatic(solids: &[AssemblyBlock]) -> String {
-    let odd = solids.iter().find(|s| PLANES.iter().all(|plane| prism(s, plane.1).is_none()));
+fn not_prismatic(solids: &[AssemblyBlock], planes: &[Plane]) -> String {
+    let odd = solids.iter().find(|s| planes.iter().all(|plane| prism(s, plane.1).is_none()));
+    let which = match planes {
+        [(name, _)] => format!("the plane {name}"),
+        _ => "one of the planes xz, yz and xy".into(),
+    };
     match odd {
         Some(solid) => format!(
-            "block {} is not a prism perpendicular to one of the planes xz, yz and xy: exactly two of its faces must be \
-             parallel to this plane and have the same outline",
+            "block {} is not a prism perpendicular to {which}: exactly two of its faces must be parallel to this plane \
+             and have the same outline",
             crate::text::line(&solid.name)
         ),
         None => "its blocks are prisms, but perpendicular to different planes".into(),
@@ -201,7 +228,7 @@ mod tests {
 
     #[test]
     fn prisms_are_imported_as_their_sections() {
-        let (scene, _) = read(&assembly(block(0.25, 1.0, 0.0)), &Options::default()).expect("prisms");
+        let (scene, _) = read(&assembly(block(0.25, 1.0, 0.0)), &Options::default(), &PLANES).expect("prisms");
         assert_eq!((scene.blocks.len(), scene.ground.len()), (1, 1));
         assert_eq!(scene.thickness, Some(0.5));
         let corners = scene.blocks[0].polygon.clone().expect("an outline");
@@ -210,8 +237,8 @@ mod tests {
 
     #[test]
     fn a_block_that_is_not_a_prism_is_reported_by_name() {
-        let problems =
-            read(&assembly(block(0.0, 1.0, 0.3)), &Options::default()).expect_err("a block that is not a prism");
+        let problems = read(&assembly(block(0.0, 1.0, 0.3)), &Options::default(), &PLANES)
+            .expect_err("a block that is not a prism");
         assert!(problems[0].message.contains("block 1 is not a prism"), "{problems:?}");
     }
 }

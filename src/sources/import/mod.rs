@@ -35,11 +35,14 @@ mod stone;
 mod subpath;
 mod wkt;
 
+#[cfg(feature = "python")]
+pub(crate) use compas::sections;
 pub use draft::Remark;
 pub use stone::{STONES, Stone};
 
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::SceneFile;
+use crate::text::first_of;
 use draft::{Draft, PartGeometry, Role};
 use naming::Naming;
 use outline::Outlines;
@@ -51,6 +54,8 @@ const LENGTH_TOL: f64 = 1e-3;
 /// The largest default gap, as a fraction of the thickness of the thinnest body. Both faces of a body may move, so
 /// the body keeps half its thickness.
 const MAX_GAP_TO_THICKNESS: f64 = 0.25;
+/// The largest number of names that a message lists.
+const MAX_NAMES: usize = 8;
 
 /// The format of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,7 +205,7 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     }
     match format {
         Format::Contacts => complete(contact_list::read(text, options)),
-        Format::Compas => complete(compas::read(text, options)),
+        Format::Compas => complete(compas::read(text, options, &compas::PLANES)),
         _ => {
             let draft = with_ground(text, format, options).map_err(refused)?;
             build_scene(draft, options)
@@ -240,7 +245,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
         let help = match (near, names.is_empty()) {
             (Some(near), _) => format!("did you mean `{near}`?"),
             (None, true) => "nothing in the drawing has a name".into(),
-            (None, false) => format!("its names are {}", listed(&names)),
+            (None, false) => format!("its names are {}", first_of(names, MAX_NAMES)),
         };
         return Err(format!("no layer or element is called `{missing}`; {help}"));
     }
@@ -253,7 +258,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
         draft = guessed;
         draft.notes.push(format!(
             "taken as ground by name: {}; nothing in the drawing has a name that begins with ground",
-            listed(&guess.made_ground())
+            first_of(guess.made_ground(), MAX_NAMES)
         ));
     } else if draft.parts.iter().any(|p| p.kind == Role::Block) {
         let names = naming.seen();
@@ -261,7 +266,7 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
             true => "give the ground's layer or outline a name that begins with ground".into(),
             false => format!(
                 "give the name of its layer or outline with --ground-layer, or let it begin with ground; the drawing has {}",
-                listed(&names)
+                first_of(names, MAX_NAMES)
             ),
         };
         draft.remark("", "no part of the drawing is ground, so nothing supports the blocks", help);
@@ -287,15 +292,6 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
         }
         Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
         Format::Contacts | Format::Compas => Err("it is not a drawing".into()),
-    }
-}
-
-/// Returns at most eight names, separated by commas, and the number of the others.
-fn listed(names: &[String]) -> String {
-    let shown: Vec<&str> = names.iter().take(8).map(String::as_str).collect();
-    match names.len() - shown.len() {
-        0 => shown.join(", "),
-        more => format!("{} and {more} more", shown.join(", ")),
     }
 }
 

@@ -36,9 +36,9 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
 
 /// Returns the CSV row of a scene that is not valid. The row contains only the first problem of the scene.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
-    let words = problems.first().map_or(String::new(), |problem| match (problem.line, problem.message.is_empty()) {
-        (0, _) => problem.message.clone(),
-        (line, _) => format!("line {line}: {}", problem.message),
+    let words = problems.first().map_or(String::new(), |problem| match problem.line {
+        0 => problem.message.clone(),
+        line => format!("line {line}: {}", problem.message),
     });
     let between = ",".repeat(HEADER.matches(',').count() - 1);
     format!("{}{between}{}\n", place(origin), cell(&words))
@@ -51,8 +51,5 @@ fn place(origin: &Origin) -> String {
 }
 
 fn cell(words: &str) -> String {
-    match words.is_empty() {
-        true => String::new(),
-        false => text::csv(words),
-    }
+    if words.is_empty() { String::new() } else { text::csv(words) }
 }

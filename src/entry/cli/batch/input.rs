@@ -40,17 +40,18 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
     if !complaints.is_empty() {
         return Err(complaints);
     }
-    let sizes = files.iter().map(|path| match path == stdin {
-        // If a shell redirects a file to standard input, `/dev/stdin` has the size of this file. On systems without
-        // `/dev/stdin`, the size is unknown.
-        true => size(Path::new("/dev/stdin")),
-        false => size(path),
-    });
+    // If a shell redirects a file to standard input, `/dev/stdin` has the size of this file. On systems without
+    // `/dev/stdin`, the size is unknown.
+    let sizes = files.iter().map(|path| size(if path == stdin { Path::new("/dev/stdin") } else { path }));
     let bytes = sizes.sum();
-    let list = files.iter().map(|path| match path == stdin {
-        true => Input::lines(None, Box::new(io::stdin())),
-        false if is_whole(path) => Input::Whole(path.clone()),
-        false => Input::Lines { file: Some(path.clone()), reader: None },
+    let list = files.iter().map(|path| {
+        if path == stdin {
+            Input::lines(None, Box::new(io::stdin()))
+        } else if is_whole(path) {
+            Input::Whole(path.clone())
+        } else {
+            Input::Lines { file: Some(path.clone()), reader: None }
+        }
     });
     Ok(Inputs { list: list.collect(), bytes, files })
 }
@@ -109,7 +110,7 @@ fn is_scenes(path: &Path) -> bool {
 /// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
 /// Returns an error if nothing is at `path`, or if the folder has no scene files.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let not_read = |why: String| CliError::NotRead { what: path.display().to_string(), why };
+    let not_read = |why: String| CliError::not_read(path.display(), why);
     if path == Path::new("-") {
         return Ok(vec![path.to_owned()]);
     }
@@ -126,10 +127,10 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
         }
     }
     files.sort();
-    match files.is_empty() {
-        true => Err(not_read("the folder has no .json, .ndjson or .jsonl file".into())),
-        false => Ok(files),
+    if files.is_empty() {
+        return Err(not_read("the folder has no .json, .ndjson or .jsonl file".into()));
     }
+    Ok(files)
 }
 
 /// Returns errors for input files whose pictures would have the same name. Each error names two of these files.

@@ -56,8 +56,7 @@ impl Output {
             let (file, log) = resume::reopen(path, &checked)?;
             return Ok(Output { resume: Some(log), done: checked.answers, ..Output::new(Box::new(file), Some(path)) });
         }
-        let not_written =
-            |error: io::Error| CliError::NotWritten { what: path.display().to_string(), why: error.to_string() };
+        let not_written = |error: io::Error| CliError::not_written(path.display(), error);
         let file = File::create(path).map_err(not_written)?;
         if target.form == Form::Csv {
             let mut output = Output::new(Box::new(file), Some(path));
@@ -66,10 +65,7 @@ impl Output {
         }
         // A device or a pipe does not store the answers, so a later run could not continue them.
         let is_kept = file.metadata().map_err(not_written)?.is_file();
-        let log = match is_kept {
-            true => Some(ResumeFile::create(path, &target.settings)?),
-            false => None,
-        };
+        let log = if is_kept { Some(ResumeFile::create(path, &target.settings)?) } else { None };
         Ok(Output { resume: log, ..Output::new(Box::new(file), Some(path)) })
     }
 
@@ -96,10 +92,7 @@ impl Output {
         if let Some(resume) = &mut self.resume {
             resume.push(scene, line);
         }
-        match self.waiting.len() >= BUFFER_BYTES {
-            true => self.flush(),
-            false => Ok(ControlFlow::Continue(())),
-        }
+        if self.waiting.len() >= BUFFER_BYTES { self.flush() } else { Ok(ControlFlow::Continue(())) }
     }
 
     /// Writes all lines that are still in memory. Returns `Break` if the reader of standard output has closed the pipe.
@@ -113,7 +106,7 @@ impl Output {
             Ok(()) => Ok(ControlFlow::Continue(())),
             // A reader closes the pipe when it has read enough, so this is not an error.
             Err(error) if self.is_stdout && error.kind() == io::ErrorKind::BrokenPipe => Ok(ControlFlow::Break(())),
-            Err(error) => Err(CliError::NotWritten { what: self.name.clone(), why: error.to_string() }),
+            Err(error) => Err(CliError::not_written(&self.name, error)),
         }
     }
 }

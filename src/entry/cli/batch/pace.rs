@@ -7,6 +7,7 @@ use std::time::Duration;
 use crate::clock::Instant;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::between;
 use crate::mechanics::analysis::Verdict;
 use crate::products::wording::verdict::counted;
 
@@ -136,10 +137,7 @@ fn span(seconds: f64) -> String {
 
 /// Parses the interval between two progress reports, in seconds.
 pub(super) fn seconds(typed: &str) -> Result<f64, String> {
-    match typed.parse::<f64>() {
-        Ok(seconds) if (0.01..=86_400.0).contains(&seconds) => Ok(seconds),
-        _ => Err("give a time in seconds, from 0.01 to 86400".into()),
-    }
+    between(typed, [0.01, 86_400.0], || "give a time in seconds, from 0.01 to 86400".into())
 }
 
 #[cfg(test)]

@@ -133,11 +133,11 @@ fn entry(scene: u64, line: &[u8]) -> String {
 }
 
 fn not_written(path: &Path, error: &io::Error) -> CliError {
-    CliError::NotWritten { what: path.display().to_string(), why: error.to_string() }
+    CliError::not_written(path.display(), error)
 }
 
 fn not_read(path: &Path, error: &io::Error) -> CliError {
-    CliError::NotRead { what: path.display().to_string(), why: error.to_string() }
+    CliError::not_read(path.display(), error)
 }
 
 /// The answers that an earlier run has written, checked against the scenes in the input.
@@ -268,10 +268,11 @@ pub(super) fn has_content(output: &Path) -> Result<bool, CliError> {
     match fs::metadata(output) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(not_read(output, &error)),
-        Ok(found) if !found.is_file() => Err(CliError::CommandLine(format!(
+        Ok(found) if !found.is_file() => Err(format!(
             "{} is not a file, so --resume cannot read the answers it has; leave out --resume",
             output.display()
-        ))),
+        )
+        .into()),
         Ok(found) => Ok(found.len() > 0),
     }
 }

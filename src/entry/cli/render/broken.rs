@@ -1,16 +1,14 @@
 //! `drystone render --broken`: draws the outlines of a scene that is not valid, and marks its problems.
 
-use std::fs;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::Render;
-use super::target::paths;
+use super::output::paths;
 use crate::entry::cli::destination::{self, Destination};
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::Format;
-use crate::entry::cli::source::{isolated, name};
+use crate::entry::cli::source::{self, isolated, name};
 use crate::entry::cli::terminal::Terminal;
 use crate::mechanics::scene::Sketch;
 use crate::pictures::output::file::Existing;
@@ -27,18 +25,17 @@ impl Render {
         fonts: &Fonts,
         terminal: &Terminal,
     ) -> Result<ExitStatus, Vec<CliError>> {
-        let one = |complaint| vec![complaint];
-        let options = self.options(self.look.theme().map_err(one)?);
+        let options = self.draw.options()?;
         let targets: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
-        let paths = paths(destination, &targets, format).map_err(one)?;
-        let inputs: Vec<&Path> = targets.iter().copied().chain(self.look.file()).collect();
-        destination::refuse_overwrites(&paths, &inputs).map_err(one)?;
+        let paths = paths(destination, &targets, format)?;
+        let inputs: Vec<&Path> = targets.iter().copied().chain(self.draw.look.file()).collect();
+        destination::refuse_overwrites(&paths, &inputs)?;
 
         let mut pictures = Vec::new();
         let mut complaints = Vec::new();
         let mut drawn: Vec<PathBuf> = Vec::new();
         for (path, target) in scenes.iter().zip(&targets_of(&paths, scenes.len())) {
-            match self.sketch(path, &options, format, fonts).map_err(one)? {
+            match self.sketch(path, &options, format, fonts)? {
                 Ok((sketch, picture)) => {
                     drawn.push(target.clone());
                     pictures.push(picture);
@@ -49,7 +46,7 @@ impl Render {
                 Err(fault) => complaints.push(fault),
             }
         }
-        self.write_sketches(destination, drawn, pictures, terminal).map_err(one)?;
+        self.write_sketches(destination, drawn, pictures, terminal)?;
         if complaints.is_empty() { Ok(ExitStatus::Done) } else { Err(complaints) }
     }
 
@@ -62,11 +59,11 @@ impl Render {
         format: Format,
         fonts: &Fonts,
     ) -> Result<Result<(Sketch, Vec<u8>), CliError>, CliError> {
-        let bytes = read(path).map_err(|error| CliError::NotRead { what: name(path), why: error.to_string() })?;
+        let bytes = source::bytes(path)?;
         let sketched = isolated(path, || {
-            let sketch = Sketch::from_bytes(&bytes, self.level.contact_tolerance);
+            let sketch = Sketch::from_bytes(&bytes, self.draw.figure.level.contact_tolerance);
             let drawing = figure::broken(&sketch, options);
-            let picture = self.picture.bytes(drawing, format, fonts)?;
+            let picture = self.draw.picture.bytes(drawing, format, fonts)?;
             Ok((sketch, picture))
         });
         match sketched {
@@ -106,13 +103,4 @@ fn targets_of(paths: &[PathBuf], count: usize) -> Vec<PathBuf> {
     let mut paths = paths.to_vec();
     paths.resize(count, PathBuf::new());
     paths
-}
-
-fn read(path: &Path) -> io::Result<Vec<u8>> {
-    if path != Path::new("-") {
-        return fs::read(path);
-    }
-    let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

@@ -1,17 +1,47 @@
-//! Writes rendered figures to files or to standard output.
+//! Chooses the files for figures, one for each scene or one for each part of a figure, and writes them.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::Render;
-use super::target::part_path;
 use crate::entry::cli::destination::{self, Destination};
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::picture::Format;
+use crate::entry::cli::source::{name, stem};
 use crate::entry::cli::terminal::Terminal;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::pictures::output::file::Existing;
 use crate::products::figure;
-use crate::products::wording::verdict::{counted, plain};
+use crate::products::wording::verdict::{plain, tally};
+
+/// Returns the path of one part of a figure: `name-a.svg` for the figure `name.svg` and the part `a`.
+fn part_path(path: &Path, part: &str) -> PathBuf {
+    let text = |part: Option<&OsStr>| part.map(|p| p.to_string_lossy().into_owned());
+    let stem = text(path.file_stem()).unwrap_or_default();
+    let ending = text(path.extension()).map_or_else(String::new, |e| format!(".{e}"));
+    path.with_file_name(format!("{stem}-{part}{ending}"))
+}
+
+/// Returns the path of each scene's figure, in the order of the scenes. The list is empty for standard output.
+pub(super) fn paths(destination: &Destination, scenes: &[&Path], format: Format) -> Result<Vec<PathBuf>, CliError> {
+    match destination {
+        Destination::Stdout => Ok(Vec::new()),
+        Destination::File(path) => Ok(vec![path.clone()]),
+        Destination::Folder(folder) => {
+            let mut paths: Vec<PathBuf> = Vec::new();
+            for scene in scenes {
+                let path = folder.join(format!("{}.{}", stem(scene), format.ending()));
+                if let Some(first) = paths.iter().position(|p| *p == path) {
+                    let (a, b, shown) = (name(scenes[first]), name(scene), path.display());
+                    return Err(format!("{a} and {b} would both become {shown}; rename one").into());
+                }
+                paths.push(path);
+            }
+            Ok(paths)
+        }
+    }
+}
 
 /// A figure, with the exit status and a summary of its scene.
 pub(super) struct Rendered {
@@ -117,17 +147,9 @@ pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<Cl
 /// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`. For a single frame, returns only
 /// its verdict.
 pub(super) fn summary(analysis: &Analysis) -> String {
-    let count = |verdict| analysis.frames.iter().filter(|f| f.verdict == verdict).count();
-    let parts: Vec<String> = [Verdict::Stable, Verdict::Unstable, Verdict::Undecided]
-        .into_iter()
-        .filter(|v| count(*v) > 0)
-        .map(|v| match analysis.frames.len() {
-            1 => plain(v).into(),
-            _ => counted(count(v), v),
-        })
-        .collect();
-    match analysis.frames.len() {
-        1 => parts.join(", "),
-        n => format!("{n} frames: {}", parts.join(", ")),
+    let verdicts: Vec<Verdict> = analysis.frames.iter().map(|frame| frame.verdict).collect();
+    match verdicts.as_slice() {
+        [one] => plain(*one).into(),
+        several => format!("{} frames: {}", several.len(), tally(several)),
     }
 }

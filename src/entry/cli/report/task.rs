@@ -21,7 +21,7 @@ impl Report {
         }
         if self.scenes.iter().filter(|p| *p == Path::new("-")).count() > 1 {
             let why = "standard input (-) can be read only once";
-            return Err(vec![CliError::CommandLine(why.into())]);
+            return Err(vec![CliError::from(why)]);
         }
         let mut tasks = Vec::new();
         let mut complaints = Vec::new();
@@ -43,15 +43,14 @@ impl Report {
     }
 
     fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
-        let refuse = |why: &str| vec![CliError::CommandLine(why.into())];
+        let refuse = |why: &str| vec![CliError::from(why)];
         let [a, b] = self.scenes.as_slice() else {
             return Err(refuse("--compare needs two scenes, or two folders of scenes"));
         };
         match (a.is_dir(), b.is_dir()) {
             (false, false) => Ok((vec![Task::Two([a.clone(), b.clone()])], Vec::new())),
             (true, true) => {
-                let one = |complaint| vec![complaint];
-                let (first, second) = (below(a).map_err(one)?, below(b).map_err(one)?);
+                let (first, second) = (below(a)?, below(b)?);
                 let mut tasks = Vec::new();
                 let mut notes = Vec::new();
                 for path in &first {
@@ -96,17 +95,14 @@ impl Task {
 /// Returns all `.json` files in a folder and its subfolders, sorted by path. Links to folders are not followed: they
 /// may form a cycle.
 fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let unread = |path: &Path, error: &std::io::Error| CliError::NotRead {
-        what: path.display().to_string(),
-        why: error.to_string(),
-    };
+    let unread = |path: &Path, error: std::io::Error| CliError::not_read(path.display(), error);
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
-        let entries = fs::read_dir(&folder).map_err(|e| unread(&folder, &e))?;
+        let entries = fs::read_dir(&folder).map_err(|e| unread(&folder, e))?;
         for entry in entries {
-            let entry = entry.map_err(|e| unread(&folder, &e))?;
-            let kind = entry.file_type().map_err(|e| unread(&entry.path(), &e))?;
+            let entry = entry.map_err(|e| unread(&folder, e))?;
+            let kind = entry.file_type().map_err(|e| unread(&entry.path(), e))?;
             let path = entry.path();
             let json = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
             if kind.is_dir() {

@@ -8,6 +8,10 @@ use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::wedging::Wedging;
 use crate::mechanics::wedge::{SelfStress, SelfStressCheck, check_self_stress};
+use crate::text::first_of;
+
+/// The largest number of blocks, and of contacts, that a sentence names.
+const MAX_NAMES: usize = 4;
 
 /// Checks whether some component stands only by wedging. Returns the answer, the outcome for the effect report, and
 /// the proof. The answer is `None` if some components are undecided and none is proved to stand only by wedging.
@@ -60,23 +64,15 @@ fn describe<'n>(
     face: impl Fn(usize) -> String,
 ) -> String {
     let moving = self_stress.moving_blocks().map(|block| body(block).to_string());
-    let mut words = format!("as the springs give way, these blocks move: {}", first_names(moving));
+    let mut words =
+        format!("as the springs give way, these blocks move: {}", first_of(moving.collect::<Vec<String>>(), MAX_NAMES));
     if self_stress.presses_nothing {
         words.push_str(" (they press no contact)");
     }
-    let faces = first_names(self_stress.contacts.iter().map(|contact| face(*contact)));
+    let faces = first_of(self_stress.contacts.iter().map(|contact| face(*contact)), MAX_NAMES);
     if let Some(least) = self_stress.least_normal_sum.filter(|least| *least > 0.0) {
         words.push_str(&format!("; in every balance, the normal forces at {faces} sum to {} or more", force(least)));
     }
     words.push_str(&format!("; cases of pressing and sliding ruled out: {}", self_stress.ruled_out.len()));
     words
-}
-
-/// Returns the first four names and the number of the other names, such as `a, b, c, d and 2 more`.
-fn first_names(names: impl Iterator<Item = String>) -> String {
-    let names: Vec<String> = names.collect();
-    match names.len() {
-        0..=4 => names.join(", "),
-        n => format!("{} and {} more", names[..4].join(", "), n - 4),
-    }
 }

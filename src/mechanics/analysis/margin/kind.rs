@@ -1,6 +1,8 @@
 //! [`MarginKind`]: a kind of margin, such as friction or tilt. [`MarginKinds`]: a set of kinds, such as the requested
 //! margins.
 
+use crate::text::Word;
+
 /// A kind of margin. Tilt and horizontal load have one margin to each side, and robots have one margin for each limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -52,6 +54,26 @@ impl MarginKind {
             MarginKind::LoadFactor => "load_factor",
             MarginKind::Robots => "robots",
         }
+    }
+}
+
+/// Names a margin for users: with hyphens, or with underscores as in results.
+impl Word for MarginKind {
+    fn all() -> Vec<MarginKind> {
+        MarginKind::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            MarginKind::HorizontalLoad => "horizontal-load",
+            MarginKind::LoadFactor => "load-factor",
+            kind => MarginKind::word(kind),
+        }
+    }
+
+    fn alias(self) -> Option<&'static str> {
+        let name = MarginKind::word(self);
+        (name != Word::word(self)).then_some(name)
     }
 }
 

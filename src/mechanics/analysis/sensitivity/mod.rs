@@ -65,9 +65,7 @@ impl Analysis {
         let found = match known.filter(|known| known.kind == kind) {
             Some(known) => known.clone(),
             None => {
-                let mut scene = Scene::clone(&self.scene);
-                let own = scene.frames.get(frame).cloned();
-                scene.frames = vec![own.ok_or(NoSensitivity::NotApplicable)?];
+                let scene = self.scene.alone(frame).ok_or(NoSensitivity::NotApplicable)?;
                 let analysis = Analysis::with(scene, &Options::default().sensitivity(kind));
                 let mut frames = analysis.frames.into_iter();
                 let first = frames.next().and_then(|frame| frame.sensitivity);

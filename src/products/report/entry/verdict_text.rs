@@ -38,7 +38,7 @@ pub(super) fn fails_first(analysis: &Analysis, number: usize) -> Option<String> 
         Verdict::Unstable => {
             let mut said: Vec<String> = unsupported_phrase(scene, frame_analysis).into_iter().collect();
             // Use the elementary mechanism, because the figure shows it too.
-            let shown = with_only_frame(analysis, number).elementary();
+            let shown = analysis.alone(number)?.elementary();
             said.extend(collapse(analysis, number, &shown.frames[0].mechanism));
             (!said.is_empty()).then(|| line(&format!("{}.", said.join("; "))))
         }
@@ -71,7 +71,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     if mechanism.is_empty() {
         return None;
     }
-    let mut moved = with_only_frame(analysis, number);
+    let mut moved = analysis.alone(number)?;
     moved.frames[0].mechanism = mechanism.to_vec();
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
     let moving_joints = joints(&moved, 0);
@@ -102,11 +102,6 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     let verb = if moving == 1 { "moves" } else { "move" };
     let blocks = format!("{} {verb}", counted(moving, "block"));
     Some(if said.is_empty() { blocks } else { format!("{blocks}, with {}", said.join(", and ")) })
-}
-
-/// Makes an analysis that contains only the frame with index `number`.
-fn with_only_frame(analysis: &Analysis, number: usize) -> Analysis {
-    Analysis { scene: analysis.scene.clone(), frames: vec![analysis.frames[number].clone()], notes: Vec::new() }
 }
 
 /// Describes which changes of loads, friction or gravity would change the verdict, or states that none would. Returns

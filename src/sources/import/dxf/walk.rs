@@ -16,6 +16,7 @@ use crate::sources::import::limit::{MAX_BODIES, too_many};
 use crate::sources::import::naming::Naming;
 use crate::sources::import::stone::Stone;
 use crate::sources::import::subpath::Subpath;
+use crate::text::and_more;
 
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
@@ -268,9 +269,9 @@ impl<'d> DxfWalk<'d> {
         let Some(first) = chained.left.first() else {
             return;
         };
-        let more = match chained.left.len() {
-            1 => String::new(),
-            n => format!(" and {} more on layer {}", n - 1, crate::text::heading(layer, 60)),
+        let more = match and_more(chained.left.len() - 1) {
+            none if none.is_empty() => none,
+            more => format!("{more} on layer {}", crate::text::heading(layer, 60)),
         };
         let (why, help) = match chained.branch {
             Some(at) => (

@@ -1,0 +1,579 @@
+//! What a user asks for, on the command line and in the JSON that Python and JavaScript send. Each option is declared
+//! once: its name, its help, and how its value is read.
+
+use std::str::FromStr;
+use std::time::Duration;
+
+use crate::clock::Instant;
+use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
+use crate::mechanics::scene::{BlockId, Scene, SceneError};
+use crate::pictures::drawing::{Colour, Drawing, Theme};
+use crate::products::figure::{self, FREEBODY, FREEBODY_HELP, Kind};
+use crate::read::{Dialect, Given, requested};
+use crate::text::Word;
+
+request! {
+    /// How strict, how long and with which contacts a scene is analysed.
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct AnalysisArgs(given) {
+        /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces
+        /// and 1000 for motions
+        accuracy: Accuracy = given.word("accuracy").unwrap_or_default(),
+            arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser());
+        /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
+        /// from rest
+        wedging: bool = given.flag("wedging"), arg(long);
+        /// Edges within this many metres touch, and bodies may overlap by up to this depth. It replaces the scene's
+        /// `contact_tolerance`, or the value that is estimated from its coordinates
+        contact_tolerance: Option<f64> = given.value("contact_tolerance", length),
+            arg(long, value_name = "METRES", value_parser = length);
+        /// Stop solving after this many seconds; frames that are not decided by then are undecided
+        time_limit: Option<Duration> = given.value("time_limit", seconds),
+            arg(long, value_name = "SECONDS", value_parser = seconds);
+    }
+}
+
+request! {
+    /// Whether margins are computed, and which.
+    #[derive(Clone, Debug)]
+    pub(crate) struct MarginArgs(given) {
+        /// Compute how far each frame is from its limit: least friction, largest tilt, horizontal load, kernel and
+        /// factor on the loads, least limits of robots; or only some of these, such as friction,tilt
+        margins: Option<Vec<MarginKind>> = given.all_or_some("margins"),
+            arg(long, value_parser = crate::text::typed_word::<MarginKind>(), value_name = "LIST",
+                value_delimiter = ',', num_args = 0.., require_equals = true);
+    }
+}
+
+request! {
+    /// The block whose capacity is computed, and the ranges for which it must carry the forces.
+    #[derive(Clone, Debug)]
+    pub(crate) struct CapacityArgs(given) {
+        /// Compute all forces that a block can carry in addition to the forces that already act: BLOCK at its centroid
+        /// (or the force of the robot that holds it), BLOCK@x,y at a point, BLOCK@x,y..x,y at two points, as their
+        /// resultant
+        capacity: Option<String> = given.text("capacity"), arg(long, value_name = "BLOCK[@x,y]");
+        /// With --capacity: only forces that the block can carry for all values in these ranges, such as
+        /// tilt=±2,horizontal=±0.05,friction=0.5..0.7
+        for_all: Option<String> = given.text("for_all"),
+            arg(long, value_name = "RANGES", requires = "capacity", allow_hyphen_values = true);
+    }
+}
+
+request! {
+    /// What an analysis computes, and of which frame.
+    #[derive(Clone, Debug)]
+    pub(crate) struct CheckArgs(given) {
+        margins: MarginArgs = MarginArgs::read(given), command(flatten);
+        /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the
+        /// largest effect; --json has them all
+        sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
+            arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
+        capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
+        verdict_only: bool = given.flag("verdict_only"), arg(long);
+        /// Leave out notes about allowed input that is rarely intended; a scene silences single notes with "silence":
+        /// ["code"]
+        no_notes: bool = given.flag("no_notes"), arg(long);
+        /// Analyse only one frame: its number from 1, its letter in the strip, or last
+        frame: Option<FrameChoice> = given.value("frame", str::parse), arg(long, value_name = "N");
+        level: AnalysisArgs = AnalysisArgs::read(given), command(flatten);
+    }
+}
+
+/// A frame, counted from 0, and the block in it that a free-body diagram shows.
+pub(crate) type FreeBody = (usize, BlockId);
+
+request! {
+    /// What a figure shows.
+    #[derive(Clone, Debug)]
+    pub(crate) struct FigureArgs(given) {
+        /// What the figure shows
+        kind: KindChoice = given.word("kind").unwrap_or_default(),
+            arg(long, default_value = "forces", value_parser = crate::text::typed_word::<KindChoice>());
+        /// The id of the block of a free-body diagram
+        block: Option<String> = given.text("block"), arg(long, value_name = "ID");
+        capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        /// The margin of --kind margin [default: tilt] or --kind sensitivity [default: load-factor if there are loads,
+        /// otherwise tilt]
+        margin: Option<SensitivityMargin> = given.word("margin"),
+            arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
+        /// Show only the neighbourhood of the block with this id
+        zoom: Option<String> = given.text("zoom"), arg(long, value_name = "ID");
+        options: figure::Options = figure::Options::read(given), command(flatten);
+        level: AnalysisArgs = AnalysisArgs::read(given), command(flatten);
+    }
+}
+
+/// Reads what a user asks for from the text of a JSON object. Without text, every option has its default value. The
+/// error contains all problems, each with its key and a remedy.
+pub(crate) fn read_json<T>(text: Option<&str>, read: impl Fn(&mut Given<'_, '_>) -> T) -> Result<T, String> {
+    requested(text.unwrap_or("{}"), &Dialect::plain("options"), read).map_err(|mut problems| {
+        // The text was written by a program, so lines and columns would mean nothing.
+        problems.0.iter_mut().for_each(|problem| problem.line = 0);
+        problems.to_string()
+    })
+}
+
+/// Returns a message about options with the names that JSON has for them: `for_all` instead of `--for-all`.
+pub(crate) fn in_json(message: &str) -> String {
+    let name = |word: &str| word.strip_prefix("--").map_or_else(|| word.to_owned(), |name| name.replace('-', "_"));
+    message.split(' ').map(name).collect::<Vec<_>>().join(" ")
+}
+
+/// Why a scene was not analysed or drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Refused {
+    /// The scene is not valid.
+    Scene(SceneError),
+    /// An option does not fit the scene; the text is the message.
+    Option(String),
+}
+
+impl From<SceneError> for Refused {
+    fn from(problems: SceneError) -> Refused {
+        Refused::Scene(problems)
+    }
+}
+
+impl From<String> for Refused {
+    fn from(why: String) -> Refused {
+        Refused::Option(in_json(&why))
+    }
+}
+
+impl AnalysisArgs {
+    /// Reads the text of a scene. With `frame`, the scene keeps only this frame.
+    pub(crate) fn scene(self, text: &str, frame: Option<FrameChoice>) -> Result<Scene, Refused> {
+        let scene = Scene::from_json_within(text, self.contact_tolerance)?;
+        Ok(match frame {
+            Some(frame) => frame.of(&scene, "the scene")?,
+            None => scene,
+        })
+    }
+
+    /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies. The
+    /// time limit starts at this call.
+    pub(crate) fn options(self) -> analysis::Options {
+        analysis::Options {
+            accuracy: self.accuracy,
+            wedging: self.wedging,
+            deadline: self.time_limit.and_then(|limit| Instant::now().checked_add(limit)),
+            ..analysis::Options::default()
+        }
+    }
+
+    /// Returns the name and the value of each option. A resume file records these values, because the results of a
+    /// batch depend on them.
+    #[cfg(feature = "cli")]
+    pub(crate) fn described(self) -> [(&'static str, String); 4] {
+        let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
+        let limit = self.time_limit.map(|limit| format!("{limit:?}"));
+        [
+            ("--accuracy", self.accuracy.word().to_owned()),
+            ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
+            ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
+            ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
+        ]
+    }
+}
+
+impl MarginArgs {
+    /// Adds the requested margins to the options of an analysis. An empty list means all margins.
+    pub(crate) fn add_to(&self, options: analysis::Options) -> analysis::Options {
+        let kinds = match self.margins.as_deref() {
+            None => return options,
+            Some([]) => MarginKinds::ALL,
+            Some(list) => MarginKinds::new(list),
+        };
+        options.margins(true).margin_kinds(kinds)
+    }
+
+    /// Returns the requested margins as text: `none`, `all`, or their names separated by commas.
+    #[cfg(feature = "cli")]
+    pub(crate) fn described(&self) -> String {
+        match self.margins.as_deref() {
+            None => "none".into(),
+            Some([]) => "all".into(),
+            Some(list) => list.iter().map(|kind| Word::word(*kind)).collect::<Vec<_>>().join(","),
+        }
+    }
+}
+
+impl CapacityArgs {
+    /// Adds the block and the ranges to the options of an analysis. Without a block, the options stay unchanged.
+    pub(crate) fn add_to(&self, options: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
+        match (&self.capacity, self.for_all.as_deref()) {
+            (None, None) => Ok(options),
+            (None, Some(_)) => {
+                Err("--for-all limits the forces that a block can carry, so it needs --capacity too".into())
+            }
+            (Some(typed), for_all) => Ok(options.capacity(typed_capacity(scene, typed, for_all)?)),
+        }
+    }
+}
+
+impl CheckArgs {
+    /// Returns the options of the analysis that do not depend on the scene. The time limit starts at this call.
+    pub(crate) fn base(&self) -> analysis::Options {
+        let mut options = self.margins.add_to(self.level.options()).verdict_only(self.verdict_only);
+        options.sensitivity = self.sensitivity.map(|margin| margin.0);
+        options
+    }
+
+    /// Reads the text of a scene, with the frame that is chosen, and analyses it.
+    pub(crate) fn analysis(&self, text: &str) -> Result<Analysis, Refused> {
+        let scene = self.level.scene(text, self.frame)?;
+        let options = self.capacity.add_to(self.base(), &scene)?;
+        let mut analysis = Analysis::with(scene, &options);
+        if self.no_notes {
+            analysis.notes.clear();
+        }
+        Ok(analysis)
+    }
+}
+
+impl FigureArgs {
+    /// Refuses options that do not fit the kind of figure.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let is_freebody = self.kind == KindChoice::Freebody;
+        if self.block.is_some() && !is_freebody {
+            return Err("--block names the block of a free-body diagram; add --kind freebody".into());
+        }
+        if self.options.corners == figure::Corners::All && !is_freebody {
+            return Err("--corners applies to the forces of a free-body diagram; add --kind freebody".into());
+        }
+        Ok(())
+    }
+
+    /// Returns `base` with the block of the capacity and its ranges. If the figure shows the sensitivity of a margin,
+    /// the options also name this margin.
+    pub(crate) fn add_to(&self, base: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
+        let mut options = self.capacity.add_to(base, scene)?;
+        if self.kind.needs(Kind::needs_sensitivity) {
+            options.sensitivity = self.margin.map(|margin| margin.0);
+        }
+        Ok(options)
+    }
+
+    /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that the figure shows.
+    pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options) -> Analysis {
+        match self.kind {
+            KindChoice::Panels(kind) => kind.analysed(scene, options),
+            KindChoice::Freebody => Analysis::with(scene, options),
+        }
+    }
+
+    /// Returns an analysis with all results that the figure shows: the given one, or a new one of the same scene if it
+    /// lacks some.
+    #[cfg(any(feature = "python", feature = "wasm"))]
+    pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
+        let options = self.add_to(analysis::Options::default(), &analysis.scene)?;
+        Ok(match self.kind {
+            KindChoice::Panels(kind) if kind.lacks(analysis, &options) => kind.analysed(&analysis.scene, &options),
+            _ => analysis.clone(),
+        })
+    }
+
+    /// Returns the options of the figure of a scene, in a theme and on a page of this width in pixels.
+    pub(crate) fn options(&self, theme: Theme, width: Option<f64>) -> Result<figure::Options, String> {
+        let toward = match self.margin.map(|margin| Toward::from_margin(margin.0)) {
+            Some(None) if self.kind.needs(Kind::needs_margins) => {
+                return Err("--kind margin cannot show the margins friction and kernel; use --kind sensitivity".into());
+            }
+            toward => toward.flatten().unwrap_or_default(),
+        };
+        Ok(figure::Options { toward, theme, width, ..self.options.clone() })
+    }
+
+    /// Returns the options with the block that the option `zoom` names.
+    pub(crate) fn zoomed(&self, options: &figure::Options, scene: &Scene) -> Result<figure::Options, String> {
+        let zoom = self.zoom.as_deref().map(|name| figure::named_block(scene, name)).transpose()?;
+        Ok(figure::Options { zoom, ..options.clone() })
+    }
+
+    /// Finds the block of a free-body diagram, and the frame that shows it; `None` for a figure with panels.
+    pub(crate) fn free(&self, scene: &Scene) -> Result<Option<FreeBody>, String> {
+        let is_free = self.kind == KindChoice::Freebody;
+        is_free.then(|| figure::free_block(scene, self.block.as_deref())).transpose()
+    }
+
+    /// Draws an analysis that has all results for the figure. `free` is the block of a free-body diagram.
+    pub(crate) fn drawing(&self, analysis: &Analysis, free: Option<FreeBody>, options: &figure::Options) -> Drawing {
+        match free {
+            Some((frame, block)) => {
+                let drawing = figure::freebody(analysis, frame, block, options);
+                drawing.expect("the block was found in this frame")
+            }
+            None => figure::draw(analysis, self.kind.panels().unwrap_or_default(), options),
+        }
+    }
+}
+
+/// A kind of figure with panels, or the free-body diagram of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum KindChoice {
+    /// A figure with a panel for each frame.
+    Panels(Kind),
+    /// A free-body diagram, which has no panels.
+    Freebody,
+}
+
+impl KindChoice {
+    /// Returns the kind of the panels; `None` for a free-body diagram.
+    pub(crate) fn panels(self) -> Option<Kind> {
+        match self {
+            KindChoice::Panels(kind) => Some(kind),
+            KindChoice::Freebody => None,
+        }
+    }
+
+    /// True if the figure has panels, and `needs` is true for their kind.
+    pub(crate) fn needs(self, needs: fn(Kind) -> bool) -> bool {
+        self.panels().is_some_and(needs)
+    }
+}
+
+impl Default for KindChoice {
+    fn default() -> KindChoice {
+        KindChoice::Panels(Kind::default())
+    }
+}
+
+impl Word for KindChoice {
+    fn all() -> Vec<KindChoice> {
+        Kind::ALL.into_iter().map(KindChoice::Panels).chain([KindChoice::Freebody]).collect()
+    }
+
+    fn word(self) -> &'static str {
+        self.panels().map_or(FREEBODY, Kind::name)
+    }
+
+    fn help(self) -> &'static str {
+        self.panels().map_or(FREEBODY_HELP, Kind::help)
+    }
+}
+
+/// A margin whose sensitivity can be computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SensitivityMargin(pub MarginKind);
+
+impl Word for SensitivityMargin {
+    fn all() -> Vec<SensitivityMargin> {
+        use MarginKind::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
+        [LoadFactor, Tilt, HorizontalLoad, Friction, Kernel].map(SensitivityMargin).to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        Word::word(self.0)
+    }
+
+    fn alias(self) -> Option<&'static str> {
+        self.0.alias()
+    }
+}
+
+/// The name of a theme.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ThemeName(pub &'static str);
+
+impl ThemeName {
+    /// Returns the theme.
+    pub(crate) fn theme(self) -> Theme {
+        Theme::named(self.0).unwrap_or_default()
+    }
+}
+
+impl Word for ThemeName {
+    fn all() -> Vec<ThemeName> {
+        Theme::NAMES.map(ThemeName).to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        self.0
+    }
+}
+
+/// The colour of the page of a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Background {
+    /// A transparent page.
+    Clear,
+    /// A page of one colour.
+    Plain(Colour),
+}
+
+impl Background {
+    /// Returns the drawing on this page; without a choice, on the page of its theme.
+    pub(crate) fn under(choice: Option<Background>, drawing: Drawing) -> Drawing {
+        let background = match choice {
+            None => drawing.background,
+            Some(Background::Clear) => None,
+            Some(Background::Plain(colour)) => Some(colour),
+        };
+        Drawing { background, ..drawing }
+    }
+}
+
+impl FromStr for Background {
+    type Err = String;
+
+    fn from_str(typed: &str) -> Result<Background, String> {
+        match typed {
+            "none" => Ok(Background::Clear),
+            "white" => Ok(Background::Plain(Colour::WHITE)),
+            _ => match Colour::from_css(typed).filter(|_| typed.len() == 7) {
+                Some(colour) => Ok(Background::Plain(colour)),
+                None => {
+                    Err("give none, white or #rrggbb, such as #f4f1ea; in a shell, put the colour in quotes".into())
+                }
+            },
+        }
+    }
+}
+
+/// One frame of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FrameChoice {
+    /// The frame with this number, counted from 0.
+    Number(usize),
+    /// The last frame.
+    Last,
+}
+
+impl FrameChoice {
+    /// Returns the number of the frame, from 0; `None` for the last frame.
+    pub(crate) fn number(self) -> Option<usize> {
+        match self {
+            FrameChoice::Number(number) => Some(number),
+            FrameChoice::Last => None,
+        }
+    }
+
+    /// Returns the scene with only this frame. The error is a message that ends with `place`, which names the scene.
+    pub(crate) fn of(self, scene: &Scene, place: &str) -> Result<Scene, String> {
+        let count = scene.frames().len();
+        let number = self.number().unwrap_or(count - 1);
+        scene.alone(number).ok_or_else(|| {
+            let has = if count == 1 { "one frame".into() } else { format!("{count} frames") };
+            format!("there is no frame {} in {place}: it has {has}", number + 1)
+        })
+    }
+}
+
+impl FromStr for FrameChoice {
+    type Err = String;
+
+    /// Parses a frame: its number, counted from 1, its letter in the figure (`a`, `b`, … `z`, `aa`, …), or `last`.
+    fn from_str(typed: &str) -> Result<FrameChoice, String> {
+        if typed == "last" {
+            return Ok(FrameChoice::Last);
+        }
+        let number = match typed.parse::<usize>() {
+            Ok(number) => Some(number),
+            Err(_) if typed.is_empty() || typed.len() > 3 || !typed.bytes().all(|b| b.is_ascii_lowercase()) => None,
+            Err(_) => Some(typed.bytes().fold(0, |sum, b| 26 * sum + usize::from(b - b'a') + 1)),
+        };
+        match number {
+            Some(number) if number > 0 => Ok(FrameChoice::Number(number - 1)),
+            _ => Err("give a frame: its number, counted from 1, its letter, or `last`".into()),
+        }
+    }
+}
+
+/// Returns the parser for the value of `--accuracy`. The parser refuses the removed level `draft`, with a message that
+/// names the level to use instead.
+#[cfg(feature = "cli")]
+fn accuracy_parser() -> impl clap::builder::TypedValueParser<Value = Accuracy> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+    let names = ["standard", "proved", "draft"];
+    let values = names.map(|name| PossibleValue::new(name).hide(name == "draft"));
+    PossibleValuesParser::new(values).try_map(|name| {
+        Accuracy::from_word(&name)
+            .ok_or("the level \"draft\" was removed because it was not faster; use \"standard\", the default")
+    })
+}
+
+/// Parses a number in a range. The error says that it must be `what`.
+pub(crate) fn between(typed: &str, [least, most]: [f64; 2], error: impl Fn() -> String) -> Result<f64, String> {
+    typed.parse::<f64>().ok().filter(|number| (least..=most).contains(number)).ok_or_else(error)
+}
+
+fn length(typed: &str) -> Result<f64, String> {
+    between(typed, [0.0, 1e12], || "give a length in metres, from 0 to 1e12".into())
+}
+
+fn seconds(typed: &str) -> Result<Duration, String> {
+    let seconds = between(typed, [0.0, 1e6], || "give a time in seconds, from 0 to 1000000".into());
+    seconds.map(Duration::from_secs_f64)
+}
+
+/// Parses a width in print.
+pub(crate) fn millimetres(typed: &str) -> Result<f64, String> {
+    let wrong = || "it must be a width in millimetres, such as 84 or 174, from 2 to 5080".into();
+    between(typed, [2.0, 5080.0], wrong)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_chosen_by_number_or_letter() {
+        for (typed, number) in [("1", 0), ("12", 11), ("a", 0), ("f", 5), ("z", 25), ("aa", 26), ("ab", 27)] {
+            assert_eq!(typed.parse(), Ok(FrameChoice::Number(number)), "{typed}");
+        }
+        assert_eq!("last".parse(), Ok(FrameChoice::Last));
+        // The letters of a longer word are not the number of a frame.
+        for typed in ["0", "", "-1", "A", "1.5", "abcde", "é", "next", "first"] {
+            assert!(typed.parse::<FrameChoice>().is_err(), "{typed}");
+        }
+    }
+
+    #[test]
+    fn a_background_is_none_or_a_colour_of_six_digits() {
+        assert_eq!("none".parse(), Ok(Background::Clear));
+        assert_eq!("#F4f1ea".parse(), Ok(Background::Plain(Colour([0xf4, 0xf1, 0xea]))));
+        for wrong in ["", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï"] {
+            assert!(wrong.parse::<Background>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn widths_are_limited_to_possible_pages() {
+        assert_eq!(millimetres("84"), Ok(84.0));
+        for wrong in ["0", "-84", "nan", "inf", "84mm", "1e9", ""] {
+            let refused = millimetres(wrong).expect_err(wrong);
+            assert!(refused.contains("from 2 to 5080"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn all_problems_of_a_json_request_are_reported_at_once_with_their_keys() {
+        let text = r#"{ "knid": "flow", "fill": "stres", "columns": 0, "time_limit": -1, "margin": "robots" }"#;
+        let problems = read_json(Some(text), FigureArgs::read).expect_err("five problems");
+        let keys: Vec<&str> = problems.lines().filter(|line| !line.starts_with("  help")).collect();
+        assert_eq!(keys.len(), 5, "{problems}");
+        for (line, words) in keys.iter().zip(["knid: unknown key", "fill: ", "columns: ", "time_limit: ", "margin: "]) {
+            assert!(line.starts_with(words), "{problems}");
+        }
+        assert!(problems.contains("did you mean \"stress\"?") && problems.contains("`kind`"), "{problems}");
+    }
+
+    #[test]
+    fn a_json_request_has_the_defaults_and_the_values_of_the_command_line() {
+        let empty = read_json(Some("{}"), FigureArgs::read).expect("defaults");
+        assert_eq!((empty.options, empty.kind), (figure::Options::default(), KindChoice::default()));
+        let text = r#"{ "no_title": true, "width": null, "margin": "load_factor", "kind": "freebody" }"#;
+        let wrong = read_json(Some(text), FigureArgs::read).expect_err("a figure has no key width of its own");
+        assert!(wrong.starts_with("width: unknown key"), "{wrong}");
+        let made = read_json(Some(&text.replace("\"width\": null, ", "")), FigureArgs::read).expect("a request");
+        assert!(!made.options.titles && made.options.captions && made.kind == KindChoice::Freebody);
+        assert_eq!(made.margin.map(|margin| margin.0), Some(MarginKind::LoadFactor));
+    }
+
+    #[test]
+    fn messages_have_the_names_of_json() {
+        assert_eq!(in_json("--for-all: 3 is no range; add --capacity"), "for_all: 3 is no range; add capacity");
+    }
+}
