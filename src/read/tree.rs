@@ -42,7 +42,6 @@ pub struct List(pub(super) Range<usize>);
 
 impl List {
     /// Returns the number of entries in the list.
-    #[expect(clippy::len_without_is_empty, reason = "messages need the length only")]
     pub fn len(&self) -> usize {
         self.0.len()
     }

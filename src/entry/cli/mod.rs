@@ -73,7 +73,7 @@ struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Render(render::Render),
+    Render(Box<render::Render>),
     Figures(figures::Figures),
     Check(check::Check),
     Batch(Box<batch::Batch>),

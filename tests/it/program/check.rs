@@ -220,6 +220,11 @@ fn an_invalid_file_is_answered_with_its_problems_and_the_others_with_results() {
     let alone = bench.run("check --json wrong.json");
     let object: Value = serde_json::from_str(&alone.out).expect("JSON");
     assert_eq!((alone.code, &object["file"]), (2, &"wrong.json".into()));
+    // A problem of an option has a message too, without the advice to type --help.
+    let unknown = bench.run("check --json stands.json --capacity z");
+    let object: Value = serde_json::from_str(&unknown.out).expect("JSON");
+    let message = object["problems"][0]["message"].as_str().expect("a message");
+    assert!(message.starts_with("--capacity: the scene has no block z") && !message.contains("--help"), "{message}");
 }
 
 #[test]
