@@ -96,7 +96,7 @@
 
 // Some code is used only by the command line or by another optional feature. The compiler would report it as unused if
 // that feature is off. With all features, no code is unused.
-#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports, unused_macros))]
 
 // Structs with public fields are `#[non_exhaustive]` if later versions may add fields. Users start from the default
 // value and call one setter method for each field. These macros define the setter methods for all modules below.

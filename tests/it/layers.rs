@@ -69,15 +69,7 @@ fn members_of(root: &Path, group: &str) -> Vec<String> {
 
 /// The files in which a foreign crate may be named. A path that ends in a slash stands for all files below it.
 const CRATE_FILES: &[(&str, &[&str])] = &[
-    (
-        "serde",
-        &[
-            "mechanics/scene/format.rs",
-            "mechanics/scene/format/",
-            "products/result/",
-            "products/snapshot/fact/",
-        ],
-    ),
+    ("serde", &["mechanics/scene/format.rs", "mechanics/scene/format/", "products/result/", "products/snapshot/fact/"]),
     (
         "serde_json",
         &[
