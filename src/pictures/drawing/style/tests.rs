@@ -231,7 +231,7 @@ fn all_problems_of_a_style_file_are_reported_at_once_with_their_paths() {
     for words in [
         "did you mean \"dark\"?",
         "the nearest known key is `failure`",
-        "line 1, column 43, page: expected a colour such as \"#d55e00\" or \"#d50\", found the string \"white\"",
+        "line 1, column 46, page: expected a colour such as \"#d55e00\" or \"#d50\", found the string \"white\"",
         "found the number 7",
         "did you mean \"viridis\"?",
         "the nearest known key is `force`",
