@@ -328,7 +328,7 @@ const WRITERS: &[(&str, &[&str])] = &[
             // Inserts the name space into a finished chart.
             "products/report/entry/part.rs",
             // Refuses a script that would close its own element; it writes nothing.
-            "entry/cli/report/interactive.rs",
+            "entry/cli/report.rs",
             // Draws the bar of a margin in a table cell.
             "products/report/print/table.rs",
             "pictures/output/svg/",

@@ -43,8 +43,10 @@ fn public_types_have_different_names() {
                 let kind = public.and_then(|rest| rest.split_once(' '));
                 let named = kind.filter(|(kind, _)| ["struct", "enum", "type", "trait"].contains(kind));
                 let Some((_, name)) = named else { continue };
-                let name = name.split(|c: char| !c.is_alphanumeric()).next();
-                let files = files_by_name.entry(name.unwrap_or_default().to_owned()).or_default();
+                // A macro declares types with names such as `$name`: they have no name here.
+                let name = name.split(|c: char| !c.is_alphanumeric()).next().filter(|name| !name.is_empty());
+                let Some(name) = name else { continue };
+                let files = files_by_name.entry(name.to_owned()).or_default();
                 files.push(file.display().to_string());
             }
         }

@@ -1,11 +1,12 @@
 //! Route 4: adds the remaining results after the verdict. These are the forces of least sum if the structure stands, or
 //! its failures and its mechanism if it falls.
 
+use super::forces::ProvedForces;
 use super::rebalance::Rebalanced;
 use super::{Component, Method, Outcome};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::Program;
-use crate::mechanics::solve::{Choice, balance_in, is_late, least_adhesion_in};
+use crate::mechanics::solve::{Choice, balance_in, is_late, least_adhesion_in, rebalance_absolute};
 
 impl Component<'_> {
     /// Adds forces of least sum (stable) or failures (unstable) to an outcome. Returns the outcome unchanged if only
@@ -54,6 +55,32 @@ impl Component<'_> {
                     return Outcome { force_bound, least_force, ..outcome };
                 }
             }
+        }
+        if is_late() {
+            return outcome;
+        }
+        self.with_forces_of_parallel_joints(program, outcome)
+    }
+
+    /// Replaces the forces of an outcome by those of the program with nearly parallel joints made exactly parallel, if
+    /// these have a smaller sum. They are changed as little as possible, so that they balance in the real program.
+    ///
+    /// Rounded coordinates turn a stone between parallel faces into a slender wedge, for which the program of least
+    /// force ends without a result.
+    fn with_forces_of_parallel_joints(&self, program: &Program, mut outcome: Outcome) -> Outcome {
+        let Some(simpler) = program.with_parallel_joints() else {
+            return outcome;
+        };
+        let solved = balance_in(&simpler, self.settings[0]);
+        outcome.effort = outcome.effort.plus(solved.effort);
+        let near = solved.forces.and_then(|amounts| rebalance_absolute(program, &amounts, &mut outcome.effort));
+        let proved = near.map(|amounts| self.prove_forces(amounts));
+        let better =
+            |proved: &ProvedForces| self.accepts(&proved.proof) && proved.amounts.total() < outcome.amounts.total();
+        if let Some(proved) = proved.filter(better) {
+            let (force_bound, least_force) = self.bound_force_sum(solved.witness.as_deref(), &proved.forces);
+            outcome.stand(proved);
+            return Outcome { force_bound, least_force, ..outcome };
         }
         outcome
     }
