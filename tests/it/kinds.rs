@@ -331,7 +331,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     assert!(svg::write(&drawing).contains("no force polygon"));
 }
 
-/// A load is drawn wherever it explains the result, with its amount; elsewhere the legend says that it is not drawn.
+/// Every kind of figure draws the loads, with their amounts.
 #[test]
 fn no_kind_leaves_out_a_load_silently() {
     let scene = Scene::from_json(
@@ -347,12 +347,19 @@ fn no_kind_leaves_out_a_load_silently() {
     let options = drystone::analysis::Options::default()
         .capacity(drystone::analysis::CapacityRequest::of_block(drystone::scene::BlockId(0)));
     let analysis = Analysis::with(&scene, &options);
-    for kind in KINDS {
+    for kind in KINDS.into_iter().chain([Kind::Capacity, Kind::Structure]) {
         let text = svg::write(&draw(&analysis, kind));
         // The tooltip of an arrow or a text. Not only "7 N": other forces may have this amount too.
         let names_load = text.contains("from a load: 7 N") || text.contains("oad of 7 N");
         assert!(names_load, "{kind:?}: {text}");
     }
-    let text = svg::write(&draw(&analysis, Kind::Capacity));
-    assert!(text.contains("one load also acts; it is not drawn"), "{text}");
+}
+
+#[test]
+fn a_figure_of_the_structure_tells_nothing_about_the_solution() {
+    let text = svg::write(&draw(&Analysis::new(&scene("thesis/figure-4.json")), Kind::Structure));
+    for word in ["stands", "falls", "Force on", "Weight of", "issing"] {
+        assert!(!text.contains(word), "{word}: {text}");
+    }
+    assert!(text.contains("Block 1"), "{text}");
 }

@@ -1,7 +1,7 @@
 //! Lines and arrows are measured on the drawings and compared with the computed forces.
 
 use drystone::Analysis;
-use drystone::analysis::FrameAnalysis;
+use drystone::analysis::{Failure, FrameAnalysis};
 use drystone::drawing::{Camera, Drawing, Group, Item, Outline, PagePoint};
 use drystone::figure::{self, ForceStyle, Kind, Normalisation, Options};
 use drystone::internals::geometry::{Point, Vector, cross};
@@ -75,13 +75,27 @@ fn acting(scene: &Scene, found: &FrameAnalysis, id: BlockId) -> [Vec<Acting>; 2]
             at(q, normal * m, 0.0),
             at(p, Vector::new(-normal.y, normal.x) * contact.friction_force, 0.0),
         ];
-        pressing.push(Acting {
-            force: parts.iter().map(|a| a.force).sum::<Vector>() * sign,
-            moment: parts.iter().map(|a| a.moment).sum::<f64>() * sign,
+        // The missing forces of a joint belong to its force. The scenes have one joint between two bodies.
+        let own = found.failures.iter().filter(|failure| match failure {
+            Failure::Tension { bodies: [a, b], .. } | Failure::Friction { bodies: [a, b], .. } => {
+                contact.interface.bodies == [*a, *b] || contact.interface.bodies == [*b, *a]
+            }
+            _ => false,
         });
+        let missing = own.filter_map(|failure| Some((failure.at(), failure.on(BodyId::Block(id))?)));
+        let missing: Vec<Acting> = missing.map(|(p, (force, torque))| at(p, force, torque)).collect();
+        let sums = |parts: &[Acting]| {
+            let force = parts.iter().map(|a| a.force).sum::<Vector>();
+            (force, parts.iter().map(|a| a.moment).sum::<f64>())
+        };
+        let ((force, moment), (more, turning)) = (sums(&parts), sums(&missing));
+        pressing.push(Acting { force: force * sign + more, moment: moment * sign + turning });
     }
     for robot in found.robots.iter().filter(|r| r.block == id) {
-        pressing.push(at(robot.at, robot.force, robot.torque));
+        let own = found.failures.iter().filter(|failure| failure.robot() == Some(robot.robot));
+        let (force, torque) =
+            own.fold((robot.force, robot.torque), |sum, failure| (sum.0 + failure.force(), sum.1 + failure.torque()));
+        pressing.push(at(robot.at, force, torque));
     }
     loads.push(at(block.centroid, scene.down() * block.weight, 0.0));
     for load in scene.loads().iter().filter(|l| l.block == id) {

@@ -61,6 +61,7 @@ mod starters;
 mod snapshot;
 mod statics;
 mod strangers;
+mod true_places;
 mod structure;
 mod visible;
 mod wedging;

@@ -251,7 +251,7 @@ fn loads_and_robots_torques_have_their_arrows() {
     assert!((load.vector - Vector::new(1.0, -2.0) * (0.06 * 8f64.sqrt())).norm() < 1e-12);
     assert_eq!(marks.turns.len(), 1);
     assert_eq!((marks.turns[0].kind, marks.turns[0].torque), (figure::TurnKind::Load, -1.5));
-    assert!(marks.turns[0].arc < 0.0);
+    assert!(marks.turns[0].torque < 0.0);
     assert!(drawn(&scene).contains("Torque of a load on block s: 1.5 N·m clockwise"));
 }
 

@@ -76,7 +76,7 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
 }
 
 #[test]
-fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
+fn a_margin_with_two_ends_shows_one_collapse() {
     let analysis = Analysis::with(block(1.0, 0.5), &AnalysisOptions::default().margins(true));
     let ends = analysis.edges(0, Toward::Tilt);
     assert_eq!(ends.len(), 2);
@@ -84,10 +84,8 @@ fn a_margin_with_two_ends_shows_how_the_structure_falls_at_both() {
     assert_eq!(analysis.edge(0, Toward::Tilt), ends.first().cloned());
     let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
     let ghosts = classes(&drawing.items, &["ghosts"]);
-    assert_eq!(ghosts.len(), 2);
-    assert_ne!(ghosts[0].items, ghosts[1].items);
-    let (words, _) = words_and_dashes(&drawing);
-    assert!(words.contains("how it would begin to fall at the other end"), "{words}");
+    assert_eq!(ghosts.len(), 1);
+    assert!(!classes(&drawing.items, &["hinge", "slip"]).is_empty(), "where it opens or slides");
 }
 
 #[test]
@@ -136,7 +134,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
     });
     assert!(across.is_some_and(|wide| wide > 10.0), "{across:?}");
     let (words, _) = words_and_dashes(&drawing);
-    assert!(words.contains("0.5") && words.contains("small ones drawn larger"), "{words}");
+    assert!(words.contains("0.5") && words.contains("torques of loads not to scale"), "{words}");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! [`Marks`]: the data of all arrows of a frame, in metres and newtons, before they are drawn.
 //!
 //! The length of an arrow is proportional to its force; [`Head`] states whether the head counts towards this length.
-//! Arrows too short to be visible are counted, but not drawn.
+//! Arrows of forces too short to be visible are counted, but not drawn.
 
-use super::words::{counted, listed, quantity};
+use super::words::{counted, quantity};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BodyId, RobotId};
@@ -129,8 +129,6 @@ pub struct TurnArrow {
     pub at: Point,
     /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
-    /// The length of the arrow along the circle from tail to tip, metres, with the torque's sign.
-    pub arc: f64,
     /// The colour of the arrow.
     pub colour: Colour,
     /// The width of the shaft, metres.
@@ -158,21 +156,10 @@ impl Marks {
     /// metre. The note gives its numbers in `units`.
     pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
         let least = MIN_VISIBLE_ARROW / scale;
-        let short = |arrow: &&ForceArrow| arrow.reach().norm() < least;
-        let forces = self.arrows.iter().filter(short).count();
-        // Torque arrows of loads have a minimum length, so they are always visible.
-        let torques = self.turns.iter().filter(|t| t.kind != TurnKind::Load);
-        let torques = torques.filter(|t| t.arc.abs() < least).count();
-        // The arrow of a torque is as long as the arrow of a force of magnitude torque / unit.
-        let force = least / unit * self.newtons_per_unit;
-        let parts = [("force", forces, force, units.force()), ("torque", torques, force * unit, units.torque())];
-        let parts = parts.into_iter().filter(|part| part.1 > 0);
-        let parts = parts.map(|(what, count, limit, of)| {
-            let limit = quantity(round_above(limit), of);
-            format!("{} under {limit}", counted(count, what))
-        });
-        let parts: Vec<String> = parts.collect();
-        (!parts.is_empty()).then(|| format!("{} not drawn", listed(&parts)))
+        let short = |arrow: &&ForceArrow| arrow.kind != ArrowKind::Load && arrow.reach().norm() < least;
+        let count = self.arrows.iter().filter(short).count();
+        let limit = quantity(round_above(least / unit * self.newtons_per_unit), units.force());
+        (count > 0).then(|| format!("{} under {limit} not drawn", counted(count, "force")))
     }
 
     /// Returns the largest force in newtons that an arrow shows, but at least the force whose arrow is one unit length
@@ -217,36 +204,4 @@ fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
     let length = along.norm_squared();
     let share = if length > 0.0 { ((p - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
     (p - (a + along * share)).norm()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A torque arrow of length L shows a torque of L times the newtons per unit length. With an arrow of just under
-    /// the least visible length at 1 px/m, the hidden torque is just under that length times 10 N, for every unit
-    /// length.
-    #[test]
-    fn the_note_on_hidden_torques_states_their_limit_in_newton_metres() {
-        let torque = 0.99 * MIN_VISIBLE_ARROW * 10.0;
-        let marks = Marks {
-            turns: vec![TurnArrow {
-                on: BodyId::Block(crate::mechanics::scene::BlockId(0)),
-                at: Point::origin(),
-                torque,
-                arc: torque / 10.0,
-                colour: Colour::WHITE,
-                width: 0.1,
-                kind: TurnKind::Robot(RobotId(0)),
-            }],
-            newtons_per_unit: 10.0,
-            ..Marks::default()
-        };
-        for unit in [0.5, 1.0, 4.0] {
-            let note = marks.unseen(unit, 1.0, UnitsEntry::default());
-            let note = note.expect("a note on the hidden torque");
-            let limit = round_above(MIN_VISIBLE_ARROW * 10.0);
-            assert_eq!(note, format!("1 torque under {limit} N·m not drawn"), "{unit}");
-        }
-    }
 }

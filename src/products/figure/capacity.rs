@@ -14,12 +14,12 @@ use super::context::FigureContext;
 use super::displacement::Course;
 use super::label::{self, Callout};
 use super::legend::{self, Entry};
+use super::load_arrows::load_marks;
 use super::panel::{composed_with, cut_ground};
 use super::pen::{DISPLACED_OPACITY, Pen};
 use super::words::{quantity, round_below_in};
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::CapacityShape;
-use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::arrow::straight;
 use crate::pictures::drawing::placement::Ink;
 use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
@@ -48,9 +48,10 @@ impl PanelContent for CarriedForces {
         }
     }
 
-    /// Returns no arrows, not even those of loads: the legend says how many loads also act ([`loads_note`]).
-    fn marks(&self, _: FrameSource<'_>, _: f64) -> Marks {
-        Marks::default()
+    /// Returns the arrows of the loads without a scale: their amounts are written beside them, and the only scale in the
+    /// figure is that of the polygon.
+    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
+        Marks { newtons_per_unit: 0.0, ..load_marks(of.analysis, of.frame, of.options, newtons_per_unit) }
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
@@ -71,6 +72,7 @@ impl PanelContent for CarriedForces {
                 parts.push(picture_of(pen, &plan, small, &mut ink));
             }
         }
+        parts.push(pen.arrows(false));
         let mut picture = composed_with(pen, view, pen.blocks(), parts, callouts, ink);
         cut_ground(pen, &mut picture);
         picture
@@ -118,7 +120,7 @@ impl PanelContent for CarriedForces {
             let length = newtons * pixels_per_newton;
             entries.push(Entry::Scale(length, 2.6, quantity(newtons, force)));
         }
-        entries.extend(loads_note(&analysis.scene));
+        entries.extend(legend::loads(context));
         entries.extend(legend::robots(context));
         entries
     }
@@ -136,18 +138,6 @@ impl PanelContent for CarriedForces {
             None => "the forces that a block can carry were not computed".into(),
         }
     }
-}
-
-/// Returns a note about the loads of the scene, which act in addition to the force that the figure varies. Returns
-/// `None` if there are no loads. Their arrows are not drawn: a reader could compare their lengths with the polygon,
-/// which has its own scale.
-fn loads_note(scene: &Scene) -> Option<Entry> {
-    let words = match scene.loads.len() {
-        0 => return None,
-        1 => "one load also acts; it is not drawn".to_owned(),
-        n => format!("{n} loads also act; they are not drawn"),
-    };
-    Some(Entry::Note(words))
 }
 
 /// Draws the polygon of carried forces: its area and its edges with their numbers. If the polygon is at the loaded

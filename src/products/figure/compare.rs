@@ -15,7 +15,7 @@ use super::legend::{self, Entry};
 use super::mark;
 use super::panel::composed;
 use super::pen::Pen;
-use super::words::{listed, quantity};
+use super::words::{force, listed, quantity};
 use crate::geometry::{Bounds, Vector};
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
@@ -200,17 +200,44 @@ impl PanelContent for Comparison {
         // `both` are the names of blocks that both frames contain, but with different outlines, weights or loads.
         let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
         let alone = |names: &[String]| -> Vec<String> { names.iter().filter(|n| !both.contains(n)).cloned().collect() };
-        for (names, how) in [(alone(&came), "new"), (alone(&went), "gone"), (both.clone(), "changed")] {
+        let loads: Vec<(&String, String)> =
+            both.iter().filter_map(|name| Some((name, changed_load(analysis, [earlier, frame], name)?))).collect();
+        let loaded = |name: &String| loads.iter().any(|(other, _)| *other == name);
+        let reshaped: Vec<String> = both.iter().filter(|name| !loaded(name)).cloned().collect();
+        for (names, how) in [(alone(&came), "new"), (alone(&went), "gone"), (reshaped, "changed")] {
             match names.len() {
                 0 => {}
                 n if n <= MAX_NAMED_BLOCKS => stated.push(format!("{how}: {}", listed(&names))),
                 n => stated.push(format!("{how}: {n} blocks")),
             }
         }
+        match loads.len() {
+            n if n <= MAX_NAMED_BLOCKS => stated.extend(loads.into_iter().map(|(_, change)| change)),
+            n => stated.push(format!("other loads on {n} blocks")),
+        }
         let (changed, shared) = changes(analysis, frame);
         stated.push(count_in_words(changed.len(), shared));
         stated.join("; ")
     }
+}
+
+/// Describes how the sum of the loads on the block with this name changed between two frames: `load on block a: 2 kN at
+/// 270° before, 3 kN at 270° now`. Returns `None` if it did not change.
+fn changed_load(analysis: &Analysis, frames: [usize; 2], name: &str) -> Option<String> {
+    let scene = &analysis.scene;
+    let sum = |frame: usize| {
+        let placed = &scene.frames[frame].placed;
+        let own = scene.loads.iter().filter(|l| placed.contains(&l.block) && scene.blocks[l.block.0].id == name);
+        own.fold((Vector::zeros(), 0.0), |(force, torque), load| (force + load.force, torque + load.torque))
+    };
+    let [was, is] = frames.map(sum);
+    let words = |(load, turning): (Vector, f64)| match (load.norm() > 0.0, turning != 0.0) {
+        (false, false) => "none".to_owned(),
+        (false, true) => quantity(turning, scene.units.torque()),
+        (true, false) => force(load, scene.units),
+        (true, true) => format!("{} and {}", force(load, scene.units), quantity(turning, scene.units.torque())),
+    };
+    (was != is).then(|| format!("load on block {name}: {} before, {} now", words(was), words(is)))
 }
 
 /// Draws the previous force of a joint as a faint arrow on each of its blocks. `true_lines` are the arrows of the

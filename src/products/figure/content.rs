@@ -12,7 +12,7 @@ use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
-use super::load_arrows::{lengthen_loads, load_marks, load_scale, uncover_from_missing_forces, uncover_from_weights};
+use super::load_arrows::{lengthen_loads, load_marks, load_scale, place_loads};
 use super::option::{ArrowScale, Options};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::pen::Pen;
@@ -44,6 +44,8 @@ pub(crate) struct About {
     pub needs_elementary_mechanisms: bool,
     /// Whether the arrows of all panels have one scale, independent of the options.
     pub shares_arrow_scale: bool,
+    /// Whether the figure shows no verdicts, independent of the options.
+    pub hides_verdicts: bool,
     /// Whether the colour of a block shows the quantity that the option `fill` selects, by default its amplitude (the
     /// larger of its weight and its largest normal force). Otherwise blocks are plain.
     pub colours_show_amplitudes: bool,
@@ -189,19 +191,21 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     };
     let mut all: Vec<Marks> = own.iter().copied().enumerate().map(scaled).collect();
     match options.scale {
+        // In the style of the thesis, lengths are always to scale.
+        _ if options.printed() => {}
         ArrowScale::Panel => all.iter_mut().for_each(|marks| lengthen_loads(core::slice::from_mut(marks), least_load)),
         ArrowScale::Strip => lengthen_loads(&mut all, least_load),
     }
-    for marks in &mut all {
+    for (frame, marks) in all.iter_mut().enumerate() {
         if let Some(near) = zoomed {
             marks.arrows.retain(|arrow| view::contains(near, arrow.at));
             marks.turns.retain(|turn| view::contains(near, turn.at));
         }
-        if about.stretches_arrows && !options.printed() {
-            uncover_from_missing_forces(marks);
+        // In the style of the thesis, every arrow begins at the point where its force acts.
+        if !options.printed() {
+            place_loads(&analysis.scene, frame, marks);
         }
         if about.draws_forces && !options.printed() {
-            uncover_from_weights(marks);
             separate_parallel_arrows(marks);
         }
     }

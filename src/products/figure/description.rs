@@ -21,14 +21,14 @@ pub(crate) fn block(context: &FigureContext<'_>, frame: usize, place: usize, blo
     format!("weight {weight}, {fill}")
 }
 
-/// True if a force is drawn as a dot because its arrow is too short to be visible (`seen` is false). Only loads and
-/// missing forces have dots. The two opposite forces between two blocks have only one dot.
+/// True if a missing force is drawn as a dot because its arrow is too short to be visible (`seen` is false). The two
+/// opposite forces between two blocks have only one dot.
 pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
     let twice = match (arrow.kind.partner(), arrow.on) {
         (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,
         _ => false,
     };
-    !seen && !twice && (arrow.kind == ArrowKind::Load || arrow.kind.is_failure())
+    !seen && !twice && arrow.kind.is_failure()
 }
 
 /// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.

@@ -99,14 +99,13 @@ fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
     loads.chain(missing).fold(0.0, f64::max)
 }
 
-/// Returns the straight arrows of loads and missing forces, and the circular arrows of loads and missing torques. The
-/// tip of a load's arrow is at the point where the load acts.
+/// Returns the straight arrows of loads and missing forces, and the circular arrows of loads and missing torques.
 fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let marks = mark::marks(analysis, frame, options, newtons_per_unit);
     let longest = longest_load(&analysis.scene, options.zoom);
     let width = LOAD_SHAFT * longest;
     let shown = |arrow: ForceArrow| match arrow.kind {
-        ArrowKind::Load => Some(ForceArrow { at: arrow.at - arrow.vector, width, ..arrow }),
+        ArrowKind::Load => Some(ForceArrow { width, ..arrow }),
         kind if kind.is_failure() => {
             let arrow = ForceArrow { width, ..arrow };
             Some(lengthened(arrow, LEAST_MISSING_ARROW * longest))

@@ -16,7 +16,7 @@
 
 use super::bearing::{self, bearings};
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
-use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
 use crate::mechanics::scene::{AppliedForce, Block, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 
 /// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
@@ -62,15 +62,24 @@ pub(crate) struct ThrustSegment {
     pub force: Vector,
     /// True if the segment lies on a line of action; false if it is schematic.
     pub through: bool,
+    /// True if the segment leaves its block.
+    pub leaves: bool,
 }
 
-/// Returns the segments of the line of thrust of a frame, block by block in placing order.
+/// Returns the segments of the line of thrust of a frame, block by block in placing order. In a frame that falls, the
+/// line may leave the blocks.
 pub(crate) fn segments(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<ThrustSegment> {
+    let may_leave = frame_analysis.verdict == Verdict::Unstable;
     let (pressing, loads) = (pressing(scene, frame_analysis), loads(scene));
     let mut segments = Vec::new();
     for id in &frame.placed {
-        let forces =
-            BlockForces { id: *id, block: &scene.blocks[id.0], pressing: &pressing[id.0], loads: &loads[id.0] };
+        let forces = BlockForces {
+            id: *id,
+            block: &scene.blocks[id.0],
+            pressing: &pressing[id.0],
+            loads: &loads[id.0],
+            may_leave,
+        };
         match forces.path() {
             Some(path) => segments.extend(path),
             None => segments.extend(forces.schematic()),
@@ -167,6 +176,8 @@ struct BlockForces<'a> {
     block: &'a Block,
     pressing: &'a [LineOfAction],
     loads: &'a [LineOfAction],
+    /// Whether the line may run outside the block, by up to the size of the block.
+    may_leave: bool,
 }
 
 impl BlockForces<'_> {
@@ -267,14 +278,20 @@ impl BlockForces<'_> {
             let force = if origin == last.origin { last.force } else { force };
             path.extend(self.segment(origin, (at, last.at), force));
         }
-        let inside = path.iter().all(|s| self.within(s.from, s.to));
+        let inside = path.iter().all(|s| !s.leaves || self.may_leave && self.nearby(s.from) && self.nearby(s.to));
         (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
     /// Creates a segment on a true line of action; `None` if the two points coincide.
     fn segment(&self, origin: ForceOrigin, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
-        let segment = ThrustSegment { on: self.id, origin, from, to, force, through: true };
+        let leaves = !self.within(from, to);
+        let segment = ThrustSegment { on: self.id, origin, from, to, force, through: true, leaves };
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
+    }
+
+    /// True if a point is at most as far from the block as the block is large.
+    fn nearby(&self, point: Point) -> bool {
+        self.polygon().distance(point) <= self.size()
     }
 
     /// True if the segment between two points lies in or near the block. Nine points on the segment are tested.
@@ -295,7 +312,7 @@ impl BlockForces<'_> {
         let given: Vec<&LineOfAction> = given.collect();
         let piece = |line: &LineOfAction, to: Point| {
             let segment = self.segment(line.origin, (line.entry, to), line.force)?;
-            Some(ThrustSegment { through: false, ..segment })
+            Some(ThrustSegment { through: false, leaves: false, ..segment })
         };
         if let [one, other] = given[..] {
             let [strong, weak] = match one.force.norm() < other.force.norm() {

@@ -14,8 +14,9 @@ use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL_UTILISATION, percent, quantity};
 use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::margin::Parameter;
 
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.
@@ -34,6 +35,10 @@ impl PanelContent for Kernel {
             title: "Resultants in the safe parts of interfaces",
             ..About::default()
         }
+    }
+
+    fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
+        if verdict::has_cheap_margins(analysis) { &[MarginKind::Kernel] } else { &[] }
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
@@ -91,6 +96,9 @@ impl PanelContent for Kernel {
         }
         if frame_analysis.contacts.is_empty() {
             return "no interfaces".into();
+        }
+        if let Some(margin) = verdict::margin(scene, frame_analysis, Parameter::Kernel) {
+            return margin;
         }
         let bearings = bearings(scene, frame_analysis);
         let share = |b: &Option<Bearing>| b.and_then(|b| b.eccentricity);

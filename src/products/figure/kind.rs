@@ -12,6 +12,7 @@ use super::mechanism::Mechanism;
 use super::option::{ArrowScale, Options};
 use super::polygon::ForcePolygon;
 use super::sensitivity::CornerEffects;
+use super::structure::Structure;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
 use crate::mechanics::analysis::{self, Analysis, MarginKinds};
@@ -54,11 +55,13 @@ pub enum Kind {
     Sensitivity,
     /// The changes of blocks and forces from one frame to the next. The arrows of all panels have the same scale.
     Compare,
+    /// The structure and its loads, without forces and without a verdict.
+    Structure,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 12] = [
+    pub const ALL: [Kind; 13] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -71,6 +74,7 @@ impl Kind {
         Kind::Capacity,
         Kind::Sensitivity,
         Kind::Compare,
+        Kind::Structure,
     ];
 
     /// Returns the implementation of this kind of figure.
@@ -88,6 +92,7 @@ impl Kind {
             Kind::Capacity => &CarriedForces,
             Kind::Sensitivity => &CornerEffects,
             Kind::Compare => &Comparison,
+            Kind::Structure => &Structure,
         }
     }
 
@@ -171,12 +176,13 @@ impl Kind {
     }
 
     /// Returns a copy of the options for a figure of this kind. A kind whose panels share one scale of arrows overrides
-    /// the option `scale`.
+    /// the option `scale`, and a kind that shows no verdicts the option `verdicts`.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
         if self.content().about().shares_arrow_scale {
             options.scale = ArrowScale::Strip;
         }
+        options.verdicts &= !self.content().about().hides_verdicts;
         options
     }
 

@@ -49,6 +49,7 @@ mod ring;
 mod sensitivity;
 mod shapes;
 mod strip;
+mod structure;
 mod thrust;
 mod description;
 mod title;

@@ -4,7 +4,7 @@
 mod listed;
 mod stroke;
 
-pub(crate) use stroke::TURN_RADIUS;
+pub(crate) use stroke::SWEEP;
 
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
@@ -17,7 +17,7 @@ use crate::pictures::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, 
 
 /// Radius of the ring at the tail of a weight, as a multiple of its shaft's width.
 pub(crate) const CENTROID_RADIUS: f64 = 1.25;
-/// Radius of the dot of a load that is too small for an arrow, and of dots in the legend, pixels.
+/// Radius of dots in the legend, and of the space that labels leave around small missing forces, pixels.
 pub(crate) const DOT_RADIUS: f64 = 2.8;
 
 /// Radius of the dot of a missing force that is too small for an arrow, pixels.

@@ -2,16 +2,20 @@
 //!
 //! [`segments`] computes the line in each block, along true lines of action. If there is no single line of action in a
 //! block, a lighter line connects the joints; the legend calls it schematic. The line therefore runs from support to
-//! support without gaps. The tips of load arrows are at the points where loads act, and the lengths of these arrows
-//! have one scale.
+//! support without gaps. Of a frame that falls, the line is that of the forces with the missing forces; where a joint
+//! would have to pull, it leaves the stone.
 
 mod chain;
 mod fan;
+mod leaving;
 mod line;
 mod state;
 
+use std::borrow::Cow;
+
 use fan::Fans;
-use line::{carried_colour, colour, dot_symbol, dots, lines, schematic_colour, seams, widest, width};
+use leaving::{left_at, with_missing_forces};
+use line::{carried_colour, colour, dot_symbol, dots, left_symbol, lines, schematic_colour, seams, widest, width};
 use state::{central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note};
 
 use super::arrow::Marks;
@@ -52,6 +56,11 @@ impl PanelContent for ThrustLine {
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
         let FrameSource { analysis, frame, options } = of;
+        if analysis.frames[frame].verdict == Verdict::Unstable {
+            let scene = &analysis.scene;
+            let segments = segments(scene, &scene.frames[frame], &with_missing_forces(&analysis.frames[frame]));
+            return Some(Bounds::from_points(segments.iter().flat_map(|s| [s.from, s.to]))?.grown(0.2 * unit));
+        }
         if !options.with_polygon {
             return None;
         }
@@ -64,7 +73,7 @@ impl PanelContent for ThrustLine {
         let scene = &context.analysis.scene;
         let frame_analysis = &context.analysis.frames[frame];
         let family = context.thrust_states(frame);
-        let frame_analysis = shown(family, frame_analysis);
+        let frame_analysis = &*shown(family, frame_analysis);
         let segments = segments(scene, &scene.frames[frame], frame_analysis);
         let mut ink = label::ink(pen);
         for segment in &segments {
@@ -90,10 +99,11 @@ impl PanelContent for ThrustLine {
     fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
         let (scene, theme) = (&context.analysis.scene, &context.options.theme);
         let frames = scene.frames.iter().zip(&context.analysis.frames);
-        let (mut through, mut schematic, mut falls) = (false, false, false);
+        let (mut through, mut schematic, mut falls, mut leaves) = (false, false, false, false);
         for (number, (frame, frame_analysis)) in frames.enumerate() {
             let state = shown(context.thrust_states(number), frame_analysis);
-            let segments = segments(scene, frame, state);
+            let segments = segments(scene, frame, &state);
+            leaves |= state.contacts.iter().any(|contact| left_at(contact).is_some());
             match frame_analysis.verdict {
                 Verdict::Stable => {
                     through |= segments.iter().any(|s| s.through);
@@ -114,11 +124,8 @@ impl PanelContent for ThrustLine {
         if falls {
             let mut frames = context.analysis.frames.iter();
             let any_falls = frames.any(|frame| frame.verdict == Verdict::Unstable);
-            let place = match any_falls && !context.options.is_column() {
-                true => " in a frame that falls",
-                false => "",
-            };
-            let line = format!("forces carried{place}; this width shows {largest}");
+            let line = if any_falls { "line of thrust with the missing forces" } else { "forces found" };
+            let line = format!("{line}; this width shows {largest}");
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if through || schematic || falls {
@@ -128,6 +135,9 @@ impl PanelContent for ThrustLine {
             };
             entries.push(Entry::Symbol(dot_symbol, 8.0, dot.to_owned()));
             entries.extend(limit_entries(context));
+        }
+        if leaves {
+            entries.push(Entry::Symbol(left_symbol, 10.0, "the line leaves the stone".to_owned()));
         }
         if schematic {
             // Only one entry of the legend explains what the width of the line means.
@@ -153,7 +163,14 @@ impl PanelContent for ThrustLine {
                 let parts = [Some(why).filter(|why| !why.is_empty()), state];
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             }
-            Verdict::Unstable => "the line shows the carried forces only, so it is not in equilibrium".into(),
+            Verdict::Unstable => {
+                let state = shown(context.thrust_states(frame), frame_analysis);
+                match state.contacts.iter().filter(|contact| left_at(contact).is_some()).count() {
+                    0 => "the line of thrust needs the missing forces".into(),
+                    1 => "the line of thrust leaves the stone at one joint".into(),
+                    count => format!("the line of thrust leaves the stone at {count} joints"),
+                }
+            }
             Verdict::Undecided => format!("no line of thrust is proved; {why}"),
         }
     }
@@ -174,7 +191,8 @@ fn schematic_text(context: &FigureContext<'_>, largest: Option<&str>) -> String 
 fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
     let mut frames = 0..context.analysis.frames.len();
     match central_thrust_text(context) {
-        Some(thrust) => format!("most central line{thrust}; this width shows {largest}"),
+        Some(thrust) if thrust.is_empty() => format!("most central line; this width shows {largest}"),
+        Some(thrust) => format!("most central line, {thrust}; this width shows {largest}"),
         None if frames.any(|frame| has_many_lines(context, frame)) => {
             format!("line of thrust of the forces of least sum; this width shows {largest}")
         }
@@ -183,17 +201,21 @@ fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
 }
 
 /// Returns the forces whose line of thrust the figure shows: the most central forces, those farthest from the ends of
-/// the joints, if they are known. Otherwise returns the forces that the analysis found.
-fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> &'a FrameAnalysis {
-    let central = states.central.as_ref();
-    central.map_or(found, |state| &state.frame)
+/// the joints, if they are known. Otherwise returns the forces that the analysis found, for a frame that falls with its
+/// missing forces.
+fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> Cow<'a, FrameAnalysis> {
+    match &states.central {
+        _ if found.verdict == Verdict::Unstable => Cow::Owned(with_missing_forces(found)),
+        Some(state) => Cow::Borrowed(&state.frame),
+        None => Cow::Borrowed(found),
+    }
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
 fn largest(context: &FigureContext<'_>) -> f64 {
     let given = context.analysis.frames.iter().enumerate();
     let frames = given.map(|(number, frame_analysis)| shown(context.thrust_states(number), frame_analysis));
-    let frames: Vec<&FrameAnalysis> = frames.collect();
+    let frames: Vec<Cow<'_, FrameAnalysis>> = frames.collect();
     let contacts = frames.iter().flat_map(|f| &f.contacts);
     let robots = frames.iter().flat_map(|f| &f.robots);
     let forces = contacts.map(|c| c.resultant.force).chain(robots.map(|r| r.force));
@@ -206,7 +228,7 @@ fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> 
     let scene = &analysis.scene;
     let frame_analysis = &analysis.frames[frame];
     let shown = shown(states, frame_analysis);
-    (frame_analysis.verdict == Verdict::Stable).then(|| Fans::new(scene, &scene.frames[frame], shown, unit)).flatten()
+    (frame_analysis.verdict == Verdict::Stable).then(|| Fans::new(scene, &scene.frames[frame], &shown, unit)).flatten()
 }
 
 /// Returns the note in the legend that explains the force polygon, or why there is none.

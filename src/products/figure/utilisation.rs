@@ -20,10 +20,11 @@ use super::pen::Pen;
 use super::verdict;
 use super::words::{FULL_UTILISATION, counted, percent, quantity};
 use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::margin::Parameter;
 use symbol::{SYMBOL_WIDTH, full_symbol, idle_symbol, smooth_symbol};
 
 /// The width of the line of an interface in unit lengths, with the least and the largest value of this width in pixels.
@@ -42,6 +43,10 @@ impl PanelContent for Utilisation {
             title: "Friction used in a dry-laid structure",
             ..About::default()
         }
+    }
+
+    fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
+        if verdict::has_cheap_margins(analysis) { &[MarginKind::Friction] } else { &[] }
     }
 
     fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
@@ -101,6 +106,9 @@ impl PanelContent for Utilisation {
     fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
         let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
 
+        if let Some(margin) = verdict::margin(scene, frame_analysis, Parameter::Friction) {
+            return margin;
+        }
         let used = most_used(scene, frame_analysis);
         match frame_analysis.verdict {
             Verdict::Stable => format!("in the forces shown, {used}"),

@@ -1,9 +1,29 @@
 //! Draws the symbol of a verdict: a disc with a tick, a cross or a question mark, so that the verdict is clear without
 //! colours. Its text comes from [`wording`](crate::products::wording).
 
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Interval, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::margin::{self, Parameter};
 pub(crate) use crate::products::wording::verdict::{plain as word, reason};
+
+/// With more blocks than this in a frame, a figure does not ask for a margin that it can do without, because it would
+/// take longer than the figure.
+const MAX_BLOCKS: usize = 200;
+
+/// True if every frame has so few blocks that its margins take little time.
+pub(crate) fn has_cheap_margins(analysis: &Analysis) -> bool {
+    analysis.scene.frames.iter().all(|frame| frame.placed.len() <= MAX_BLOCKS)
+}
+
+/// Describes the margin of one parameter: `friction coefficient: stands from 0.42; now 0.6`. Returns `None` if it was
+/// not computed or is undecided.
+pub(crate) fn margin(scene: &Scene, frame_analysis: &FrameAnalysis, parameter: Parameter) -> Option<String> {
+    let margins = margin::stated(scene, frame_analysis);
+    let margin = margins.iter().find(|margin| margin.parameter == parameter)?;
+    let decided = !matches!(margin.interval, Interval::Undecided);
+    decided.then(|| format!("{}: {}", margin.name, margin.sentence()))
+}
 
 /// Returns the colour of the symbol of a verdict.
 pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {

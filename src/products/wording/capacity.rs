@@ -1,7 +1,8 @@
 //! Describes in words which forces can act on a block without a collapse.
 
+use super::margin::Parameter;
 use super::number::{digits, quantity};
-use crate::mechanics::analysis::{CapacityShape, FALLS, LoadCapacity, STANDS, Verdict};
+use crate::mechanics::analysis::{CapacityShape, Cases, FALLS, LoadCapacity, STANDS, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::text;
 
@@ -21,10 +22,7 @@ pub fn sentences(scene: &Scene, verdict: Verdict, capacity: &LoadCapacity) -> St
 /// Describes where the force acts, and how large it may be in each direction.
 fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
     let place = place(scene, capacity);
-    let for_all = match capacity.cases {
-        1 => "",
-        _ => " for all values in the given ranges",
-    };
+    let for_all = for_all(&capacity.ranges);
     match (capacity.shape(), sides(scene, capacity)) {
         (CapacityShape::Empty, _) if capacity.cases == 1 => {
             format!("it {FALLS} under any force {place}")
@@ -68,6 +66,22 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
         (None, 1) => format!("at {} on block {block}", point(0)),
         _ => format!("between {} and {} on block {block}", point(0), point(1)),
     }
+}
+
+/// Writes the ranges in which the forces are carried: ` for every tilt from 2° left to 2° right`. The text is empty
+/// without ranges.
+fn for_all(ranges: &Cases) -> String {
+    let parts = [
+        (Parameter::Tilt, "tilt", ranges.tilt),
+        (Parameter::HorizontalLoad, "horizontal load", ranges.horizontal_load),
+        (Parameter::Friction, "friction coefficient", ranges.friction),
+    ];
+    let range = |(parameter, name, range): (Parameter, &str, Option<[f64; 2]>)| {
+        let [low, high] = range?.map(|value| parameter.value(value));
+        Some(if low == high { format!("{name} of {low}") } else { format!("{name} from {low} to {high}") })
+    };
+    let parts: Vec<String> = parts.into_iter().filter_map(range).collect();
+    if parts.is_empty() { String::new() } else { format!(" for every {}", parts.join(" and ")) }
 }
 
 /// The four directions that a sentence names, as unit vectors.

@@ -1,6 +1,7 @@
 //! [`LoadCapacity`]: the set of forces that a block can carry, with its corners, edges and proofs.
 
 use super::region;
+use super::request::Cases;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::proof::{Motion, Proof};
 use crate::mechanics::scene::{BlockId, RobotId};
@@ -52,6 +53,8 @@ pub struct LoadCapacity {
     /// The number of extreme cases of the given ranges. The structure carries each force of this result in all of
     /// these cases. It is 1 if no range was given.
     pub cases: usize,
+    /// The ranges in which the block carries the forces; empty if no range was given.
+    pub ranges: Cases,
 }
 
 /// A corner of a [`LoadCapacity`].
@@ -207,6 +210,7 @@ impl LoadCapacity {
             gap: 0.0,
             mechanism,
             cases: 1,
+            ranges: Cases::default(),
         }
     }
 }

@@ -143,7 +143,7 @@ pub(crate) fn capacity_of(
     }
     let capacity =
         cases::intersected(&assembly, &request.cases, |changed| capacity_of_assembly(changed, request.block, &points))?;
-    Ok(LoadCapacity { robot: tool.map(|hold| hold.robot), ..capacity })
+    Ok(LoadCapacity { robot: tool.map(|hold| hold.robot), ranges: request.cases, ..capacity })
 }
 
 /// Computes the set of forces that a block can carry in one assembly. The set is empty if another component, which does

@@ -2,6 +2,7 @@
 
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
+use super::request::Cases;
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross, in_half_plane};
 use crate::mechanics::scene::BlockId;
@@ -28,6 +29,7 @@ pub(super) fn capacity(set: cone::SampledSet, probe: &Probe, block: BlockId, at:
         gap: 0.0,
         mechanism: Vec::new(),
         cases: 1,
+        ranges: Cases::default(),
     };
     set_edges(&mut capacity, &lines, size.max(1e-3 * probe.heaviest()));
     capacity

@@ -1,13 +1,15 @@
 //! [`arrows`]: creates the arrows of a free-body diagram: the forces on the block, or all forces that may act at its
 //! corners, and the unit normals.
 
+use super::super::load_arrows::Solids;
 use super::super::option::{Corners, Options};
+use super::super::parallel_arrows::{Lane, shifts};
+use super::super::pen::SWEEP;
 use super::super::unit::unit;
 use super::around::{aside, corners, distinct, inward};
 use super::arrow::{Arrow, MAX_LENGTH, SHAFT_WIDTH};
 use super::force::{Detail, Force, detail, largest};
-use super::parallel_arrows::separate_arrows;
-use crate::geometry::{Vector, quarter_turn};
+use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::BlockId;
 use crate::pictures::drawing::Camera;
@@ -34,8 +36,6 @@ pub(super) const NOISE: f64 = 1e-6;
 const MISSING_WIDTH: f64 = 1.4;
 /// Radius of a torque arrow, pixels.
 const TURN_RADIUS: f64 = 24.0;
-/// Angle of an arrow that only names a torque, radians.
-const NAMING_SWEEP: f64 = 3.4;
 /// A block whose diagonal is at least this long on the page, pixels, has arrows of full length.
 const FULL_LENGTH_DIAGONAL: f64 = 300.0;
 
@@ -64,7 +64,7 @@ pub(super) fn least_length(force: &Force) -> f64 {
 /// one kind have the same length.
 pub(super) fn arrows(
     analysis: &Analysis,
-    block: BlockId,
+    (frame, block): (usize, BlockId),
     contacts: &[&Contact],
     forces: &[Force],
     camera: &Camera,
@@ -72,6 +72,7 @@ pub(super) fn arrows(
 ) -> Vec<Arrow> {
     let diagram = Diagram {
         analysis,
+        frame,
         block,
         contacts,
         camera,
@@ -89,13 +90,31 @@ pub(super) fn arrows(
             arrows.push(diagram.unit_normal(number, contact));
         }
     }
-    separate_arrows(&mut arrows, camera);
+    separate(&mut arrows, camera);
     arrows
+}
+
+/// Moves straight arrows that overlap on one line a little to their sides. Only the position of an arrow changes; the
+/// list of forces keeps the line of action.
+fn separate(arrows: &mut [Arrow], camera: &Camera) {
+    let lane = |arrow: &Arrow| {
+        let tail = camera.place(arrow.at);
+        let along = if arrow.turn.is_none() { arrow.along } else { (0.0, 0.0) };
+        Lane { tail: Point::new(tail.x, tail.y), reach: Vector::new(along.0, along.1), width: arrow.width }
+    };
+    let lanes: Vec<Lane> = arrows.iter().map(lane).collect();
+    for (arrow, shift) in arrows.iter_mut().zip(shifts(&lanes)) {
+        if shift.norm() > 0.0 {
+            arrow.at = camera.back(camera.place(arrow.at).moved(shift.x, shift.y));
+        }
+    }
 }
 
 /// The data that all arrows of a diagram need.
 struct Diagram<'a> {
     analysis: &'a Analysis,
+    /// The index of the frame, from 0.
+    frame: usize,
     block: BlockId,
     contacts: &'a [&'a Contact],
     camera: &'a Camera,
@@ -122,6 +141,7 @@ impl Diagram<'_> {
     /// Returns a straight arrow for each force, and a circular arrow for each torque. If arrows only name forces, the
     /// forces of interfaces are left out.
     fn force_arrows(&self, forces: &[Force]) -> Vec<Arrow> {
+        let solids = Solids::new(&self.analysis.scene, self.frame);
         let edge = unit(&self.analysis.scene, None);
         let largest = largest(forces, edge, self.options);
         let mut arrows = Vec::new();
@@ -145,19 +165,22 @@ impl Diagram<'_> {
                 missing,
             };
             if force.torque != 0.0 {
-                let sweep = if self.naming {
-                    NAMING_SWEEP
-                } else {
-                    self.length(force, force.torque.abs() / edge, largest) / TURN_RADIUS
-                };
-                arrows.push(Arrow { along: (TURN_RADIUS, 0.0), turn: Some(sweep * force.torque.signum()), ..straight });
+                let given = force.is_missing() || force.is_load();
+                if given || force.torque.abs() > NOISE * largest * edge {
+                    let turn = Some(SWEEP.copysign(force.torque));
+                    arrows.push(Arrow { along: (TURN_RADIUS, 0.0), turn, ..straight });
+                }
             } else if force.force.norm() > 0.0 {
                 let length = if self.naming {
                     self.shorter * NAMING_LENGTH
                 } else {
                     self.length(force, force.force.norm(), largest)
                 };
-                arrows.push(Arrow { along: self.on_page(force.force, length), ..straight });
+                // A load pushes from outside or hangs from its point; other arrows begin at their points.
+                let reach = force.force * (self.camera.metres(length) / force.force.norm());
+                let pressed = force.is_load() && solids.pressed(force.at, reach);
+                let at = if pressed { force.at - reach } else { force.at };
+                arrows.push(Arrow { at, along: self.on_page(force.force, length), ..straight });
             }
         }
         arrows

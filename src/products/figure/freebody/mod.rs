@@ -11,7 +11,6 @@
 //!
 //! Bodies that touch the block are outlined, and ground is hatched.
 
-mod parallel_arrows;
 mod around;
 mod arrow;
 mod diagram;
@@ -129,13 +128,13 @@ impl<'a> Sheet<'a> {
         let mut pads = [0.0; 4];
         for _ in 0..4 {
             let camera = fitted(pads);
-            let arrows = arrows(analysis, block, &contacts, &forces, &camera, options);
+            let arrows = arrows(analysis, (frame, block), &contacts, &forces, &camera, options);
             pads = around_arrows(&camera.rect(view), &arrows, &camera);
         }
         let camera = fitted(pads);
         let shown = camera.rect(view);
         Sheet {
-            arrows: arrows(analysis, block, &contacts, &forces, &camera, options),
+            arrows: arrows(analysis, (frame, block), &contacts, &forces, &camera, options),
             forces,
             analysis,
             options,

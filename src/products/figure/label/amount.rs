@@ -2,8 +2,8 @@
 
 use core::cmp::Ordering;
 
-use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::super::pen::{DOT_RADIUS, Pen, TURN_RADIUS};
+use super::super::arrow::{ArrowKind, ForceArrow, TurnArrow};
+use super::super::pen::{DOT_RADIUS, Pen};
 use super::super::words::quantity;
 use super::lettering::{LINE_HEIGHT, Label, MIN_SIZE, label};
 use super::row::RowPlaces;
@@ -87,9 +87,8 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
         };
         Label { named: is_first(arrow), ..force_label(pen, arrow, words) }
     });
-    let turns = marks.turns.iter().filter(|t| pen.turn_seen(t));
-    let is_given = |t: &&TurnArrow| t.kind == TurnKind::Load && options.labels;
-    let turns = turns.filter(|t| (options.amounts && few) || is_given(t));
+    // All arcs of torques are equally long, so each has its amount.
+    let turns = marks.turns.iter().filter(|_| options.labels || (options.amounts && few));
     let turns = largest(turns.collect(), |turn| turn.torque.abs());
     let turns = turns.into_iter().map(|turn| torque_label(pen, turn));
     let mut labels: Vec<Label> = straight.chain(turns).collect();
@@ -154,7 +153,7 @@ fn torque_label(pen: &Pen<'_>, turn: &TurnArrow) -> Label {
     let words = quantity(turn.torque.abs(), pen.context.analysis.scene.units.torque());
     let size = amount_size(pen);
     let (wide, high) = (text::width(&words, Face::Sans, size), LINE_HEIGHT * size);
-    let (centre, radius) = (pen.camera.place(turn.at), pen.camera.length(TURN_RADIUS * pen.context.unit));
+    let (centre, radius) = (pen.camera.place(turn.at), pen.camera.length(pen.turn_radius(turn)));
     let middle = pen.turn_middle(turn);
     let along = |angle: f64, far: f64| centre.moved(far * libm::cos(angle), -far * libm::sin(angle));
     // Prefer positions outside the circle of the arrow; the last position is inside it.

@@ -34,7 +34,7 @@ pub(crate) fn ink(pen: &Pen<'_>) -> Ink {
     for arrow in pen.dots() {
         ink.disc(pen.camera.place(arrow.at), DOT_RADIUS + 0.5);
     }
-    for turn in marks.turns.iter().filter(|t| pen.turn_seen(t)) {
+    for turn in &marks.turns {
         turning(&mut ink, pen, turn);
     }
     ink

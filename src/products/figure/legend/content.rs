@@ -9,7 +9,7 @@ use super::super::option::{ArrowScale, Options};
 use super::super::pen::{DOT_RADIUS, MIN_READABLE_UNIT_LENGTH};
 use super::super::words::{counted, quantity, round_below_in};
 use super::entry::{Entry, MissingWords};
-use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_dot, load_symbol, missing_dot, weight_symbol};
+use super::symbol::{BAR_LENGTH, SAMPLE_LENGTH, load_symbol, missing_dot, weight_symbol};
 use crate::mechanics::scene::Frame;
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::pictures::drawing::Colour;
@@ -21,8 +21,8 @@ const OF_A_BLOCK: &str = " of a block";
 const NARROW_BAR: f64 = 72.0;
 /// Largest number of robots in the legend; the others are counted.
 const MAX_LISTED_ROBOTS: usize = 16;
-/// The text for torques of loads. Their arrows have a least length, so that their directions are visible.
-const TURN_SCALE_TEXT: &str = "torques of loads to scale, small ones drawn larger";
+/// The text for torques of loads. Their arrows all have the same length.
+const TURN_TEXT: &str = "torques of loads not to scale";
 /// Largest number of blocks that the legend names. With more blocks, it shows only the colours.
 const MAX_NAMED_BLOCKS: usize = 6;
 /// Largest length of a block's name in the legend, characters. With a longer name, the legend shows only the colours.
@@ -53,10 +53,6 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(loads(context));
     entries.extend(robots(context));
     entries.extend(missing(context, &drawn));
-    if drawn.any_dot(|kind| kind == ArrowKind::Load) {
-        let words = "load too small for an arrow".to_owned();
-        entries.push(Entry::Symbol(load_dot, 2.0 * DOT_RADIUS, words));
-    }
     if drawn.any_dot(ArrowKind::is_failure) {
         let words = "missing force too small for an arrow".to_owned();
         entries.push(Entry::Symbol(missing_dot, 2.0 * DOT_RADIUS, words));
@@ -93,7 +89,7 @@ impl<'a> DrawnArrows<'a> {
     }
 
     fn is_seen(&self, arrow: &ForceArrow) -> bool {
-        arrow.reach().norm() * self.scale >= MIN_VISIBLE_ARROW
+        arrow.reach().norm() * self.scale >= MIN_VISIBLE_ARROW || arrow.kind == ArrowKind::Load
     }
 
     /// True if the figure shows an arrow for which `kind` is true, so that the legend has to explain it. False if the
@@ -227,7 +223,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     let unit = scene.units.force();
     let (least, most) = (quantity(least, unit), quantity(most, unit));
     let words = match amounts.len() {
-        0 if turns => return Some(Entry::Note(TURN_SCALE_TEXT.into())),
+        0 if turns => return Some(Entry::Note(TURN_TEXT.into())),
         0 => return None,
         _ if most_in_frame == 1 && least == most => format!("load of {most}"),
         _ if most_in_frame == 1 => format!("load of {least} to {most}"),
@@ -243,7 +239,7 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         true => format!("{words}, amounts at the largest {MAX_AMOUNTS}"),
         false => words,
     };
-    let words = if turns { format!("{words}; {TURN_SCALE_TEXT}") } else { words };
+    let words = if turns { format!("{words}; {TURN_TEXT}") } else { words };
     Some(Entry::Symbol(load_symbol, SAMPLE_LENGTH, words))
 }
 

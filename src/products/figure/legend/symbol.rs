@@ -140,11 +140,6 @@ pub(super) fn load_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
     vec![Path::filled(arrow, theme.page).with_stroke(Stroke::new(theme.load, 1.2)).into()]
 }
 
-pub(super) fn load_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let dot = Path::filled(Outline::circle(at.moved(DOT_RADIUS, 0.0), DOT_RADIUS), theme.page);
-    vec![dot.with_stroke(Stroke::new(theme.load, 1.2)).into()]
-}
-
 pub(super) fn missing_dot(at: PagePoint, theme: &Theme) -> Vec<Item> {
     let dot = Outline::circle(at.moved(DOT_RADIUS, 0.0), DOT_RADIUS);
     vec![Path::filled(dot, theme.failure).into()]

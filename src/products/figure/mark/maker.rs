@@ -105,8 +105,7 @@ impl ArrowMaker<'_> {
                 self.straight(marks, kind, on, at + Vector::new(side * self.edge / 2.0, 0.0), force, look);
             }
         } else {
-            let arc = torque / self.edge * self.metres_per_newton;
-            marks.turns.push(TurnArrow { on, at, torque, arc, colour: look.0, width: look.1 * self.edge, kind });
+            marks.turns.push(TurnArrow { on, at, torque, colour: look.0, width: look.1 * self.edge, kind });
         }
     }
 

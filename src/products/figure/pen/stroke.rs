@@ -1,11 +1,11 @@
 //! Draws the arrows of a frame, and dots for forces that are too small for an arrow.
 
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::{CENTROID_RADIUS, DOT_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
+use super::{CENTROID_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::BodyId;
-use crate::pictures::drawing::arrow::{HEAD_WIDTH, head, straight, turning};
+use crate::pictures::drawing::arrow::{head, straight, turning};
 use crate::pictures::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::products::figure::arrow::{
     ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
@@ -13,38 +13,29 @@ use crate::products::figure::arrow::{
 use crate::products::figure::by_colour::ByColour;
 use crate::products::figure::description;
 
-/// Radius of the arrow of a torque in unit lengths, larger than a robot's disc.
-pub(crate) const TURN_RADIUS: f64 = 0.46;
-/// Least angle of the arrow of a load's torque, radians.
-const MIN_SWEEP: f64 = 1.2;
+/// Radius of the arrow of a torque in unit lengths, larger than a robot's disc. If several torques act at one point, each
+/// further arrow has a radius that is larger by the second number.
+const TURN_RADII: (f64, f64) = (0.46, 0.24);
+/// Angle of the arrow of a torque, radians (225°). All have the same, and their amounts beside them: an arc to scale
+/// would be a triangle without direction for a small torque, and several turns for a large one.
+pub(crate) const SWEEP: f64 = 1.25 * PI;
 
 impl Pen<'_> {
-    /// True if an arrow is long enough to be visible.
+    /// True if an arrow is long enough to be visible. Loads are always drawn.
     pub(crate) fn seen(&self, arrow: &ForceArrow) -> bool {
-        self.camera.length(arrow.reach().norm()) >= MIN_VISIBLE_ARROW
+        self.camera.length(arrow.reach().norm()) >= MIN_VISIBLE_ARROW || arrow.kind == ArrowKind::Load
     }
 
-    /// True if the arrow of a torque is long enough to be visible. Always true for torques of loads.
-    pub(crate) fn turn_seen(&self, turn: &TurnArrow) -> bool {
-        self.camera.length(turn.arc.abs()) >= MIN_VISIBLE_ARROW || turn.kind == TurnKind::Load
-    }
-
-    /// Returns the loads and missing forces whose arrows are too small to be visible. Each of them is drawn as a dot at
-    /// the point where it acts; two opposite forces have only one dot.
+    /// Returns the missing forces whose arrows are too small to be visible. Each of them is drawn as a dot at the point
+    /// where it acts; two opposite forces have only one dot.
     pub(crate) fn dots(&self) -> impl Iterator<Item = &ForceArrow> {
         let marks = &self.context.marks[self.number];
         marks.arrows.iter().filter(|a| description::dotted(a, self.seen(a)))
     }
 
     fn dot(&self, arrow: &ForceArrow) -> Group {
-        let radius = if arrow.kind == ArrowKind::Load { DOT_RADIUS } else { MISSING_RADIUS };
-        let outline = Outline::circle(self.camera.place(arrow.at), radius);
-        let theme = &self.context.options.theme;
-        let dot = if arrow.kind == ArrowKind::Load {
-            Path::filled(outline, theme.page).with_stroke(Stroke::new(arrow.colour, 1.2))
-        } else {
-            Path::filled(outline, arrow.colour).cased(theme.casing, 0.6)
-        };
+        let outline = Outline::circle(self.camera.place(arrow.at), MISSING_RADIUS);
+        let dot = Path::filled(outline, arrow.colour).cased(self.context.options.theme.casing, 0.6);
         Group::with_class("small").titled(description::arrow(self.context, arrow)).with(dot)
     }
 
@@ -104,11 +95,10 @@ impl Pen<'_> {
     }
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
-        let radius = TURN_RADIUS * self.context.unit;
-        let sweep = self.sweep(turn, radius);
+        let sweep = SWEEP.copysign(turn.torque);
         let outline = turning(
             self.camera.place(turn.at),
-            self.camera.length(radius),
+            self.camera.length(self.turn_radius(turn)),
             self.turn_middle(turn) - sweep / 2.0,
             sweep,
             self.camera.length(turn.width),
@@ -116,53 +106,22 @@ impl Pen<'_> {
         Path::filled(outline, turn.colour).cased(self.context.options.theme.casing, self.casing)
     }
 
-    /// Returns the angle of the arrow of a torque in radians, with the sign of the torque. `radius` is the radius of
-    /// the arrow in metres. The arrow of a load has at least the angle [`MIN_SWEEP`], so that its direction is visible.
-    fn sweep(&self, turn: &TurnArrow, radius: f64) -> f64 {
-        let sweep = turn.arc / radius;
-        if turn.kind != TurnKind::Load || turn.torque == 0.0 {
-            return sweep;
-        }
-        sweep.abs().max(MIN_SWEEP).copysign(turn.torque)
-    }
-
-    /// Returns the direction from the centre of a torque's arrow to the middle of its arc, radians. In this direction,
-    /// the arrow is far from straight arrows and from the arrows of earlier torques at the same point.
-    pub(crate) fn turn_middle(&self, turn: &TurnArrow) -> f64 {
-        let radius = TURN_RADIUS * self.context.unit;
-        let turns = self.context.marks[self.number].turns.iter();
-        let here = turns.filter(|other| (other.at - turn.at).norm() < 1e-6 * radius);
-        let mut taken: Vec<(Point, f64)> = Vec::new();
-        let mut middle = FRAC_PI_2;
-        for other in here {
-            let sweep = self.sweep(other, radius);
-            middle = self.clearest(other, radius, sweep, &taken);
-            if core::ptr::eq(other, turn) {
-                break;
-            }
-            let arc = along_arc(other.at, radius, middle, sweep);
-            taken.extend(arc.map(|p| (p, HEAD_WIDTH * other.width)));
-        }
-        middle
+    /// Returns the radius of the arrow of a torque, metres. `turn` is one of the arrows of this frame.
+    pub(crate) fn turn_radius(&self, turn: &TurnArrow) -> f64 {
+        let (first, step) = TURN_RADII;
+        let earlier = self.context.marks[self.number].turns.iter().take_while(|other| !core::ptr::eq(*other, turn));
+        let here = earlier.filter(|other| (other.at - turn.at).norm() < 1e-6 * self.context.unit).count();
+        (first + step * here as f64) * self.context.unit
     }
 
     /// Returns the direction from the centre of a torque's arrow to the middle of its arc, radians. Of twelve
-    /// directions, this is the one in which the arrow is farthest from straight arrows and from the points `taken`. If
-    /// several directions are about equally good, the result is the one nearest to upwards.
-    ///
-    /// The points `taken` lie on the arrows of earlier torques, each with the free width that it needs, in metres.
-    /// Without this width, two torques on one arc would look like one.
-    fn clearest(&self, turn: &TurnArrow, radius: f64, sweep: f64, taken: &[(Point, f64)]) -> f64 {
+    /// directions, this is the one in which the arrow is farthest from straight arrows. If several directions are about
+    /// equally good, the result is the one nearest to upwards.
+    pub(crate) fn turn_middle(&self, turn: &TurnArrow) -> f64 {
         let arrows = &self.context.marks[self.number].arrows;
-        let from_others = |p: Point| {
-            let straight = arrows.iter().map(|a| distance_to_arrow(a, p));
-            let round = taken.iter().map(|(at, wide)| (p - at).norm() - wide);
-            straight.chain(round).fold(f64::INFINITY, f64::min)
-        };
-        let clear = |middle: f64| {
-            let points = along_arc(turn.at, radius, middle, sweep);
-            points.map(from_others).fold(f64::INFINITY, f64::min)
-        };
+        let radius = self.turn_radius(turn);
+        let from_arrows = |p: Point| arrows.iter().map(|a| distance_to_arrow(a, p)).fold(f64::INFINITY, f64::min);
+        let clear = |middle: f64| along_arc(turn, radius, middle).map(from_arrows).fold(f64::INFINITY, f64::min);
         let mut best = (clear(FRAC_PI_2), FRAC_PI_2);
         for step in [1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6] {
             let middle = FRAC_PI_2 + f64::from(step) * FRAC_PI_2 / 3.0;
@@ -187,16 +146,14 @@ impl Pen<'_> {
         }
         let small = self.dots().filter(|a| a.kind.is_failure() == missing);
         group.items.extend(small.map(|a| self.dot(a).into()));
-        for turn in
-            marks.turns.iter().filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing && self.turn_seen(t))
-        {
+        for turn in marks.turns.iter().filter(|t| matches!(t.kind, TurnKind::Missing(_)) == missing) {
             let title = description::turn(self.context, turn);
             group.items.push(Group::with_class("torque").titled(title).with(self.turn(turn)).into());
         }
         group
     }
 
-    /// Draws only the arrows and dots of loads, for a figure whose other arrows would be too small.
+    /// Draws only the arrows of loads, for a figure whose other arrows would be too small.
     pub(crate) fn loads(&self) -> Group {
         let mut group = Group::with_class("forces");
         let loads = self.context.marks[self.number].arrows.iter();
@@ -205,8 +162,6 @@ impl Pen<'_> {
             let force = Group::with_class("force").titled(description::arrow(self.context, arrow));
             group.items.push(force.with(self.arrow(arrow)).into());
         }
-        let small = self.dots().filter(|a| a.kind == ArrowKind::Load);
-        group.items.extend(small.map(|a| self.dot(a).into()));
         group
     }
 
@@ -223,8 +178,9 @@ impl Pen<'_> {
     }
 }
 
-/// Returns nine points along the arc of a torque's arrow, metres. `middle` and `sweep` are in radians.
-fn along_arc(centre: Point, radius: f64, middle: f64, sweep: f64) -> impl Iterator<Item = Point> {
+/// Returns nine points along the arc of a torque's arrow, metres. `middle` is in radians.
+fn along_arc(turn: &TurnArrow, radius: f64, middle: f64) -> impl Iterator<Item = Point> {
+    let (centre, sweep) = (turn.at, SWEEP.copysign(turn.torque));
     let at = move |i: i32| {
         let angle = middle + sweep * (f64::from(i) / 8.0 - 0.5);
         centre + Vector::new(libm::cos(angle), libm::sin(angle)) * radius

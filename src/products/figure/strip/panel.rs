@@ -42,7 +42,8 @@ impl Strip<'_> {
         let aside = (layout.panel - view.width() * layout.scale) / 2.0;
         let camera = Camera::new(view, at.moved(aside, 0.0), layout.scale);
         let mut group = Group { id: Some(format!("frame-{}", frame + 1)), ..Group::with_class("frame") };
-        group.title = self.labelled(frame, ": ", verdict::word(frame_analysis.verdict));
+        let word = if context.options.verdicts { verdict::word(frame_analysis.verdict) } else { "no verdict is shown" };
+        group.title = self.labelled(frame, ": ", word);
         let picture = self.content.picture(&Pen::new(context, frame, &camera), view);
         let cramped = without_room(&picture);
         group = group.with(picture);

@@ -113,7 +113,11 @@ impl Strip<'_> {
         let (scene, frame_analysis) = (&self.context.analysis.scene, &self.context.analysis.frames[frame]);
         let blocks = counted(scene.frames[frame].placed.len(), "block");
         let weight = quantity(frame_analysis.weight, scene.units.force());
-        let what = format!("{blocks}, {weight} in all, {}", verdict::word(frame_analysis.verdict));
+        let what = format!("{blocks}, {weight} in all");
+        if !self.context.options.verdicts {
+            return self.labelled(frame, " ", &what) + ".";
+        }
+        let what = format!("{what}, {}", verdict::word(frame_analysis.verdict));
         let mut sentence = self.labelled(frame, " ", &what);
         let more = [self.context.statements[frame].clone()];
         for more in more.iter().chain(&frame_analysis.notices).filter(|m| !m.is_empty()) {

@@ -22,12 +22,15 @@ pub(crate) struct Chain {
     pub joints: Vec<usize>,
     /// For each joint, the force on the body that follows the joint, N.
     pub forces: Vec<Vector>,
+    /// The horizontal thrust H at the crown, N: the component of the force in the highest joint perpendicular to
+    /// gravity. If loads act sideways on the blocks, other joints have another thrust.
+    pub crown_thrust: f64,
 }
 
 impl Chain {
-    /// Returns the thrust of the chain, N: the largest component of its joint forces perpendicular to gravity. `across`
-    /// is the unit vector perpendicular to gravity.
-    pub fn thrust(&self, across: Vector) -> f64 {
+    /// Returns the largest component of the joint forces perpendicular to gravity, N. `across` is the unit vector
+    /// perpendicular to gravity.
+    fn most_across(&self, across: Vector) -> f64 {
         let amounts = self.forces.iter().map(|f| f.dot(&across).abs());
         amounts.fold(0.0, f64::max)
     }
@@ -68,10 +71,16 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
         let ends = (chain.joints[0], chain.joints[chain.joints.len() - 1]);
         chain.blocks.len() >= MIN_BLOCKS
             && place(ends.0) < place(ends.1)
-            && chain.thrust(across) > MIN_THRUST_SHARE * chain.largest()
+            && chain.most_across(across) > MIN_THRUST_SHARE * chain.largest()
     });
-    chains.sort_by(|a, b| b.thrust(across).total_cmp(&a.thrust(across)));
+    chains.sort_by(|a, b| b.most_across(across).total_cmp(&a.most_across(across)));
     chains.truncate(MAX_CHAINS);
+    let height = |joint: usize| -scene.down().dot(&frame_analysis.contacts[joint].resultant.at.coords);
+    for chain in &mut chains {
+        let joints = chain.joints.iter().zip(&chain.forces);
+        let crown = joints.max_by(|a, b| height(*a.0).total_cmp(&height(*b.0)));
+        chain.crown_thrust = crown.map_or(0.0, |(_, force)| force.dot(&across).abs());
+    }
     chains
 }
 
@@ -82,6 +91,7 @@ fn follow_chain(start: BlockId, first: usize, joints: &[Vec<usize>], frame_analy
         blocks: Vec::new(),
         joints: vec![first],
         forces: vec![force_on(&frame_analysis.contacts[first], BodyId::Block(start))],
+        crown_thrust: 0.0,
     };
     let (mut block, mut joint) = (start, first);
     loop {

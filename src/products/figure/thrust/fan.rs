@@ -3,7 +3,7 @@
 //! connect the tips of the rays of its two joints. The force polygon of one chain of blocks is called a fan.
 
 use super::chain::{Chain, chains};
-use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::FrameAnalysis;
 use crate::mechanics::scene::{AppliedForce, ForceCause, Frame, Scene};
 use crate::pictures::drawing::placement::Ink;
@@ -191,10 +191,9 @@ impl Fan {
                 below = at.y;
             }
         }
-        // The thrust H is the largest horizontal component of the joint forces. If all loads are vertical, it is the
-        // distance of the pole from the load line, at the scale of the polygon.
-        let across = quarter_turn(scene.down());
-        let thrust = quantity(self.chain.thrust(across), scene.units.force());
+        // If all loads are vertical, the thrust H is the distance of the pole from the load line, at the scale of the
+        // polygon.
+        let thrust = quantity(self.chain.crown_thrust, scene.units.force());
         let ends = self.vertices.iter().copied().chain([self.pole]);
         let Some(all) = Bounds::from_points(ends) else {
             return;

@@ -7,6 +7,7 @@ use super::super::funicular::{ForceOrigin, ThrustSegment};
 use super::super::pen::Pen;
 use super::super::words::{force, quantity};
 use super::largest;
+use super::leaving::left_at;
 use crate::mechanics::analysis::{FrameAnalysis, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, Path, Stroke, Theme};
@@ -72,7 +73,9 @@ pub(super) fn lines(pen: &Pen<'_>, scene: &Scene, frame_analysis: &FrameAnalysis
             continue;
         }
         if pen.many() {
-            group.items.extend(joined_lines(pen, frame_analysis, alike, through));
+            let (out, inside): (Vec<_>, Vec<_>) = alike.partition(|s| s.leaves);
+            group.items.extend(joined_lines(pen, frame_analysis, inside));
+            group.items.extend(joined_lines(pen, frame_analysis, out));
             continue;
         }
         for segment in alike {
@@ -81,9 +84,9 @@ pub(super) fn lines(pen: &Pen<'_>, scene: &Scene, frame_analysis: &FrameAnalysis
             let drawn = Group::with_class(class).titled(title(scene, frame_analysis, segment)).with(stroked(
                 pen,
                 frame_analysis,
+                segment,
                 line,
                 width(pen, segment),
-                through,
             ));
             group.items.push(drawn.into());
         }
@@ -91,12 +94,20 @@ pub(super) fn lines(pen: &Pen<'_>, scene: &Scene, frame_analysis: &FrameAnalysis
     group
 }
 
-/// Returns the path of an outline in the colour of the line of thrust, `width` pixels wide. In a frame that does not
-/// stand, the colour is grey. In a frame that stands, a schematic line (`through` is false) is pale.
-fn stroked(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, outline: Outline, width: f64, through: bool) -> Path {
+/// Returns the path of an outline in the colour of a segment of the line of thrust, `width` pixels wide. The colour is
+/// that of missing forces where the line leaves the stone, and grey elsewhere in a frame that does not stand. In a frame
+/// that stands, a schematic line is pale.
+fn stroked(
+    pen: &Pen<'_>,
+    frame_analysis: &FrameAnalysis,
+    segment: &ThrustSegment,
+    outline: Outline,
+    width: f64,
+) -> Path {
     let theme = &pen.context.options.theme;
     let colour = match frame_analysis.verdict {
-        Verdict::Stable if through => colour(theme),
+        _ if segment.leaves => theme.failure,
+        Verdict::Stable if segment.through => colour(theme),
         Verdict::Stable => schematic_colour(theme),
         _ => carried_colour(theme),
     };
@@ -104,12 +115,10 @@ fn stroked(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, outline: Outline, widt
 }
 
 /// Draws the segments of the line for frames with very many blocks: all segments of about the same width are one path.
-fn joined_lines<'s>(
-    pen: &Pen<'_>,
-    frame_analysis: &FrameAnalysis,
-    segments: impl Iterator<Item = &'s ThrustSegment>,
-    through: bool,
-) -> Vec<Item> {
+fn joined_lines(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, segments: Vec<&ThrustSegment>) -> Vec<Item> {
+    let Some(first) = segments.first().copied() else {
+        return Vec::new();
+    };
     let mut steps: Vec<Outline> = vec![Outline::default(); WIDTH_STEPS as usize + 1];
     let most = widest(pen.unit());
     for segment in segments {
@@ -122,7 +131,7 @@ fn joined_lines<'s>(
     drawn
         .map(|(step, outline)| {
             let width = most * step as f64 / WIDTH_STEPS;
-            stroked(pen, frame_analysis, outline, width, through).into()
+            stroked(pen, frame_analysis, first, outline, width).into()
         })
         .collect()
 }
@@ -162,6 +171,17 @@ pub(super) fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn 
         }
         let at = pen.camera.place(contact.resultant.at);
         ink(at, radius);
+        if let Some(end) = left_at(contact) {
+            let pair = description::pair(scene, contact.interface.bodies);
+            let out = Outline::line([pen.camera.place(end), at]);
+            let ring = Path::filled(Outline::circle(at, 1.5 * radius), theme.page);
+            let mark = Group::with_class("leaves")
+                .titled(format!("The line of thrust leaves the joint between {pair}"))
+                .with(Path::stroked(out, Stroke::new(theme.failure, 0.6 * radius)))
+                .with(ring.with_stroke(Stroke::new(theme.failure, 0.8 * radius)));
+            group.items.push(mark.into());
+            continue;
+        }
         if pen.many() {
             joined.add(theme.ink, Outline::circle(at, radius));
             continue;
@@ -177,6 +197,12 @@ pub(super) fn dots(pen: &Pen<'_>, frame_analysis: &FrameAnalysis, ink: &mut dyn 
 
 fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
+}
+
+/// Draws the symbol of a resultant outside its joint for the legend: a ring.
+pub(super) fn left_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
+    let ring = Path::filled(Outline::circle(at.moved(5.0, 0.0), 4.0), theme.page);
+    vec![ring.with_stroke(Stroke::new(theme.failure, 2.0)).into()]
 }
 
 /// Draws the symbol of a resultant for the legend: a dot.

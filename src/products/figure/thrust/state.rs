@@ -6,6 +6,7 @@ use super::super::funicular::segments;
 use super::super::legend::Entry;
 use super::super::pen::Pen;
 use super::super::words::quantity;
+use super::chain::chains;
 use super::line::colour;
 use crate::mechanics::analysis::{Contact, ThrustState, ThrustStates, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
@@ -17,13 +18,20 @@ const LINE_WIDTH: f64 = 1.3;
 const LEAST_DASHES: [f64; 2] = [7.0, 3.0];
 const GREATEST_DASHES: [f64; 2] = [2.0, 2.4];
 
-/// Formats a horizontal thrust in newtons for the legend: `, horizontal thrust 28.3 kN`. The text is empty if there are
-/// several frames, because their thrusts differ.
-fn amount_in_words(context: &FigureContext<'_>, thrust: f64) -> String {
-    if context.analysis.frames.len() == 1 {
-        format!(", horizontal thrust {}", quantity(thrust, context.analysis.scene.units.force()))
-    } else {
-        String::new()
+/// Formats the horizontal thrust of a state for the legend: `H = 28.3 kN`, or `H = 12.1 kN, 5.08 kN at the supports` if
+/// loads act sideways between crown and supports. The text is empty if there are several frames, because their thrusts
+/// differ.
+fn amount_in_words(context: &FigureContext<'_>, state: &ThrustState) -> String {
+    let scene = &context.analysis.scene;
+    let [frame] = &scene.frames[..] else {
+        return String::new();
+    };
+    let amount = |newtons: f64| quantity(newtons, scene.units.force());
+    let supports = amount(state.thrust);
+    match chains(scene, frame, &state.frame).first().map(|chain| amount(chain.crown_thrust)) {
+        Some(crown) if crown != supports => format!("H = {crown}, {supports} at the supports"),
+        Some(crown) => format!("H = {crown}"),
+        None => format!("thrust of {supports} at the supports"),
     }
 }
 
@@ -36,17 +44,16 @@ fn thrust_states_of_frames<'c>(context: &'c FigureContext<'_>) -> impl Iterator<
 /// are several frames. Returns `None` if no frame shows this line.
 pub(super) fn central_thrust_text(context: &FigureContext<'_>) -> Option<String> {
     let state = thrust_states_of_frames(context).find_map(|family| family.central.as_ref())?;
-    Some(amount_in_words(context, state.thrust))
+    Some(amount_in_words(context, state))
 }
 
 /// Returns the legend entries for the lines of least and greatest thrust.
 pub(super) fn limit_entries(context: &FigureContext<'_>) -> Vec<Entry> {
     let least = thrust_states_of_frames(context).find_map(|family| family.least.as_ref());
     let greatest = thrust_states_of_frames(context).find_map(|family| family.greatest.as_ref());
-    let entry = |state: Option<&ThrustState>, symbol: fn(PagePoint, &Theme) -> Vec<Item>, name| {
-        let words = amount_in_words(context, state?.thrust);
-        let words = words.replace(", horizontal thrust", "");
-        Some(Entry::Symbol(symbol, 26.0, format!("{name}{words}")))
+    let entry = |state: Option<&ThrustState>, symbol: fn(PagePoint, &Theme) -> Vec<Item>, name: &str| {
+        let parts = [name.to_owned(), amount_in_words(context, state?)].into_iter().filter(|part| !part.is_empty());
+        Some(Entry::Symbol(symbol, 26.0, parts.collect::<Vec<_>>().join(": ")))
     };
     [entry(least, least_symbol, "least thrust"), entry(greatest, greatest_symbol, "greatest thrust")]
         .into_iter()
@@ -60,7 +67,7 @@ pub(super) fn other_figures_note(context: &FigureContext<'_>, frame: usize) -> O
     let family = context.thrust_states(frame);
     family.central.as_ref()?;
     let present = quantity(family.present, context.analysis.scene.units.force());
-    Some(format!("other figures show the forces of least sum, with a horizontal thrust of {present}"))
+    Some(format!("other figures show the forces of least sum, with a thrust of {present} at the supports"))
 }
 
 /// Returns a note for the reader about a frame whose line of thrust is one of many possible lines. The caller uses it
@@ -109,7 +116,7 @@ pub(super) fn limits(pen: &Pen<'_>, family: &ThrustStates, ink: &mut Ink) -> [Gr
             outline.extend(Outline::line([from, to]));
         }
         let thrust = quantity(state.thrust, scene.units.force());
-        let title = format!("{name}: {thrust} horizontally");
+        let title = format!("{name}: {thrust} horizontally at the supports");
         let group = Group::with_class(class).titled(title);
         group.with(thin(outline, dashes, &pen.context.options.theme))
     })

@@ -50,7 +50,7 @@ impl Parameter {
     }
 
     /// Writes a value of the parameter with its unit. A signed value has its direction instead of a sign: `5° left`.
-    fn value(self, value: f64) -> String {
+    pub(in crate::products::wording) fn value(self, value: f64) -> String {
         if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
             return amount(value, unit);
         }
