@@ -257,9 +257,9 @@ impl FigureArgs {
     }
 
     /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that the figure shows.
-    pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options) -> Analysis {
+    pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options, look: &figure::Options) -> Analysis {
         match self.kind {
-            KindChoice::Panels(kind) => kind.analysed(scene, options),
+            KindChoice::Panels(kind) => kind.analysed(scene, options, look),
             KindChoice::Freebody => Analysis::with(scene, options),
         }
     }
@@ -270,7 +270,9 @@ impl FigureArgs {
     pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
         let options = self.add_to(analysis::Options::default(), &analysis.scene)?;
         Ok(match self.kind {
-            KindChoice::Panels(kind) if kind.lacks(analysis, &options) => kind.analysed(&analysis.scene, &options),
+            KindChoice::Panels(kind) if kind.lacks(analysis, &options) => {
+                kind.analysed(&analysis.scene, &options, &self.options)
+            }
             _ => analysis.clone(),
         })
     }

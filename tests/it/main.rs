@@ -28,6 +28,7 @@ mod import;
 mod laboratory;
 mod labels;
 mod intervals;
+mod joint_marks;
 mod keys;
 mod flow;
 mod kinds;

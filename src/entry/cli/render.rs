@@ -220,7 +220,7 @@ impl Render {
         let options = &figure.zoomed(options, &source.scene).map_err(wrong)?;
         let free = figure.free(&source.scene).map_err(wrong)?;
         let scene = self.shown(source, format, fonts);
-        let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?);
+        let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?, options);
         progress.step();
         let mut summary = summary(&analysis);
         let bytes = match figure.kind.panels() {

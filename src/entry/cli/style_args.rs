@@ -13,7 +13,7 @@ request! {
     /// The theme, and a style file that changes it.
     #[derive(Clone, Debug)]
     pub(crate) struct StyleArgs(given) {
-        /// Colours: those of Vallat (2023), for print and greyscale, for all kinds of colour vision, or for a dark page
+        /// The look: as in Vallat (2023), plain with one mark at each joint, for print and greyscale, for all kinds of colour vision, or for a dark page
         /// [default: thesis]
         theme: Option<ThemeName> = given.word("theme"),
             arg(long, value_name = "NAME", value_parser = typed_word::<ThemeName>());

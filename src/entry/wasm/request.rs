@@ -70,7 +70,7 @@ impl PageArgs {
         }
         let scene = level.scene(text, self.frame)?;
         let options = self.figure.add_to(level.options(), &scene).map_err(Refused::from)?;
-        self.page(&self.figure.analysed(&scene, &options))
+        self.page(&self.figure.analysed(&scene, &options, &self.options()?))
     }
 
     /// Draws an existing analysis as SVG. If the figure shows results that the analysis lacks, the scene is analysed

@@ -107,6 +107,22 @@ pub enum Item {
     Group(Group),
 }
 
+impl Item {
+    /// Returns the same item moved right by `x` and down by `y` pixels.
+    pub(crate) fn moved(self, x: f64, y: f64) -> Item {
+        match self {
+            Item::Path(path) => Item::Path(Path { outline: path.outline.moved(x, y), ..path }),
+            Item::Text(text) => Item::Text(Text { at: text.at.moved(x, y), ..text }),
+            Item::Group(group) => Item::Group(Group {
+                camera: group.camera.map(|camera| camera.moved(x, y)),
+                clip: group.clip.map(|clip| PageRect { at: clip.at.moved(x, y), ..clip }),
+                items: group.items.into_iter().map(|item| item.moved(x, y)).collect(),
+                ..group
+            }),
+        }
+    }
+}
+
 /// A shape with its paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {

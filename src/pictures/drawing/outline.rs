@@ -81,6 +81,22 @@ impl Outline {
         self.segments.extend(other.segments);
     }
 
+    /// Returns the same outline moved right by `x` and down by `y` pixels.
+    pub(crate) fn moved(self, x: f64, y: f64) -> Outline {
+        self.mapped(|p| p.moved(x, y))
+    }
+
+    /// Returns the outline with each of its points replaced by its image.
+    pub(crate) fn mapped(self, image: impl Fn(PagePoint) -> PagePoint) -> Outline {
+        let segments = self.segments.into_iter().map(|segment| match segment {
+            Segment::Move(p) => Segment::Move(image(p)),
+            Segment::Line(p) => Segment::Line(image(p)),
+            Segment::Curve(a, b, c) => Segment::Curve(image(a), image(b), image(c)),
+            Segment::Close => Segment::Close,
+        });
+        Outline { segments: segments.collect() }
+    }
+
     /// Returns the end points and control points of all segments. The outline lies inside their convex hull.
     pub fn points(&self) -> impl Iterator<Item = PagePoint> + '_ {
         self.segments.iter().flat_map(|segment| match *segment {

@@ -19,7 +19,8 @@ const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 /// The look of a figure: its colours, widths and sizes.
 ///
 /// The built-in themes are `thesis` (the default, with the colours of the thesis [Vallat23](crate::doc::references)),
-/// `paper` (for print, also in grey), `colourblind` (after Okabe and Ito) and `dark`. The table shows the least
+/// `plain` (pale stones, and one mark for the force at each joint), `paper` (for print, also in grey), `colourblind`
+/// (after Okabe and Ito) and `dark`. The table shows the least
 /// distance of colours that can touch; a test checks the numbers. ΔE is CIEDE2000
 /// ([`difference`](super::difference)). For `paper`, the distance is the difference of lightness, as in a grey print.
 /// For `colourblind`, it is the least value for full colour vision and the three deficiencies.
@@ -75,10 +76,31 @@ pub struct Theme {
     pub falls: Colour,
     /// The mark of a structure for which neither standing nor falling is proved.
     pub undecided: Colour,
+    /// How the forces at a joint are drawn.
+    pub forces: ForceMarks,
     /// Widths of lines and arrows.
     pub widths: Widths,
     /// Font sizes.
     pub sizes: Sizes,
+}
+
+/// How figures draw the forces at a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceMarks {
+    /// One mark with two heads, in the true place of the resultant.
+    Joints,
+    /// An arrow on each of the two blocks, in the colour of the block, as in the thesis.
+    Blocks,
+}
+
+impl ForceMarks {
+    /// The names in style files.
+    pub const NAMES: [&str; 2] = ["joints", "blocks"];
+
+    /// Returns the name of this way to draw forces in style files.
+    pub fn name(self) -> &'static str {
+        ForceMarks::NAMES[self as usize]
+    }
 }
 
 /// Widths of lines and arrows. The unit length is the side of a lattice cell, or a typical size of a block.
@@ -124,6 +146,10 @@ impl Widths {
 }
 
 impl Sizes {
+    /// Sizes of figures with one mark at each joint. On paper, they are 70 % of these: 9.5, 7.5 and 6.6 pt.
+    pub const PLAIN: Sizes =
+        Sizes { title: 18.0, caption: 14.2, verdict: 14.2, reason: 12.5, key: 12.5, name: 12.5, amount: 12.5 };
+
     /// Sizes for a figure that is as wide as a printed page.
     pub const DEFAULT: Sizes =
         Sizes { title: 22.0, caption: 17.0, verdict: 13.5, reason: 12.5, key: 12.5, name: 14.0, amount: 11.5 };

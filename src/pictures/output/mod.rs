@@ -30,12 +30,10 @@ pub const MM_PER_INCH: f64 = 25.4;
 /// Pixels of a drawing per inch, if no width is given.
 pub const PIXELS_PER_INCH: f64 = 96.0;
 /// The scale of a figure that is laid out for print. Text of 12.5 pixels (9.4 points) becomes 7.5 points high.
-#[cfg(any(feature = "cli", feature = "wasm"))]
 const PRINT_SCALE: f64 = 0.8;
 
 /// Converts the width of a printed figure, in millimetres, to the width of its layout in pixels. In a figure of this
 /// width, text has the size of printed footnotes, and names in blocks are slightly smaller.
-#[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn page_width(millimetres: f64) -> f64 {
     millimetres / MM_PER_INCH * PIXELS_PER_INCH / PRINT_SCALE
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::kind::Kind;
 use super::layout::Layout;
 use super::option::Options;
+use super::sheet;
 use super::strip::{self, strip};
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::pictures::drawing::Drawing;
@@ -20,8 +21,11 @@ const MOTION_END_SECONDS: f64 = 1.0;
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
-    let analysis = shown(analysis, kind);
-    strip(&analysis, kind.content(), &kind.options(options))
+    let options = kind.options(options);
+    if let Some(figure) = kind.figure(&options) {
+        return sheet::page(analysis, figure, &options);
+    }
+    strip(&shown(analysis, kind), kind.content(), &options)
 }
 
 /// Draws the forces of an analysis. Each frame has a panel with its arrows, its caption and its verdict.
@@ -93,23 +97,32 @@ pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
-    let analysis = shown(analysis, kind);
+    let options = kind.options(options);
     let count = analysis.frames.len();
     let existing = frames.iter().copied().filter(|frame| *frame < count);
-    strip::pages(&analysis, kind.content(), &kind.options(options), existing)
+    if let Some(figure) = kind.figure(&options) {
+        return sheet::pages(analysis, figure, &options, &existing.collect::<Vec<usize>>());
+    }
+    strip::pages(&shown(analysis, kind), kind.content(), &options, existing)
 }
 
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
-    let analysis = shown(analysis, kind);
-    strip::split(&analysis, kind.content(), &kind.options(options), max_ratio)
+    let options = kind.options(options);
+    if let Some(figure) = kind.figure(&options) {
+        return sheet::split(analysis, figure, &options, max_ratio);
+    }
+    strip::split(&shown(analysis, kind), kind.content(), &options, max_ratio)
 }
 
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
 /// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
+    if let Some(figure) = kind.figure(&options) {
+        return sheet::least_size(analysis, figure, &options);
+    }
     let context = kind.context(analysis, &options);
     Layout::new(&context, analysis.frames.len()).least(&context)
 }
@@ -126,5 +139,9 @@ fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
 
 /// Draws one page for each frame of the analysis.
 fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    strip::pages(analysis, kind.content(), options, 0..analysis.frames.len())
+    let frames = 0..analysis.frames.len();
+    if let Some(figure) = kind.figure(options) {
+        return sheet::pages(analysis, figure, options, &frames.collect::<Vec<usize>>());
+    }
+    strip::pages(analysis, kind.content(), options, frames)
 }

@@ -6,12 +6,14 @@ use super::content::PanelContent;
 use super::context::FigureContext;
 use super::flow::ForceFlow;
 use super::forces::{BUILD, FORCES};
+use super::joint_forces::{self, JointForces};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
 use super::option::{ArrowScale, Options};
 use super::polygon::ForcePolygon;
 use super::sensitivity::CornerEffects;
+use super::sheet::Figure;
 use super::structure::Structure;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
@@ -20,6 +22,11 @@ use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 use crate::mechanics::analysis::{CapacityRequest, Sensitivity};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::mechanics::scene::Scene;
+
+/// The largest number of blocks for which a figure of forces asks for margins. The number is part of the scene, so the
+/// same scene has the same figure on every machine.
+#[cfg(any(feature = "cli", feature = "wasm"))]
+const MAX_MARGIN_BLOCKS: usize = 60;
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,6 +103,15 @@ impl Kind {
         }
     }
 
+    /// Returns what draws this kind of figure on a [`Canvas`](super::canvas::Canvas). `None` for a kind that still has its
+    /// older look, and for options that only this look has.
+    pub(crate) fn figure(self, options: &Options) -> Option<&'static dyn Figure> {
+        match self {
+            Kind::Forces | Kind::Build if !joint_forces::is_source_look(options) => Some(&JointForces),
+            _ => None,
+        }
+    }
+
     /// Returns the name of this kind of figure in lower case, such as `mechanism`.
     pub fn name(self) -> &'static str {
         self.content().about().name
@@ -111,6 +127,14 @@ impl Kind {
         self.content().about().help
     }
 
+    /// True if the line of the verdict gives the headline margin of this scene: a figure of forces of one frame, of few
+    /// blocks. The margins of more blocks would take far longer than the figure itself.
+    #[cfg(any(feature = "cli", feature = "wasm"))]
+    fn states_margin(self, scene: &Scene, options: &Options) -> bool {
+        let [frame] = &scene.frames[..] else { return false };
+        options.margin && frame.placed.len() <= MAX_MARGIN_BLOCKS && self.figure(options).is_some()
+    }
+
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and
     /// is complete without them. Returns `None` if there are no optional margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
@@ -120,11 +144,12 @@ impl Kind {
 
     /// Analyses a scene, and also computes the results that a figure of this kind shows: margins, the sensitivity of a
     /// margin, or the forces that a block can carry. If `analysis_options` names no margin or no block, the default of
-    /// the scene is used.
+    /// the scene is used. If the line of the verdict of this figure gives a margin, the analysis also computes the
+    /// margins, provided that they are cheap.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options) -> Analysis {
+    pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options, options: &Options) -> Analysis {
         let mut analysis_options = *analysis_options;
-        analysis_options.margins |= self.needs_margins();
+        analysis_options.margins |= self.needs_margins() || self.states_margin(scene, options);
         if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
             analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }

@@ -136,6 +136,18 @@ request! {
         /// have labels with their magnitudes. In frames with more than 60 blocks, most blocks have no names.
         pub labels: bool = !given.flag("no_labels"),
             arg(skip = true);
+        /// Whether blocks have labels with their names. Only with `labels`.
+        pub names: bool = !given.flag("no_names"),
+            arg(long = "no-names", action = clap::ArgAction::SetFalse, help = "Leave out the names of blocks");
+        /// Whether loads, missing forces, robots and the largest force have labels with their magnitudes. Only with
+        /// `labels`.
+        pub main_amounts: bool = !given.flag("no_amounts"),
+            arg(long = "no-amounts", action = clap::ArgAction::SetFalse,
+                help = "Leave out the magnitudes of loads, missing forces, robots and the largest force");
+        /// Whether the line of the verdict gives the most important margin, if the analysis has computed it.
+        pub margin: bool = !given.flag("no_margin"),
+            arg(long = "no-margin", action = clap::ArgAction::SetFalse,
+                help = "Leave out the margin from the line of the verdict");
         /// Whether a scale bar in metres is drawn.
         pub scale_bar: bool = given.flag("scale_bar"),
             arg(long, help = "Show a scale bar with a round number of metres");

@@ -6,7 +6,7 @@
 
 use super::super::colour::Colour;
 use super::super::ramp;
-use super::{Sizes, Theme, Widths};
+use super::{ForceMarks, Sizes, Theme, Widths};
 use crate::read::{Cause, Dialect, Expected, Node, NodeKind, Read, Reader, Trail, from_text};
 
 pub use crate::read::{Notation, Problem as StyleProblem, Problems as StyleProblems};
@@ -69,6 +69,7 @@ impl Theme {
         for (key, field) in LIST_FIELDS {
             lines.push(format!("  \"{key}\": {}", list(field(&mut theme))));
         }
+        lines.push(format!("  \"{FORCES_KEY}\": \"{}\"", self.forces.name()));
         let known = ramp::NAMES.iter().find(|name| ramp::named(name).as_ref() == Some(&self.amplitudes));
         let amplitudes = match known {
             Some(name) => format!("\"{name}\""),
@@ -110,6 +111,7 @@ type ListField = (&'static str, fn(&mut Theme) -> &mut Vec<Colour>);
 const LIST_FIELDS: [ListField; 2] = [("arrows", |t| &mut t.arrows), ("robots", |t| &mut t.robots)];
 
 const AMPLITUDES_KEY: &str = "amplitudes";
+const FORCES_KEY: &str = "forces";
 
 /// A field of [`Widths`]: its key, the field, its least and largest value, and its unit.
 type WidthField = (&'static str, fn(&mut Widths) -> &mut f64, [f64; 2], &'static str);
@@ -158,11 +160,15 @@ fn stops(ramp: &[Colour]) -> Vec<Colour> {
 /// Reads a theme. Values that the text does not give come from `base`, or else from the theme that it names.
 fn theme<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>, base: Option<&Theme>) -> Option<Theme> {
     let lists = LIST_FIELDS.iter().map(|l| l.0);
-    let others = ["theme", AMPLITUDES_KEY, "widths", "sizes"];
+    let others = ["theme", AMPLITUDES_KEY, FORCES_KEY, "widths", "sizes"];
     let keys: Vec<&str> = COLOUR_FIELDS.iter().map(|c| c.0).chain(lists).chain(others).collect();
     let fields = r.object(node, at, &keys)?;
     let named = r.optional(fields, at, "theme", |r, node, at| r.choice(node, at, &Theme::NAMES.map(|n| (n, n))));
     let mut theme = base.cloned().or(named.and_then(Theme::named)).unwrap_or_default();
+    let marks = [ForceMarks::Joints, ForceMarks::Blocks].map(|marks| (marks.name(), marks));
+    if let Some(marks) = r.optional(fields, at, FORCES_KEY, |r, node, at| r.choice(node, at, &marks)) {
+        theme.forces = marks;
+    }
     for (key, field) in COLOUR_FIELDS {
         if let Some(colour) = r.optional(fields, at, key, Colour::read) {
             *field(&mut theme) = colour;

@@ -2,11 +2,11 @@
 
 use super::super::colour::Colour;
 use super::super::ramp;
-use super::{Sizes, Theme, Widths};
+use super::{ForceMarks, Sizes, Theme, Widths};
 
 impl Theme {
     /// The names of the themes, the default first. [`Theme::named`] accepts each of them.
-    pub const NAMES: [&str; 4] = ["thesis", "paper", "colourblind", "dark"];
+    pub const NAMES: [&str; 5] = ["thesis", "plain", "paper", "colourblind", "dark"];
 
     /// Returns the built-in theme with this name; `None` for a name that is not in [`Theme::NAMES`].
     ///
@@ -17,11 +17,40 @@ impl Theme {
     /// ```
     pub fn named(name: &str) -> Option<Theme> {
         match name {
+            "plain" => Some(Theme::plain()),
             "thesis" => Some(Theme::thesis()),
             "paper" => Some(Theme::paper()),
             "colourblind" => Some(Theme::colourblind()),
             "dark" => Some(Theme::dark()),
             _ => None,
+        }
+    }
+
+    /// Returns the default theme: pale stones on a white page, with the colours on the marks. Forces go from green to dark
+    /// blue.
+    pub fn plain() -> Theme {
+        Theme {
+            page: Colour::WHITE,
+            ink: Colour::hex(0x22262b),
+            faint: Colour::hex(0x5a626b),
+            rule: Colour::hex(0xd9dce1),
+            casing: Colour::WHITE,
+            arrows: all(&[0x4f9d34, 0x15876a, 0x125f7e, 0x172465]),
+            robots: all(&[0xffe11f, 0xffae00, 0xff7d1a, 0xffd08a]),
+            load: Colour::hex(0x7a28b8),
+            failure: Colour::hex(0xc40018),
+            ground: Colour::hex(0x3c4145),
+            block: Colour::hex(0xf1efe9),
+            outline: Colour::hex(0xa9a8a2),
+            motion: Colour::hex(0x4479b4),
+            safe: Colour::hex(0x1b7f4b),
+            amplitudes: Theme::thesis().amplitudes,
+            stands: Colour::hex(0x1b7f4b),
+            falls: Colour::hex(0xa80012),
+            undecided: Colour::hex(0x6b7280),
+            forces: ForceMarks::Joints,
+            widths: Widths::DEFAULT,
+            sizes: Sizes::PLAIN,
         }
     }
 
@@ -46,6 +75,7 @@ impl Theme {
             stands: Colour::hex(0x17824f),
             falls: Colour::hex(0x9c1515),
             undecided: Colour::hex(0x6b7280),
+            forces: ForceMarks::Blocks,
             widths: Widths::DEFAULT,
             sizes: Sizes::DEFAULT,
         }
@@ -73,6 +103,7 @@ impl Theme {
             stands: Colour::hex(0x1b6b43),
             falls: Colour::hex(0x8a0f14),
             undecided: Colour::hex(0x555555),
+            forces: ForceMarks::Blocks,
             widths: Widths::DEFAULT,
             sizes: Sizes::DEFAULT,
         }
@@ -100,6 +131,7 @@ impl Theme {
             stands: Colour::hex(0x0072b2),
             falls: Colour::hex(0x7d3600),
             undecided: Colour::hex(0x5d646e),
+            forces: ForceMarks::Blocks,
             widths: Widths::DEFAULT,
             sizes: Sizes::DEFAULT,
         }
@@ -126,6 +158,7 @@ impl Theme {
             stands: Colour::hex(0x6fe0a8),
             falls: Colour::hex(0xff6b6b),
             undecided: Colour::hex(0xa3abb6),
+            forces: ForceMarks::Blocks,
             widths: Widths::DEFAULT,
             sizes: Sizes::DEFAULT,
         }

@@ -202,6 +202,8 @@ fn a_style_file_changes_only_the_values_it_contains() {
     let grey = Theme::read("amplitudes = 'viridis'", Notation::Toml, None).expect("valid");
     assert_eq!(Some(grey.amplitudes), ramp::named("viridis"));
     assert_eq!(Theme::read("{}", Notation::Json, None), Ok(Theme::thesis()));
+    let joints = Theme::read("forces = 'joints'", Notation::Toml, None).expect("valid");
+    assert_eq!(joints, Theme { forces: ForceMarks::Joints, ..Theme::thesis() });
 }
 
 #[test]

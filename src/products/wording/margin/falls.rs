@@ -10,15 +10,19 @@ use crate::mechanics::scene::Scene;
 /// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame
 /// stands or is undecided, or if no computed margin shows what is lacking.
 pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+    lack(scene, frame_analysis).map(|lack| format!("{FALLS}: {lack}"))
+}
+
+/// Describes what a falling frame lacks to stand, as [`falls_headline`] does, without the verdict.
+pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
     if frame_analysis.verdict != Verdict::Unstable {
         return None;
     }
     let intervals = &frame_analysis.margins.as_ref()?.intervals;
     let loads = intervals.load_factor.as_ref();
-    let lack = loads
+    loads
         .and_then(|interval| load_lack(scene, interval))
-        .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))?;
-    Some(format!("{FALLS}: {lack}"))
+        .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))
 }
 
 /// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.

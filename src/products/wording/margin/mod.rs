@@ -4,10 +4,12 @@
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
 mod falls;
+mod governing;
 mod list;
 mod range;
 
 pub use falls::falls_headline;
+pub use governing::governing;
 pub use list::stated;
 pub use range::stands;
 

@@ -1,0 +1,159 @@
+//! [`Canvas`]: the picture of one frame. A kind of figure puts [`Mark`]s and [`Label`]s on it. The canvas knows from
+//! them where labels may lie, which entries the legend needs, and how much space the picture takes.
+//!
+//! Lengths of the design are millimetres on paper ([`Look::mm`]); positions on the canvas are pixels.
+
+use std::rc::Rc;
+
+use super::design::{Key, Layer, Look, Mark, around};
+use super::option::Options;
+use super::placing::{self, Label, Surroundings};
+use crate::geometry::{Bounds, Point};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::scene::{Frame, Scene};
+use crate::pictures::drawing::{Camera, Group, Item, PagePoint, PageRect, Path, Theme};
+
+/// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
+/// elements would make a file slow to open.
+const MANY_BLOCKS: usize = 1000;
+
+/// The picture of one frame while a kind of figure draws it.
+pub(crate) struct Canvas<'a> {
+    pub analysis: &'a Analysis,
+    /// The index of the frame, from 0.
+    pub number: usize,
+    pub options: &'a Options,
+    pub camera: Camera,
+    pub look: Look,
+    /// The length of a force in the one scale of the figure, pixels per newton.
+    pub scale: f64,
+    /// The blocks of all frames, pixels.
+    pub structure: PageRect,
+    marks: Vec<Mark>,
+    labels: Vec<Label>,
+    notes: Vec<Rc<Key>>,
+}
+
+/// A finished picture.
+pub(crate) struct Picture {
+    pub group: Group,
+    /// The smallest rectangle around everything that is drawn.
+    pub extent: PageRect,
+    /// The entries that the legend needs.
+    pub keys: Vec<Rc<Key>>,
+}
+
+impl<'a> Canvas<'a> {
+    /// Creates an empty canvas on which `view` (metres) begins at (0, 0), with `zoom` pixels per metre.
+    pub fn new(
+        analysis: &'a Analysis,
+        number: usize,
+        options: &'a Options,
+        look: Look,
+        (view, zoom): (Bounds, f64),
+        scale: f64,
+    ) -> Canvas<'a> {
+        let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
+        let structure = camera.rect(view);
+        let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
+        Canvas { analysis, number, options, camera, look, scale, structure, marks, labels, notes }
+    }
+
+    pub fn scene(&self) -> &'a Scene {
+        &self.analysis.scene
+    }
+
+    pub fn frame(&self) -> &'a Frame {
+        &self.analysis.scene.frames[self.number]
+    }
+
+    pub fn found(&self) -> &'a FrameAnalysis {
+        &self.analysis.frames[self.number]
+    }
+
+    pub fn theme(&self) -> &'a Theme {
+        &self.options.theme
+    }
+
+    /// Converts a point of the scene to its position on the canvas.
+    pub fn place(&self, point: Point) -> PagePoint {
+        self.camera.place(point)
+    }
+
+    /// Converts millimetres of the design to pixels.
+    pub fn mm(&self, length: f64) -> f64 {
+        self.look.mm(length)
+    }
+
+    /// True if the frame has so many blocks that single marks have no tooltips.
+    pub fn many(&self) -> bool {
+        self.frame().placed.len() > MANY_BLOCKS
+    }
+
+    /// Puts a mark on the canvas, above the marks of lower layers and the earlier marks of its layer.
+    pub fn put(&mut self, mark: Mark) {
+        if !mark.shapes.is_empty() {
+            self.marks.push(mark);
+        }
+    }
+
+    /// Adds an entry to the legend that explains no mark.
+    pub fn note(&mut self, rank: u8, words: &str) {
+        let key = Key { rank, words: words.to_owned(), symbol: Vec::new(), width: 0.0 };
+        self.notes.push(Rc::new(key));
+    }
+
+    /// Asks for a label. Labels are placed when the picture is finished.
+    pub fn label(&mut self, label: Label) {
+        self.labels.push(label);
+    }
+
+    /// Places the labels and returns the picture.
+    pub fn finish(mut self) -> Picture {
+        let labels = core::mem::take(&mut self.labels);
+        let surroundings = Surroundings::new(&self.marks, self.structure);
+        let placed = placing::labels(labels, &surroundings, self.look, self.options);
+        let points = self.marks.iter().flat_map(|mark| &mark.shapes).flat_map(|path| path.outline.points());
+        let corners = placed.rects.iter().flat_map(|r| [r.at, r.at.moved(r.width, r.height)]);
+        let extent = around(points.chain(corners)).unwrap_or(self.structure);
+        let mut keys: Vec<Rc<Key>> = self.marks.iter().filter_map(|mark| mark.key.clone()).collect();
+        keys.append(&mut self.notes);
+        keys.sort_by_key(|key| key.rank);
+        keys.dedup_by_key(|key| key.rank);
+        let many = self.many();
+        let mut group = Group { camera: Some(self.camera), ..Group::with_class("picture") };
+        let mut layers = Layer::ALL.map(|(_, class)| Group::with_class(class));
+        let mut bulk: Vec<(usize, Path)> = Vec::new();
+        for mark in self.marks {
+            let layer = mark.layer as usize;
+            if many && mark.layer <= Layer::Force {
+                mark.shapes.into_iter().for_each(|path| merge(&mut bulk, layer, path));
+                continue;
+            }
+            let items = mark.shapes.into_iter().map(Item::from).collect();
+            let drawn = Group { description: mark.description, items, ..Group::with_class(mark.class) };
+            layers[layer].items.push(drawn.titled(mark.title).into());
+        }
+        for (layer, path) in bulk {
+            layers[layer].items.push(path.into());
+        }
+        group.items.extend(layers.into_iter().filter(|layer| !layer.items.is_empty()).map(Item::from));
+        if !placed.items.is_empty() {
+            group.items.push(Group { items: placed.items, ..Group::with_class("labels") }.into());
+        }
+        Picture { group, extent, keys }
+    }
+}
+
+/// Adds a path to the last path of its layer if both have the same paint.
+fn merge(bulk: &mut Vec<(usize, Path)>, layer: usize, path: Path) {
+    let same = |other: &Path| {
+        (other.fill, other.fill_last) == (path.fill, path.fill_last)
+            && other.stroke == path.stroke
+            && other.opacity.to_bits() == path.opacity.to_bits()
+    };
+    match bulk.iter_mut().rev().find(|(at, _)| *at == layer) {
+        Some((_, last)) if same(last) => last.outline.extend(path.outline),
+        _ => bulk.push((layer, path)),
+    }
+}

@@ -1,0 +1,162 @@
+//! What a picture is made of: sizes ([`Look`]), layers, marks and their keys, and arrows.
+
+use std::rc::Rc;
+
+use super::option::Options;
+use crate::pictures::drawing::{Outline, PagePoint, PageRect, Path};
+use crate::pictures::output::page_width;
+
+/// The size of small text on paper, mm: 6.6 pt.
+const PRINTED_TEXT: f64 = 6.6 * 25.4 / 72.0;
+/// The size of the same text in the themes, pixels. It is the size on a screen, where no width of the page is given.
+const SCREEN_TEXT: f64 = 12.5;
+
+/// The sizes in which a figure is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// Pixels of a millimetre of the design.
+    pub pixels: f64,
+    /// Factor on the font sizes of the theme.
+    pub text: f64,
+    /// Whether the blocks are so large that marks are larger, and weights are drawn.
+    pub large: bool,
+    /// Whether the figure has several panels.
+    pub is_strip: bool,
+    /// Whether the blocks are large enough for their names.
+    pub names: bool,
+}
+
+impl Look {
+    /// Returns the sizes for the screen, or for paper if the options set the width of the page.
+    pub fn new(options: &Options, is_strip: bool) -> Look {
+        let printed = page_width(1.0);
+        let text = if options.width.is_some() { PRINTED_TEXT * printed / SCREEN_TEXT } else { 1.0 };
+        Look { pixels: SCREEN_TEXT * text / PRINTED_TEXT, text, large: false, is_strip, names: false }
+    }
+
+    /// Converts millimetres of the design to pixels.
+    pub fn mm(&self, length: f64) -> f64 {
+        length * self.pixels
+    }
+}
+
+/// The layers of a picture, the lowest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Layer {
+    Ground,
+    /// Stones. Labels avoid their edges and their inside.
+    Stone,
+    /// Marks of the forces inside the structure.
+    Force,
+    /// Weights, robots and hinges.
+    Symbol,
+    Load,
+    Missing,
+}
+
+impl Layer {
+    pub const ALL: [(Layer, &'static str); 6] = [
+        (Layer::Ground, "ground"),
+        (Layer::Stone, "blocks"),
+        (Layer::Force, "forces"),
+        (Layer::Symbol, "symbols"),
+        (Layer::Load, "loads"),
+        (Layer::Missing, "failures"),
+    ];
+}
+
+/// An entry of the legend: a symbol and its meaning.
+#[derive(Clone, Debug)]
+pub(crate) struct Key {
+    /// Entries are printed in this order. Entries of several panels with the same rank are the same entry.
+    pub rank: u8,
+    /// The meaning of the symbol.
+    pub words: String,
+    /// The symbol, which begins at (0, 0) and is centred on the horizontal axis; empty for a note.
+    pub symbol: Vec<Path>,
+    /// The width of the symbol, pixels.
+    pub width: f64,
+}
+
+/// Shapes that belong together and have one meaning.
+#[derive(Clone, Debug)]
+pub(crate) struct Mark {
+    pub layer: Layer,
+    /// The class of its group, such as `force`.
+    pub class: &'static str,
+    /// The text on mouse hover; empty for none.
+    pub title: String,
+    /// A longer text for screen readers; may be empty.
+    pub description: String,
+    pub shapes: Vec<Path>,
+    /// The entry of the legend that explains the mark.
+    pub key: Option<Rc<Key>>,
+    /// The clear space that labels leave around the mark, pixels; `None` if labels may lie on it.
+    pub avoid: Option<f64>,
+}
+
+impl Mark {
+    pub fn new(layer: Layer, class: &'static str, shapes: Vec<Path>) -> Mark {
+        Mark { layer, class, title: String::new(), description: String::new(), shapes, key: None, avoid: None }
+    }
+
+    pub fn titled(self, title: String) -> Mark {
+        Mark { title, ..self }
+    }
+
+    pub fn keyed(self, key: &Rc<Key>) -> Mark {
+        Mark { key: Some(Rc::clone(key)), ..self }
+    }
+
+    /// Labels leave this much clear space around the mark, pixels.
+    pub fn avoided(self, clear: f64) -> Mark {
+        Mark { avoid: Some(clear), ..self }
+    }
+}
+
+/// Returns the smallest rectangle around the points; `None` if there are none.
+pub(crate) fn around(points: impl IntoIterator<Item = PagePoint>) -> Option<PageRect> {
+    let mut ends: Option<[f64; 4]> = None;
+    for p in points {
+        let [left, top, right, bottom] = ends.unwrap_or([p.x, p.y, p.x, p.y]);
+        ends = Some([left.min(p.x), top.min(p.y), right.max(p.x), bottom.max(p.y)]);
+    }
+    let [left, top, right, bottom] = ends?;
+    Some(PageRect { at: PagePoint::new(left, top), width: right - left, height: bottom - top })
+}
+
+/// Returns the point `forward` pixels along the unit vector `u` from `p`, and `aside` pixels to the right of it on the
+/// page.
+pub(crate) fn along(p: PagePoint, u: (f64, f64), forward: f64, aside: f64) -> PagePoint {
+    p.moved(u.0 * forward - u.1 * aside, u.1 * forward + u.0 * aside)
+}
+
+/// The sizes of an arrow, pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ArrowSize {
+    pub length: f64,
+    /// Width of the shaft.
+    pub shaft: f64,
+    /// Width and length of the head.
+    pub head: (f64, f64),
+}
+
+impl ArrowSize {
+    /// Returns the corners of an arrow that begins at `p` and points along the unit vector `u`.
+    pub fn corners(self, p: PagePoint, u: (f64, f64)) -> [PagePoint; 7] {
+        let (neck, half, head) = (self.length - self.head.1, self.shaft / 2.0, self.head.0 / 2.0);
+        [(0.0, -half), (neck, -half), (neck, -head), (self.length, 0.0), (neck, head), (neck, half), (0.0, half)]
+            .map(|(forward, aside)| along(p, u, forward, aside))
+    }
+
+    /// Returns the outline of the arrow.
+    pub fn outline(self, p: PagePoint, u: (f64, f64)) -> Outline {
+        Outline::ring(self.corners(p, u))
+    }
+
+    /// Returns the outline of a mark with two heads. `self` is each of its halves, which begin at `p`.
+    pub fn two_headed(self, p: PagePoint, u: (f64, f64)) -> Outline {
+        let [front, back] = [u, (-u.0, -u.1)].map(|u| self.corners(p, u));
+        Outline::ring(front[1..6].iter().chain(&back[1..6]).copied())
+    }
+}

@@ -1,0 +1,463 @@
+//! Draws the forces of a structure with one mark at each joint: an arrow with two heads in the true place and direction
+//! of the resultant. Its length is the force, in one scale for the whole figure. Small forces are ticks, and none is left
+//! out. Missing forces are red, and the hinges and slips are those of the collapse that the line of the verdict names.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::canvas::Canvas;
+use super::description::pair;
+use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::option::{Fill, ForceStyle, Normalisation, Options};
+use super::placing::Label;
+use super::sheet::{Figure, View};
+use super::stage;
+use super::words::{force, quantity, round_below_in};
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion, Verdict};
+use crate::mechanics::scene::{BodyId, Scene};
+use crate::pictures::drawing::difference::lightness;
+use crate::pictures::drawing::style::ForceMarks;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::margin::governing;
+
+/// A force below this share of the largest is numerical noise and has no mark.
+const NOISE: f64 = 1e-6;
+/// Half the length of a tick, mm: the least half length of a mark.
+const TICK: f64 = 0.45;
+/// The legend explains ticks if there are at least this many.
+const EXPLAINED_TICKS: usize = 3;
+/// If a collapse has more hinges and slips than this, none is drawn; the figure of the mechanism shows them.
+const MAX_COLLAPSE_MARKS: usize = 6;
+/// If more blocks than this are in a frame, only the largest force has an amount, even on request.
+const MAX_AMOUNT_BLOCKS: usize = 60;
+/// At most this many missing forces have amounts.
+const MAX_MISSING_AMOUNTS: usize = 16;
+
+/// The figure of forces with one mark at each joint.
+pub(crate) struct JointForces;
+
+impl Figure for JointForces {
+    fn scale(&self, view: &View<'_>, look: Look) -> f64 {
+        scale(view, look)
+    }
+
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        stage::listed_contacts(canvas);
+        joints(canvas);
+        if !(canvas.look.large && weights(canvas)) {
+            canvas.note(70, "weights omitted");
+        }
+        stage::robots(canvas);
+        stage::loads(canvas);
+        missing(canvas);
+        if !canvas.look.is_strip {
+            collapse(canvas);
+        }
+        stage::names(canvas);
+    }
+
+    fn title(&self) -> &'static str {
+        "Forces in a dry-laid structure"
+    }
+}
+
+/// Returns the largest contact force of some frames, N.
+fn largest(frames: &[FrameAnalysis]) -> f64 {
+    let contacts = frames.iter().flat_map(|frame| &frame.contacts);
+    contacts.map(|contact| contact.resultant.force.norm()).fold(0.0, f64::max)
+}
+
+/// Returns the scale of the forces, pixels of half a mark per newton. With it, the marks of large forces in a block do
+/// not meet in most blocks.
+fn scale(view: &View<'_>, look: Look) -> f64 {
+    let analysis = view.analysis;
+    let scene = &analysis.scene;
+    let mut largest = largest(&analysis.frames);
+    if largest <= 0.0 {
+        // Without contact forces, weights and robots set the scale.
+        largest = scene.blocks.iter().map(|block| block.weight).fold(0.0, f64::max);
+    }
+    if largest <= 0.0 {
+        return 0.0;
+    }
+    let mut candidates = Vec::new();
+    for contact in analysis.frames.iter().flat_map(|frame| &frame.contacts) {
+        let (at, force) = (contact.resultant.at, contact.resultant.force);
+        let norm = force.norm();
+        if norm < 0.4 * largest {
+            continue;
+        }
+        for (body, sign) in contact.interface.bodies.into_iter().zip([1.0, -1.0]) {
+            let BodyId::Block(id) = body else { continue };
+            let polygon = &scene.blocks[id.0].body.polygon;
+            let reach = polygon.bounds().diagonal();
+            let way = force * (sign / norm);
+            let chord = view.zoom * stage::inside_length(polygon.rings(), at + way * (1e-6 * reach), way * reach);
+            if chord > look.mm(0.5) {
+                candidates.push(0.45 * chord / norm);
+            }
+        }
+    }
+    candidates.sort_by(f64::total_cmp);
+    let place = match (look.large, look.names) {
+        (true, _) => candidates.len() / 2,
+        (false, true) => candidates.len() / 12,
+        (false, false) => candidates.len() / 4,
+    };
+    let (least, most) = if look.large { (4.0, 9.0) } else { (2.2, 6.5) };
+    let longest = candidates.get(place).map_or(look.mm(least), |scale| scale * largest);
+    longest.clamp(look.mm(least), look.mm(most)) / largest
+}
+
+/// Returns the colour of a force: from the colour of the theme that is nearest to the page to the farthest, by the
+/// square root of its share of the largest force.
+fn tint(theme: &Theme, share: f64) -> Colour {
+    let mut stops = theme.arrows.clone();
+    let page = lightness(theme.page);
+    stops.sort_by(|a, b| (lightness(*a) - page).abs().total_cmp(&(lightness(*b) - page).abs()));
+    let last = stops.len().saturating_sub(1);
+    let place = libm::sqrt(share.clamp(0.0, 1.0)) * last as f64;
+    let number = (place as usize).min(last.saturating_sub(1));
+    match (stops.get(number), stops.get(number + 1)) {
+        (Some(low), Some(high)) => low.mixed(*high, (place - number as f64).clamp(0.0, 1.0)),
+        (Some(only), None) => *only,
+        _ => theme.ink,
+    }
+}
+
+/// Returns the outline of the mark of a force at `p` along the unit vector `u`. `half` is its half length, pixels.
+fn mark(look: Look, p: PagePoint, u: (f64, f64), half: f64, both: bool) -> Outline {
+    let half = half.max(look.mm(TICK));
+    let (shaft, wide, long) = if look.large { (0.95, 2.2, 2.1) } else { (0.7, 1.6, 1.6) };
+    let head = look.mm(long).min(0.62 * half);
+    let share = (head / look.mm(long)).max(0.28);
+    let size = ArrowSize {
+        length: half,
+        shaft: look.mm(shaft) * share.max(0.5),
+        head: (look.mm(wide) * share.max(0.42), head),
+    };
+    if both { size.two_headed(p, u) } else { size.outline(p, u) }
+}
+
+/// A contact force that is drawn.
+struct Drawn<'a> {
+    contact: &'a Contact,
+    /// Its amount, N.
+    newtons: f64,
+    at: PagePoint,
+    /// Its direction on the page, into the first block.
+    u: (f64, f64),
+    /// Whether both bodies are blocks.
+    both: bool,
+}
+
+fn drawn<'a>(canvas: &Canvas<'a>) -> Vec<Drawn<'a>> {
+    let noise = NOISE * largest(&canvas.analysis.frames);
+    let contacts = canvas.found().contacts.iter();
+    let one = |contact: &'a Contact| {
+        let force = contact.resultant.force;
+        let newtons = force.norm();
+        if newtons <= noise {
+            return None;
+        }
+        let is_block = |body: &BodyId| matches!(body, BodyId::Block(_));
+        let [first, second] = contact.interface.bodies;
+        let sign = if is_block(&first) { 1.0 } else { -1.0 };
+        let u = (sign * force.x / newtons, -sign * force.y / newtons);
+        let both = is_block(&first) && is_block(&second);
+        Some(Drawn { contact, newtons, at: canvas.place(contact.resultant.at), u, both })
+    };
+    let mut all: Vec<Drawn<'a>> = contacts.filter_map(one).collect();
+    // The largest first, so that small marks lie on top.
+    all.sort_by(|a, b| b.newtons.total_cmp(&a.newtons));
+    all
+}
+
+/// Draws the marks of all joints, and asks for the label of the largest.
+fn joints(canvas: &mut Canvas<'_>) {
+    let (theme, look, scene) = (canvas.theme(), canvas.look, canvas.scene());
+    let most = largest(&canvas.analysis.frames);
+    let all = drawn(canvas);
+    let newtons_of_tick = look.mm(TICK) / canvas.scale;
+    let every = canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts);
+    let every = every.map(|contact| contact.resultant.force.norm());
+    let ticks = every.filter(|n| *n > NOISE * most && *n < 0.999 * newtons_of_tick).count();
+    let (force_key, tick_key) = (force_key(canvas, most), tick_key(canvas, most, newtons_of_tick));
+    let casing = look.mm(0.14);
+    for one in &all {
+        let half = canvas.scale * one.newtons;
+        let outline = mark(look, one.at, one.u, half, one.both);
+        let path = Path::filled(outline, tint(theme, one.newtons / most)).cased(theme.page, casing);
+        let amount = force(one.contact.resultant.force, scene.units);
+        let title = format!("Force between {}: {amount}", pair(scene, one.contact.interface.bodies));
+        let is_tick = ticks >= EXPLAINED_TICKS && half < 0.999 * look.mm(TICK);
+        let mut drawn = Mark::new(Layer::Force, "force", vec![path]).titled(title);
+        drawn = drawn.keyed(if is_tick { &tick_key } else { &force_key });
+        canvas.put(if half > look.mm(0.8) { drawn.avoided(look.mm(0.15)) } else { drawn });
+    }
+    let few = canvas.frame().placed.len() <= MAX_AMOUNT_BLOCKS;
+    let labelled = if canvas.options.amounts && few { all.len() } else { 1 };
+    for (number, one) in all.iter().take(labelled).enumerate() {
+        label(canvas, one, if number == 0 { 3 } else { 4 }, most);
+    }
+}
+
+/// Asks for the amount of a force: below the hatching if it acts on the ground, otherwise beside its mark.
+fn label(canvas: &mut Canvas<'_>, one: &Drawn<'_>, rank: u8, most: f64) {
+    if !(canvas.options.labels && canvas.options.main_amounts) {
+        return;
+    }
+    let half = (canvas.scale * one.newtons).max(canvas.mm(0.4));
+    let words = quantity(one.newtons, canvas.scene().units.force());
+    let size = canvas.look.text * canvas.theme().sizes.amount;
+    let below = one.at.moved(0.0, canvas.mm(1.3 + 0.35 + 0.15) + 0.39 * size);
+    let under = !one.both && one.u.1 < -0.5 && canvas.scene().lattice.is_none();
+    canvas.label(Label {
+        words,
+        bold: true,
+        colour: tint(canvas.theme(), if rank == 3 { 1.0 } else { one.newtons / most }),
+        anchors: [0.5, 0.1, 0.9].map(|share| along(one.at, one.u, share * half, 0.0)).to_vec(),
+        rank,
+        away: None,
+        fixed: under.then_some(below),
+        inside: None,
+    });
+}
+
+fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64) -> (Vec<Path>, f64) {
+    let (look, theme) = (canvas.look, canvas.theme());
+    let half = (canvas.scale * newtons).max(look.mm(TICK));
+    let outline = mark(look, PagePoint::new(half, 0.0), (1.0, 0.0), half, true);
+    (vec![Path::filled(outline, tint(theme, share)).cased(theme.page, look.mm(0.1))], 2.0 * half)
+}
+
+/// Returns the entry with the scale: a mark of a round amount.
+fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
+    let units = canvas.scene().units.force();
+    let share = if canvas.scale * most < canvas.mm(6.0) { 1.0 } else { 0.75 };
+    let round = round_below_in(share * most, units);
+    let (symbol, width) = key_mark(canvas, round, round / most.max(f64::MIN_POSITIVE));
+    Rc::new(Key { rank: 20, words: format!("{}  force at a joint", quantity(round, units)), symbol, width })
+}
+
+/// Returns the entry for ticks: the largest force that is drawn as a tick, rounded up to one digit.
+fn tick_key(canvas: &Canvas<'_>, most: f64, newtons: f64) -> Rc<Key> {
+    let (symbol, width) = key_mark(canvas, 0.0, 0.5 * newtons / most.max(f64::MIN_POSITIVE));
+    let units = canvas.scene().units.force();
+    let step = libm::exp10(libm::floor(libm::log10(units.value_from_si(newtons).max(f64::MIN_POSITIVE))));
+    let size = newtons / units.value_from_si(newtons).max(f64::MIN_POSITIVE);
+    let rounded = libm::ceil(units.value_from_si(newtons) / step - 1e-9) * step * size;
+    Rc::new(Key { rank: 10, words: format!("up to {}", quantity(rounded, units)), symbol, width })
+}
+
+/// Draws the weights of the blocks of a large picture as thin arrows from their centroids. Returns false if they would be
+/// too short.
+fn weights(canvas: &mut Canvas<'_>) -> bool {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let placed = canvas.frame().placed.iter().map(|id| &scene.blocks[id.0]);
+    let heaviest = scene.blocks.iter().map(|block| block.weight).fold(0.0, f64::max);
+    let pull = scene.gravity;
+    if canvas.scale * heaviest < canvas.mm(1.6) || pull.norm() <= 0.0 {
+        return false;
+    }
+    let down = (pull.x / pull.norm(), -pull.y / pull.norm());
+    let arrow = |canvas: &Canvas<'_>, at: PagePoint, u: (f64, f64), length: f64| {
+        let head = (canvas.mm(1.15), canvas.mm(1.5).min(0.6 * length));
+        let shaft = ArrowSize { length, shaft: canvas.mm(0.32), head }.outline(at, u);
+        let ring = Stroke::new(theme.ink, canvas.mm(0.28));
+        vec![
+            Path::filled(shaft, theme.ink).cased(theme.page, canvas.mm(0.15)),
+            Path::filled(Outline::circle(at, canvas.mm(0.55)), theme.page).with_stroke(ring),
+        ]
+    };
+    let symbol = arrow(canvas, PagePoint::new(canvas.mm(0.7), 0.0), (1.0, 0.0), canvas.mm(4.0));
+    let key = Rc::new(Key { rank: 30, words: "weight".to_owned(), symbol, width: canvas.mm(4.7) });
+    for block in placed.filter(|block| block.weight > 0.0) {
+        let length = (canvas.scale * block.weight).max(canvas.mm(1.3));
+        let shapes = arrow(canvas, canvas.place(block.centroid), down, length);
+        let amount = force(pull * (block.weight / pull.norm()), scene.units);
+        let title = format!("Weight of block {}: {amount}", block.id);
+        canvas.put(Mark::new(Layer::Symbol, "weight", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.3)));
+    }
+    true
+}
+
+/// Draws the missing forces in red, with their amounts. The arrows of a missing pull meet at its point; those of a
+/// missing friction lie on the two sides of the joint.
+fn missing(canvas: &mut Canvas<'_>) {
+    let (scene, found, look) = (canvas.scene(), canvas.found(), canvas.look);
+    let ink = canvas.theme().failure;
+    let large = look.large;
+    let sizes = if large { (1.15, 2.6, 2.1) } else { (0.95, 2.1, 1.7) };
+    let arrow = |length: f64| ArrowSize {
+        length,
+        shaft: look.mm(sizes.0),
+        head: (look.mm(sizes.1), look.mm(sizes.2).min(0.62 * length)),
+    };
+    let symbol = Path::filled(arrow(look.mm(4.4)).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
+    let key = Rc::new(Key { rank: 50, words: "missing".to_owned(), symbol: vec![symbol], width: look.mm(4.4) });
+    let mut order: Vec<&Failure> = found.failures.iter().collect();
+    order.sort_by(|a, b| b.amount().total_cmp(&a.amount()));
+    for (number, failure) in order.into_iter().enumerate() {
+        let (at, missing) = (canvas.place(failure.at()), failure.force());
+        let norm = missing.norm();
+        let cased = |outline: Outline| Path::filled(outline, ink).cased(canvas.theme().page, look.mm(0.15));
+        let (what, shapes, anchors, amount) = if let Failure::RobotTorque { torque, .. } = *failure {
+            let amount = quantity(torque.abs(), scene.units.torque());
+            let shapes = stage::torque(canvas, at, torque, (3.1, 0.6), ink);
+            (stage::turning(torque, amount.clone()), shapes, vec![at.moved(0.0, -look.mm(3.0))], amount)
+        } else if norm > 0.0 {
+            let u = (missing.x / norm, -missing.y / norm);
+            let length = (canvas.scale * norm).clamp(look.mm(if large { 4.0 } else { 3.0 }), look.mm(10.0));
+            let size = arrow(length);
+            let shapes = match failure {
+                Failure::Friction { bodies, .. } => {
+                    let normal = found.contacts.iter().find(|c| c.interface.bodies == *bodies);
+                    let normal = normal.map_or(quarter_turn(missing), |contact| contact.interface.normal);
+                    half_arrows(at, u, (normal.x, -normal.y), size, look.mm(0.25)).map(cased).to_vec()
+                }
+                Failure::RobotForce { .. } => vec![cased(size.outline(along(at, u, -length, 0.0), u))],
+                _ => [u, (-u.0, -u.1)]
+                    .map(|u| cased(size.outline(along(at, u, -length - look.mm(0.1), 0.0), u)))
+                    .to_vec(),
+            };
+            let anchors = [-3.0, 3.0, -1.5, 1.5].map(|d| along(at, u, look.mm(d), 0.0));
+            let anchors = std::iter::once(at).chain(anchors).collect();
+            (force(missing, scene.units), shapes, anchors, quantity(norm, scene.units.force()))
+        } else {
+            continue;
+        };
+        let title = format!("{}: {what}", named(scene, failure));
+        canvas.put(Mark::new(Layer::Missing, "missing", shapes).titled(title).keyed(&key).avoided(look.mm(0.2)));
+        if number < MAX_MISSING_AMOUNTS {
+            stage::amount(canvas, amount, ink, (anchors, 1), None);
+        }
+    }
+}
+
+/// Returns the two half arrows of a friction along a joint: the first on the side to which `normal` points, along `u`.
+fn half_arrows(at: PagePoint, u: (f64, f64), normal: (f64, f64), size: ArrowSize, gap: f64) -> [Outline; 2] {
+    [1.0, -1.0].map(|side| {
+        let (u, n) = ((side * u.0, side * u.1), (side * normal.0, side * normal.1));
+        let (half, neck) = (size.length / 2.0, size.length / 2.0 - size.head.1);
+        let corner = |forward: f64, aside: f64| {
+            let at = at.moved(u.0 * forward, u.1 * forward);
+            at.moved(n.0 * (gap + aside), n.1 * (gap + aside))
+        };
+        let (barb, shaft) = (0.6 * size.head.0, 0.6 * size.shaft);
+        let corners = [(-half, 0.0), (half, 0.0), (neck, barb), (neck, shaft), (-half, shaft)];
+        Outline::ring(corners.map(|(forward, aside)| corner(forward, aside)))
+    })
+}
+
+/// Names a missing force and the bodies between which it would act.
+fn named(scene: &Scene, failure: &Failure) -> String {
+    let robot = |robot: crate::mechanics::scene::RobotId| &scene.robots[robot.0].id;
+    match *failure {
+        Failure::Tension { bodies, .. } => format!("Missing pull between {}", pair(scene, bodies)),
+        Failure::Friction { bodies, .. } => format!("Missing friction between {}", pair(scene, bodies)),
+        Failure::RobotForce { robot: id, block, .. } => {
+            format!("Missing force on block {} from robot {}", scene.blocks[block.0].id, robot(id))
+        }
+        Failure::RobotTorque { robot: id, block, .. } => {
+            format!("Missing torque on block {} from robot {}", scene.blocks[block.0].id, robot(id))
+        }
+    }
+}
+
+/// A hinge, or a joint that slides, in a collapse.
+enum Gives {
+    Hinge(Point),
+    /// The ends of the joint, and the sliding speed of the first body along it.
+    Slip([Point; 2], f64),
+}
+
+/// Draws the hinges and slips of the collapse that the line of the verdict names.
+fn collapse(canvas: &mut Canvas<'_>) {
+    let (found, look, theme) = (canvas.found(), canvas.look, canvas.theme());
+    let governing = governing(canvas.scene(), canvas.number, found);
+    let when_falls = if found.verdict == Verdict::Unstable { "hinge" } else { "hinge when it falls" };
+    let gives: Vec<(&Contact, Gives)> = giving(canvas.scene(), found, governing.mechanism);
+    if gives.len() > MAX_COLLAPSE_MARKS {
+        return;
+    }
+    let hinge = |at: PagePoint| {
+        let ring = Stroke::new(theme.ink, look.mm(0.34));
+        vec![Path::filled(Outline::circle(at, look.mm(0.85)), theme.page).with_stroke(ring)]
+    };
+    let slip = |[from, to]: [PagePoint; 2], speed: f64| {
+        let length = libm::hypot(to.x - from.x, to.y - from.y).max(1e-9);
+        let t = ((to.x - from.x) / length, (to.y - from.y) / length);
+        let reach = look.mm(1.6).min(0.4 * length) * speed.signum();
+        let middle = from.moved((to.x - from.x) / 2.0, (to.y - from.y) / 2.0);
+        let lines = [1.0, -1.0].map(|side| {
+            let at = |forward: f64, aside: f64| along(middle, t, forward * side, (look.mm(0.55) + aside) * side);
+            let back = (reach.abs() - look.mm(0.8)) * reach.signum();
+            Outline::line([at(-reach, 0.0), at(reach, 0.0), at(back, look.mm(0.6))])
+        });
+        let path = |width: f64, ink: Colour| {
+            lines.clone().map(|line| Path::stroked(line, Stroke::new(ink, look.mm(width)).mitred()))
+        };
+        [path(0.8, theme.page), path(0.3, theme.ink)].concat()
+    };
+    let start = PagePoint::new(0.0, 0.0);
+    let symbol = hinge(start.moved(look.mm(0.95), 0.0));
+    let hinge_key = Rc::new(Key { rank: 60, words: when_falls.to_owned(), symbol, width: look.mm(1.9) });
+    let symbol = slip([start.moved(-look.mm(0.9), 0.0), start.moved(look.mm(4.1), 0.0)], 1.0);
+    let slip_key = Rc::new(Key { rank: 61, words: "slides".to_owned(), symbol, width: look.mm(3.2) });
+    for (contact, give) in gives {
+        let pair = pair(canvas.scene(), contact.interface.bodies);
+        let (class, shapes, key, title) = match give {
+            Gives::Hinge(at) => ("hinge", hinge(canvas.place(at)), &hinge_key, format!("Hinge between {pair}")),
+            Gives::Slip(ends, speed) => {
+                let ends = ends.map(|end| canvas.place(end));
+                ("slip", slip(ends, speed), &slip_key, format!("Slip between {pair}"))
+            }
+        };
+        canvas.put(Mark::new(Layer::Symbol, class, shapes).titled(title).keyed(key).avoided(look.mm(0.15)));
+    }
+}
+
+/// Returns the hinges and slips of a mechanism. A joint end that opens no faster than friction requires is closed: speeds
+/// under 2 % of the largest count as 0, and speeds over 6 % as motion.
+fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> Vec<(&'a Contact, Gives)> {
+    let fastest = mechanism.iter().map(|motion| motion.fastest(scene)).fold(0.0, f64::max);
+    let (zero, moves) = (0.02 * fastest, 0.06 * fastest);
+    let motions: BTreeMap<BodyId, &Motion> = mechanism.iter().map(|m| (BodyId::Block(m.block), m)).collect();
+    let velocity = |body: BodyId, at: Point| motions.get(&body).map_or(Vector::zeros(), |motion| motion.at(scene, at));
+    let one = |contact: &'a Contact| {
+        let interface = &contact.interface;
+        let [a, b] = interface.bodies;
+        let relative = interface.ends.map(|end| velocity(a, end) - velocity(b, end));
+        let slide = relative.map(|v| v.dot(&interface.tangent()));
+        let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * slide[k].abs());
+        let closed = opening.map(|speed| speed.abs() < zero);
+        let opens = opening.map(|speed| speed > moves);
+        let gives = match (closed, opens) {
+            ([true, _], [_, true]) => Gives::Hinge(interface.ends[0]),
+            ([_, true], [true, _]) => Gives::Hinge(interface.ends[1]),
+            ([true, true], _) if slide[0].abs() > moves => {
+                // The tangent leads from one end to the other; `speed` counts along the ends as they are listed.
+                let along = (interface.ends[1] - interface.ends[0]).dot(&interface.tangent());
+                Gives::Slip(interface.ends, slide[0] * along.signum())
+            }
+            _ => return None,
+        };
+        Some((contact, gives))
+    };
+    if fastest > 0.0 { found.contacts.iter().filter_map(one).collect() } else { Vec::new() }
+}
+
+/// True if the options ask for what only the figures in the look of the thesis have.
+pub(crate) fn is_source_look(options: &Options) -> bool {
+    options.theme.forces == ForceMarks::Blocks
+        || options.style == ForceStyle::Components
+        || options.normalisation == Normalisation::Source
+        || matches!(options.fill, Fill::Stress | Fill::Friction | Fill::Source)
+        || options.zoom.is_some()
+        || options.dimensions
+        || options.scale_bar
+}

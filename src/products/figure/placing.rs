@@ -1,0 +1,417 @@
+//! Places the labels of a picture: one search and one cost for all kinds of figures.
+//!
+//! Labels are placed in the order of their ranks. A label tries 24 directions and 8 distances around each of its
+//! anchors, and takes the position of least cost. A position on a mark or on another label is never taken. The cost
+//! counts the distance, covered edges of stones, the part inside stones, near marks, and a leader.
+
+use super::design::{Layer, Look, Mark, around};
+use super::option::Options;
+use crate::geometry::{Aabb, BoxIndex};
+use crate::pictures::drawing::{
+    Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Segment, Stroke, Text, text,
+};
+
+/// The distances from the anchor that are tried, mm.
+const DISTANCES: [f64; 8] = [0.5, 1.0, 1.6, 2.4, 3.4, 4.6, 6.0, 7.5];
+/// The number of directions that are tried.
+const DIRECTIONS: u32 = 24;
+/// A label farther from its anchor than this has a leader, mm.
+const LEADER_DISTANCE: f64 = 1.6;
+/// A shorter leader is not drawn, mm.
+const LEAST_LEADER: f64 = 1.4;
+/// If fewer than this share of the blocks can have a name, none has one.
+const LEAST_NAMED: f64 = 0.7;
+
+/// A text that needs a position.
+#[derive(Clone, Debug)]
+pub(crate) struct Label {
+    pub words: String,
+    pub bold: bool,
+    pub colour: Colour,
+    /// The points that the text may stand beside, the best first.
+    pub anchors: Vec<PagePoint>,
+    /// Labels with a smaller rank are placed first.
+    pub rank: u8,
+    /// The direction from the anchor in which the text stands best.
+    pub away: Option<(f64, f64)>,
+    /// The middle of a position that is taken without a search if no other label lies there.
+    pub fixed: Option<PagePoint>,
+    /// Whether the text is the name of a block: it then only stands in this rectangle, inside the block, without a
+    /// leader. All names are left out if too few have a place.
+    pub inside: Option<PageRect>,
+}
+
+/// The labels that have a position.
+#[derive(Default)]
+pub(crate) struct PlacedLabels {
+    pub items: Vec<Item>,
+    pub rects: Vec<PageRect>,
+}
+
+/// A convex shape that labels must not cover.
+struct Obstacle(Vec<PagePoint>);
+
+/// What is already drawn where labels are placed.
+pub(crate) struct Surroundings {
+    obstacles: BoxIndex<Obstacle>,
+    edges: BoxIndex<[PagePoint; 2]>,
+    stones: BoxIndex<Vec<PagePoint>>,
+    structure: PageRect,
+}
+
+impl Surroundings {
+    pub fn new(marks: &[Mark], structure: PageRect) -> Surroundings {
+        let mut obstacles = Vec::new();
+        for mark in marks {
+            let Some(clear) = mark.avoid else { continue };
+            for path in &mark.shapes {
+                let clear = clear + path.stroke.as_ref().map_or(0.0, |s| s.width / 2.0);
+                let points: Vec<PagePoint> = path.outline.points().collect();
+                if path.fill.is_some() {
+                    obstacles.push(Obstacle(grown(hull(points), clear)));
+                } else {
+                    let lines = points.windows(2).map(|ends| Obstacle(grown(hull(ends.to_vec()), clear)));
+                    obstacles.extend(lines);
+                }
+            }
+        }
+        let rings: Vec<Vec<PagePoint>> = marks
+            .iter()
+            .filter(|mark| mark.layer == Layer::Stone && mark.class == "block")
+            .flat_map(|mark| mark.shapes.first())
+            .flat_map(|path| rings(&path.outline))
+            .collect();
+        let edges: Vec<[PagePoint; 2]> =
+            rings.iter().flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]])).collect();
+        Surroundings {
+            obstacles: BoxIndex::new(obstacles, |o| bounds(&o.0)),
+            edges: BoxIndex::new(edges, |edge| bounds(edge)),
+            stones: BoxIndex::new(rings, |ring| bounds(ring)),
+            structure,
+        }
+    }
+
+    /// Returns the number of obstacles that a rectangle covers.
+    fn covered(&self, rect: PageRect) -> usize {
+        let corners = corners(rect);
+        self.obstacles.intersecting(bounds(&corners)).filter(|o| convex_meet(&o.0, &corners)).count()
+    }
+
+    fn is_clear(&self, rect: PageRect) -> bool {
+        let corners = corners(rect);
+        !self.obstacles.intersecting(bounds(&corners)).any(|o| convex_meet(&o.0, &corners))
+    }
+
+    /// Returns the number of obstacles on a leader, apart from those at its anchor.
+    fn crossed(&self, from: PagePoint, anchor: PagePoint, near: f64) -> usize {
+        let line = [from, anchor];
+        let at = corners(grown_rect(PageRect { at: anchor, width: 0.0, height: 0.0 }, near));
+        let crossed = self.obstacles.intersecting(bounds(&line)).filter(|o| convex_meet(&o.0, &line));
+        crossed.filter(|o| !convex_meet(&o.0, &at)).count()
+    }
+
+    /// Returns the length of the edges of stones in a rectangle, pixels.
+    fn edge_length(&self, rect: PageRect) -> f64 {
+        let edges = self.edges.intersecting(bounds(&corners(rect)));
+        let lengths = edges.filter_map(|edge| rect.part_of(*edge)).map(|[a, b]| libm::hypot(b.x - a.x, b.y - a.y));
+        // The index gives no order: add the lengths in an order that does not depend on it.
+        let mut lengths: Vec<f64> = lengths.collect();
+        lengths.sort_by(f64::total_cmp);
+        lengths.iter().sum()
+    }
+
+    /// Returns the share of a rectangle that lies in stones, from 15 points in it.
+    fn share_inside(&self, rect: PageRect) -> f64 {
+        let stones: Vec<&Vec<PagePoint>> = self.stones.intersecting(bounds(&corners(rect))).collect();
+        let points = (0..15_u32).map(|i| {
+            let (column, row) = (f64::from(i % 5), f64::from(i / 5));
+            rect.at.moved(rect.width * (0.5 + column) / 5.0, rect.height * (0.5 + row) / 3.0)
+        });
+        points.filter(|p| stones.iter().any(|ring| contains(ring, *p))).count() as f64 / 15.0
+    }
+}
+
+/// A position for a label.
+#[derive(Clone, Copy)]
+struct Position {
+    cost: f64,
+    rect: PageRect,
+    leader: Option<PagePoint>,
+}
+
+/// Places the labels, those of the least rank first. A label without a position is left out.
+pub(crate) fn labels(mut labels: Vec<Label>, drawn: &Surroundings, look: Look, options: &Options) -> PlacedLabels {
+    labels.sort_by_key(|label| label.rank);
+    let (names, others): (Vec<Label>, Vec<Label>) = labels.into_iter().partition(|label| label.inside.is_some());
+    let mut placed = PlacedLabels::default();
+    let size = look.text * options.theme.sizes.amount;
+    for label in others {
+        let wide = text::width(&label.words, face(&label), size) + look.mm(0.4);
+        let size = (wide, 0.95 * size + look.mm(0.3));
+        if let Some(position) = search(&label, size, drawn, &placed.rects, look) {
+            placed.put(&label, position, look, options);
+        }
+    }
+    let asked = names.len();
+    let found: Vec<(Label, PageRect)> = names
+        .into_iter()
+        .filter_map(|label| {
+            let wide = text::width(&label.words, face(&label), size);
+            let rect = name_place(&label, (wide, 0.74 * size), drawn, &placed.rects, look)?;
+            Some((label, rect))
+        })
+        .collect();
+    if found.len() as f64 >= LEAST_NAMED * asked as f64 {
+        for (label, rect) in found {
+            placed.put(&label, Position { cost: 0.0, rect, leader: None }, look, options);
+        }
+    }
+    placed
+}
+
+fn face(label: &Label) -> Face {
+    if label.bold { Face::SansBold } else { Face::Sans }
+}
+
+impl PlacedLabels {
+    fn put(&mut self, label: &Label, position: Position, look: Look, options: &Options) {
+        let (rect, theme) = (position.rect, &options.theme);
+        let size = look.text * theme.sizes.amount;
+        let class = if label.inside.is_some() { "name" } else { "amount" };
+        let mut group = Group::with_class(class);
+        if let Some(anchor) = position.leader {
+            let from = nearest(rect, anchor);
+            let long = libm::hypot(anchor.x - from.x, anchor.y - from.y);
+            let share = (1.0 - look.mm(0.5) / long.max(1e-9)).max(0.0);
+            let to = from.moved(share * (anchor.x - from.x), share * (anchor.y - from.y));
+            let line = Outline::line([from, to]);
+            if long > look.mm(LEAST_LEADER) {
+                group = group.with(Path::stroked(line.clone(), Stroke::new(theme.page, look.mm(0.5))));
+                group = group.with(Path::stroked(line, Stroke::new(label.colour, look.mm(0.18))));
+                self.rects.push(around([from, to]).unwrap_or(rect));
+            }
+        }
+        let base = rect.at.moved(rect.width / 2.0, rect.height / 2.0 + 0.36 * size);
+        let words = Text::new(base, label.words.as_str(), face(label), size, label.colour).anchored(Anchor::Middle);
+        let words = if label.inside.is_some() { words } else { words.with_halo(theme.page, look.mm(0.75)) };
+        self.items.push(group.with(words).into());
+        self.rects.push(rect);
+    }
+}
+
+/// Returns the position of least cost; `None` if no position is free.
+fn search(label: &Label, size: (f64, f64), drawn: &Surroundings, placed: &[PageRect], look: Look) -> Option<Position> {
+    let free = |rect: PageRect| !placed.iter().any(|other| overlap(rect, *other));
+    if let Some(middle) = label.fixed {
+        let rect = centred(middle, size);
+        if free(rect) {
+            return Some(Position { cost: 0.0, rect, leader: None });
+        }
+    }
+    let mut best: Option<Position> = None;
+    for (number, anchor) in label.anchors.iter().enumerate() {
+        for distance in DISTANCES {
+            for direction in 0..DIRECTIONS {
+                let angle = f64::from(direction) * core::f64::consts::TAU / f64::from(DIRECTIONS);
+                let (ux, uy) = (libm::cos(angle), libm::sin(angle));
+                let reach = look.mm(distance);
+                let aside = |u: f64, side: f64| u * reach + side / 2.0 * (1.6 * u).clamp(-1.0, 1.0);
+                let rect = centred(anchor.moved(aside(ux, size.0), aside(uy, size.1)), size);
+                let start = 0.55 * distance + 0.3 * number as f64;
+                if !free(rect) || best.is_some_and(|best| start - 2.1 > best.cost) || !drawn.is_clear(rect) {
+                    continue;
+                }
+                if let Some((cost, leader)) = cost(label, (*anchor, distance), rect, drawn, placed, look)
+                    && best.is_none_or(|best| start + cost < best.cost - 1e-6)
+                {
+                    best = Some(Position { cost: start + cost, rect, leader });
+                }
+            }
+        }
+    }
+    best
+}
+
+/// Returns the cost of a position apart from its distance, and the end of its leader if it needs one. `None` if its
+/// leader would cross a label.
+fn cost(
+    label: &Label,
+    (anchor, distance): (PagePoint, f64),
+    rect: PageRect,
+    drawn: &Surroundings,
+    placed: &[PageRect],
+    look: Look,
+) -> Option<(f64, Option<PagePoint>)> {
+    let per_mm = |pixels: f64| pixels / look.mm(1.0);
+    let middle = rect.at.moved(rect.width / 2.0, rect.height / 2.0);
+    let (dx, dy) = (middle.x - anchor.x, middle.y - anchor.y);
+    let mut cost = 0.0;
+    if let Some((x, y)) = label.away {
+        cost -= 0.9 * (dx * x + dy * y) / libm::hypot(dx, dy).max(1e-9);
+    }
+    let edges = per_mm(drawn.edge_length(rect));
+    let inside = drawn.share_inside(rect);
+    let near = drawn.covered(grown_rect(rect, look.mm(0.75)));
+    cost += 0.33 * edges + if look.large { 0.9 } else { 1.3 } * inside + 0.5 * near.saturating_sub(1) as f64;
+    if label.bold && look.large && inside > 0.99 && edges < 0.05 {
+        cost -= 1.2;
+    }
+    let mut leader = None;
+    if distance > LEADER_DISTANCE {
+        let line = [middle, anchor];
+        let crosses = |other: &&PageRect| other.part_of(line).is_some();
+        if placed.iter().any(|other| crosses(&other)) {
+            return None;
+        }
+        cost += 0.8 + 2.0 * drawn.crossed(middle, anchor, look.mm(0.35)) as f64;
+        leader = Some(anchor);
+    }
+    let structure = drawn.structure;
+    let beyond = (structure.at.x - look.mm(2.0) - rect.at.x).max(0.0)
+        + (rect.at.x + rect.width - structure.at.x - structure.width - look.mm(2.0)).max(0.0);
+    cost += if look.is_strip { 0.4 } else { 0.04 } * per_mm(beyond);
+    let inward = dx * (anchor.x - structure.at.x - structure.width / 2.0);
+    cost += if inward < 0.0 { 0.25 } else { 0.0 };
+    cost += if middle.y > structure.at.y + structure.height { 0.8 } else { 0.0 };
+    Some((cost, leader))
+}
+
+/// Returns a position for the name of a block: inside the block, clear of marks and labels, near its middle.
+fn name_place(
+    label: &Label,
+    (wide, high): (f64, f64),
+    drawn: &Surroundings,
+    placed: &[PageRect],
+    look: Look,
+) -> Option<PageRect> {
+    let (inside, middle) = (label.inside?, *label.anchors.first()?);
+    let (across, down) = (inside.width - wide - look.mm(1.4), inside.height - high - look.mm(1.4));
+    if across <= 0.0 || down <= 0.0 {
+        return None;
+    }
+    let mut places: Vec<(f64, PagePoint)> = (0..25_u32)
+        .map(|i| {
+            let at = inside.at.moved(
+                wide / 2.0 + look.mm(0.7) + across * f64::from(i % 5) / 4.0,
+                high / 2.0 + look.mm(0.7) + down * f64::from(i / 5) / 4.0,
+            );
+            ((at.x - middle.x).abs() + (at.y - middle.y).abs(), at)
+        })
+        .collect();
+    places.insert(0, (0.0, middle));
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let fits = |rect: PageRect| {
+        let space = grown_rect(rect, look.mm(0.55));
+        drawn.edge_length(space) <= 0.0
+            && drawn.share_inside(space) >= 1.0
+            && drawn.is_clear(grown_rect(rect, look.mm(0.2)))
+            && !placed.iter().any(|other| overlap(rect, *other))
+    };
+    places.into_iter().map(|(_, at)| centred(at, (wide, high))).find(|rect| fits(*rect))
+}
+
+fn centred(middle: PagePoint, (width, height): (f64, f64)) -> PageRect {
+    PageRect { at: middle.moved(-width / 2.0, -height / 2.0), width, height }
+}
+
+fn grown_rect(rect: PageRect, by: f64) -> PageRect {
+    PageRect { at: rect.at.moved(-by, -by), width: rect.width + 2.0 * by, height: rect.height + 2.0 * by }
+}
+
+fn overlap(a: PageRect, b: PageRect) -> bool {
+    a.at.x < b.at.x + b.width && b.at.x < a.at.x + a.width && a.at.y < b.at.y + b.height && b.at.y < a.at.y + a.height
+}
+
+fn nearest(rect: PageRect, to: PagePoint) -> PagePoint {
+    PagePoint::new(
+        to.x.clamp(rect.at.x, rect.at.x + rect.width.max(0.0)),
+        to.y.clamp(rect.at.y, rect.at.y + rect.height.max(0.0)),
+    )
+}
+
+fn corners(rect: PageRect) -> [PagePoint; 4] {
+    let (w, h) = (rect.width, rect.height);
+    [rect.at, rect.at.moved(w, 0.0), rect.at.moved(w, h), rect.at.moved(0.0, h)]
+}
+
+fn bounds(points: &[PagePoint]) -> Aabb {
+    let rect = around(points.iter().copied());
+    let rect = rect.unwrap_or(PageRect { at: PagePoint::new(f64::INFINITY, f64::INFINITY), width: 0.0, height: 0.0 });
+    Aabb { min: [rect.at.x, rect.at.y], max: [rect.at.x + rect.width, rect.at.y + rect.height] }
+}
+
+/// Returns the parts of an outline as lists of their points.
+fn rings(outline: &Outline) -> Vec<Vec<PagePoint>> {
+    let mut rings: Vec<Vec<PagePoint>> = Vec::new();
+    for segment in &outline.segments {
+        match (*segment, rings.last_mut()) {
+            (Segment::Move(p), _) => rings.push(vec![p]),
+            (Segment::Line(p) | Segment::Curve(_, _, p), Some(ring)) => ring.push(p),
+            _ => {}
+        }
+    }
+    rings
+}
+
+fn contains(ring: &[PagePoint], p: PagePoint) -> bool {
+    let mut inside = false;
+    for i in 0..ring.len() {
+        let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y) {
+            inside = !inside;
+        }
+    }
+    inside
+}
+
+/// Returns the corners of the convex hull of the points, by Andrew's monotone chain.
+fn hull(mut points: Vec<PagePoint>) -> Vec<PagePoint> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let turns = |a: PagePoint, b: PagePoint, c: PagePoint| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    let chain = |points: &mut dyn Iterator<Item = PagePoint>| {
+        let mut chain: Vec<PagePoint> = Vec::new();
+        for p in points {
+            while chain.len() >= 2 && turns(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut hull = chain(&mut points.iter().copied());
+    hull.extend(chain(&mut points.iter().rev().copied()));
+    if hull.is_empty() { points.into_iter().take(1).collect() } else { hull }
+}
+
+/// Returns a convex shape that contains every point within `by` pixels of a corner, measured along the axes.
+fn grown(corners: Vec<PagePoint>, by: f64) -> Vec<PagePoint> {
+    if by <= 0.0 {
+        return corners;
+    }
+    // An octagon around each corner is close enough to a circle.
+    let cut = by * 0.414;
+    let around = |p: PagePoint| {
+        [(by, cut), (cut, by), (-cut, by), (-by, cut), (-by, -cut), (-cut, -by), (cut, -by), (by, -cut)]
+            .map(|(x, y)| p.moved(x, y))
+    };
+    hull(corners.into_iter().flat_map(around).collect())
+}
+
+/// True if two convex shapes share a point: no line along an edge of either separates them. A shape may be a point or
+/// a line segment.
+fn convex_meet(a: &[PagePoint], b: &[PagePoint]) -> bool {
+    let separates = |edges: &[PagePoint]| {
+        (0..edges.len()).any(|i| {
+            let (from, to) = (edges[i], edges[(i + 1) % edges.len()]);
+            let normal = (to.y - from.y, from.x - to.x);
+            let range = |points: &[PagePoint]| {
+                let heights = points.iter().map(|p| p.x * normal.0 + p.y * normal.1);
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+            };
+            let (of_a, of_b) = (range(a), range(b));
+            of_a.1 < of_b.0 || of_b.1 < of_a.0
+        })
+    };
+    !separates(a) && !separates(b)
+}

@@ -1,0 +1,504 @@
+//! [`Sheet`]: a page of panels in the new look, one for each frame: the title, the pictures in one scale and position,
+//! one line below each, and a legend of at most two lines.
+
+use std::rc::Rc;
+
+use super::canvas::{Canvas, Picture};
+use super::design::{Key, Look};
+use super::option::Options;
+use super::stage;
+use super::title;
+use super::verdict;
+use super::words::{counted, letter, quantity};
+use crate::geometry::{Bounds, Point};
+use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
+use crate::products::wording::margin::governing;
+
+/// The margin of the page, mm.
+const MARGIN: f64 = 1.0;
+/// The gap between columns, mm.
+const GAP: f64 = 3.0;
+/// Largest width of a page whose width is not given, mm of the design.
+const SCREEN_WIDTH: f64 = 150.0;
+/// A page narrower than this is a column of print, mm.
+const COLUMN_WIDTH: f64 = 100.0;
+/// Largest height of a picture in a column and on a wider page, mm.
+const HIGH: [f64; 2] = [66.0, 100.0];
+/// Largest size of a typical block, mm.
+const LARGEST_BLOCK: f64 = 16.0;
+/// From this size of a typical block on, a frame of at most [`FEW`] blocks is drawn with large marks and weights, mm.
+const LARGE_BLOCK: f64 = 9.0;
+const FEW: usize = 12;
+/// From this size of a typical block on, blocks have names, mm.
+const NAMED_BLOCK: f64 = 6.5;
+/// Space that a picture leaves for its loads and labels before they are known, mm.
+const FIRST_SPACE: f64 = 6.0;
+/// How often the pictures are drawn to find the scale at which they fill the width.
+const ROUNDS: usize = 6;
+/// Largest number of lines of a caption and of a reason.
+const MAX_LINES: usize = 4;
+/// With more lines, the legend leaves out its notes.
+const MAX_KEY_ROWS: usize = 2;
+/// Largest number of frames in the description of a page.
+const MAX_DESCRIBED: usize = 30;
+
+/// The part of the scene that all panels show, and the scale of its lengths.
+pub(crate) struct View<'a> {
+    pub analysis: &'a Analysis,
+    /// All blocks of all frames, metres.
+    pub structure: Bounds,
+    /// Pixels per metre.
+    pub zoom: f64,
+}
+
+/// A kind of figure in the new look.
+pub(crate) trait Figure: Sync {
+    /// Returns the one scale of all forces of the figure, pixels per newton.
+    fn scale(&self, view: &View<'_>, look: Look) -> f64;
+
+    /// Draws the picture of a frame.
+    fn draw(&self, canvas: &mut Canvas<'_>);
+
+    /// Returns the title of the page if the scene has none.
+    fn title(&self) -> &'static str;
+}
+
+/// The pictures of all frames, and their arrangement.
+pub(crate) struct Sheet<'a> {
+    analysis: &'a Analysis,
+    figure: &'static dyn Figure,
+    options: &'a Options,
+    look: Look,
+    structure: Bounds,
+    /// The side of a typical block, metres.
+    block: f64,
+    columns: usize,
+    /// Width of the page, pixels.
+    width: f64,
+    /// Width of a panel, pixels.
+    panel: f64,
+}
+
+/// The pictures of some frames, all with the same scale.
+struct Pictures {
+    /// The pictures with the indices of their frames.
+    all: Vec<(usize, Picture)>,
+    /// The left and the right edge of all pictures together, pixels.
+    sides: (f64, f64),
+}
+
+/// Draws all frames on one page.
+pub(crate) fn page(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> Drawing {
+    let frames: Vec<usize> = (0..analysis.frames.len()).collect();
+    let sheet = Sheet::new(analysis, figure, options, frames.len());
+    let pictures = sheet.pictures(&frames);
+    sheet.write(&pictures, &frames)
+}
+
+/// Draws each of these frames on a page of its own. All pages have the same size and scale.
+pub(crate) fn pages(
+    analysis: &Analysis,
+    figure: &'static dyn Figure,
+    options: &Options,
+    frames: &[usize],
+) -> Vec<Drawing> {
+    let sheet = Sheet::new(analysis, figure, options, 1);
+    let pictures = sheet.pictures(frames);
+    let mut pages: Vec<Drawing> = frames.iter().map(|frame| sheet.write(&pictures, &[*frame])).collect();
+    let [high, wide] =
+        [|page: &Drawing| page.height, |page: &Drawing| page.width].map(|of| pages.iter().map(of).fold(0.0, f64::max));
+    for page in &mut pages {
+        (page.height, page.width) = (high, wide);
+    }
+    pages
+}
+
+/// Draws all frames on several pages with the same scale. The height of a page is at most `ratio` times its width, unless
+/// one row is higher.
+pub(crate) fn split(analysis: &Analysis, figure: &'static dyn Figure, options: &Options, ratio: f64) -> Vec<Drawing> {
+    let frames: Vec<usize> = (0..analysis.frames.len()).collect();
+    let sheet = Sheet::new(analysis, figure, options, frames.len());
+    let pictures = sheet.pictures(&frames);
+    let mut pages = Vec::new();
+    let mut rest = &frames[..];
+    while !rest.is_empty() {
+        let mut taken = sheet.columns.min(rest.len());
+        let mut page = sheet.write(&pictures, &rest[..taken]);
+        while taken < rest.len() {
+            let more = (taken + sheet.columns).min(rest.len());
+            let next = sheet.write(&pictures, &rest[..more]);
+            if next.height > ratio * next.width {
+                break;
+            }
+            (taken, page) = (more, next);
+        }
+        pages.push(page);
+        rest = &rest[taken..];
+    }
+    pages
+}
+
+/// Returns lower bounds of the width and the height of the page of [`page`], pixels. Nothing is drawn.
+pub(crate) fn least_size(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> (f64, f64) {
+    let count = analysis.frames.len();
+    let sheet = Sheet::new(analysis, figure, options, count);
+    let rows = count.div_ceil(sheet.columns);
+    let width = if options.width.is_some() { sheet.width } else { 0.0 };
+    (width, rows as f64 * 0.5 * sheet.structure.height() * sheet.first_zoom())
+}
+
+impl<'a> Sheet<'a> {
+    fn new(analysis: &'a Analysis, figure: &'static dyn Figure, options: &'a Options, count: usize) -> Sheet<'a> {
+        let scene = &analysis.scene;
+        let blocks = stage::shown_blocks(scene);
+        let polygons = || blocks.iter().map(|id| &scene.blocks[id.0].body.polygon);
+        let ground = scene.ground.iter().map(|ground| ground.body.polygon.bounds());
+        let origin = Bounds { min: Point::origin(), max: Point::origin() };
+        let structure = polygons().map(|polygon| polygon.bounds()).reduce(Bounds::union);
+        let structure = structure.or_else(|| ground.reduce(Bounds::union)).unwrap_or(origin.grown(1.0));
+        let last = scene.frames.last().map_or(&[][..], |frame| &frame.placed);
+        let mut sizes: Vec<f64> = last.iter().map(|id| scene.blocks[id.0].body.polygon.area().sqrt()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let block = sizes.get(sizes.len() / 2).copied().unwrap_or(structure.diagonal());
+        let look = Look::new(options, analysis.frames.len() > 1);
+        let width = options.width.unwrap_or(look.mm(SCREEN_WIDTH));
+        let mut sheet = Sheet { analysis, figure, options, look, structure, block, columns: 1, width, panel: width };
+        sheet.columns = sheet.fitting_columns(count);
+        sheet.panel = sheet.panel_width(sheet.columns);
+        sheet
+    }
+
+    fn panel_width(&self, columns: usize) -> f64 {
+        let gaps = self.look.mm(2.0 * MARGIN + GAP * (columns - 1) as f64);
+        ((self.width - gaps) / columns as f64).max(1.0)
+    }
+
+    /// Chooses the number of columns: mostly 3, 2 if the blocks are large enough, else 1.
+    fn fitting_columns(&self, count: usize) -> usize {
+        if let Some(columns) = self.options.columns {
+            return columns.clamp(1, count.max(1));
+        }
+        let size = |columns: usize| {
+            let room = self.panel_width(columns) - self.look.mm(4.0);
+            self.block * room / self.structure.width().max(f64::MIN_POSITIVE) / self.look.mm(1.0)
+        };
+        match count {
+            0 | 1 => 1,
+            count if count % 3 == 0 && size(3) >= 5.0 => 3,
+            _ if size(2) >= 4.0 => 2,
+            count if count > 12 && size(1) > 3.0 => 3,
+            _ => 1,
+        }
+    }
+
+    /// Returns the scale that leaves some space for loads and labels, pixels per metre.
+    fn first_zoom(&self) -> f64 {
+        let (wide, high) = (self.structure.width(), self.structure.height());
+        let across = (self.panel - self.look.mm(FIRST_SPACE)).max(1.0) / wide.max(f64::MIN_POSITIVE);
+        let zoom = across.min(self.high() / high.max(f64::MIN_POSITIVE)).min(self.look.mm(LARGEST_BLOCK) / self.block);
+        if zoom.is_finite() && zoom > 0.0 { zoom } else { 1.0 }
+    }
+
+    /// Returns the largest height of the structure in a picture, pixels.
+    fn high(&self) -> f64 {
+        let wide = usize::from(self.width >= self.look.mm(COLUMN_WIDTH));
+        self.look.mm(HIGH[wide]).min(self.options.height.unwrap_or(f64::INFINITY))
+    }
+
+    /// Draws the pictures of these frames at the largest scale at which they fit into the width of a panel.
+    fn pictures(&self, frames: &[usize]) -> Pictures {
+        let most = self.high() / self.structure.height().max(f64::MIN_POSITIVE);
+        let most = most.min(self.look.mm(LARGEST_BLOCK) / self.block.max(f64::MIN_POSITIVE));
+        let mut zoom = self.first_zoom();
+        // Labels do not shrink with the structure, so a step is never large, and the largest scale that fits is kept.
+        let mut best: Option<(f64, Pictures)> = None;
+        for _ in 0..ROUNDS {
+            let pictures = self.drawn(frames, zoom);
+            let over = pictures.sides.1 - pictures.sides.0 - self.panel;
+            let fits = over <= self.look.mm(0.15);
+            let share = over / (self.structure.width() * zoom).max(f64::MIN_POSITIVE);
+            let next = (zoom * (1.0 - share).clamp(0.75, 1.3)).min(most);
+            let is_better = |kept: &(f64, Pictures)| {
+                let kept_fits = kept.1.sides.1 - kept.1.sides.0 - self.panel <= self.look.mm(0.15);
+                if fits == kept_fits { fits == (zoom > kept.0) } else { fits }
+            };
+            if best.as_ref().is_none_or(is_better) {
+                best = Some((zoom, pictures));
+            }
+            if over.abs() <= self.look.mm(0.15) || !(next > 0.0) || (next - zoom).abs() < 1e-3 * zoom {
+                break;
+            }
+            zoom = next;
+        }
+        best.map_or_else(|| self.drawn(frames, zoom), |(_, pictures)| pictures)
+    }
+
+    /// Draws the pictures of these frames with `zoom` pixels per metre.
+    fn drawn(&self, frames: &[usize], zoom: f64) -> Pictures {
+        let size = self.block * zoom / self.look.mm(1.0);
+        let blocks = self.analysis.scene.frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
+        let narrow = self.columns == 3 && self.width < self.look.mm(COLUMN_WIDTH);
+        let look =
+            Look { large: size >= LARGE_BLOCK && blocks <= FEW, names: size >= NAMED_BLOCK && !narrow, ..self.look };
+        let view = View { analysis: self.analysis, structure: self.structure, zoom };
+        let scale = self.figure.scale(&view, look);
+        let all: Vec<(usize, Picture)> = frames
+            .iter()
+            .map(|frame| {
+                let shown = (view.structure, zoom);
+                let mut canvas = Canvas::new(self.analysis, *frame, self.options, look, shown, scale);
+                self.figure.draw(&mut canvas);
+                (*frame, canvas.finish())
+            })
+            .collect();
+        let left = all.iter().map(|(_, picture)| picture.extent.at.x).fold(f64::INFINITY, f64::min);
+        let right = all.iter().map(|(_, picture)| picture.extent.at.x + picture.extent.width);
+        let sides = (left, right.fold(f64::NEG_INFINITY, f64::max));
+        Pictures { all, sides }
+    }
+
+    /// Writes a page with some of the pictures.
+    fn write(&self, pictures: &Pictures, frames: &[usize]) -> Drawing {
+        let (options, look) = (self.options, self.look);
+        let theme = &options.theme;
+        let columns = self.columns.min(frames.len()).max(1);
+        let natural = pictures.sides.1 - pictures.sides.0;
+        // Without a given width, the page is as wide as its panels, but wide enough for short texts.
+        let panel = match options.width {
+            Some(_) => self.panel,
+            None => natural.max(look.mm(if columns > 1 { 42.0 } else { 72.0 })).min(self.panel.max(natural)),
+        };
+        let inner = columns as f64 * panel + look.mm(GAP * (columns - 1) as f64);
+        let width = if options.width.is_some() { self.width } else { inner + look.mm(2.0 * MARGIN) };
+        let mut page = Page { sheet: self, width, inner, y: look.mm(MARGIN), items: Vec::new() };
+        let heading = &self.analysis.scene.title;
+        if options.titles && !heading.is_empty() {
+            page.heading(heading);
+        }
+        let shown: Vec<&(usize, Picture)> =
+            frames.iter().filter_map(|frame| pictures.all.iter().find(|(number, _)| number == frame)).collect();
+        for (number, row) in shown.chunks(columns).enumerate() {
+            page.y += if number > 0 { look.mm(4.0) } else { 0.0 };
+            page.row(row, panel, (pictures.sides.0 + pictures.sides.1) / 2.0);
+        }
+        if options.keys {
+            page.legend(&shown);
+        }
+        let described: Vec<String> = frames.iter().take(MAX_DESCRIBED).map(|f| self.described(*f)).collect();
+        Drawing {
+            width: width.ceil(),
+            height: (page.y + look.mm(MARGIN + 0.6)).ceil(),
+            title: if heading.is_empty() { self.figure.title().to_owned() } else { heading.clone() },
+            description: described.join(" "),
+            background: Some(theme.page),
+            items: page.items,
+        }
+    }
+
+    /// Returns the caption of a frame: its letter and its title, in a figure of several frames.
+    fn caption(&self, frame: usize) -> String {
+        let scene = &self.analysis.scene;
+        let own = &scene.frames[frame].title;
+        match (scene.frames.len(), own.as_str()) {
+            (1, title) if title.is_empty() || *title == scene.title => String::new(),
+            (1, title) => title.to_owned(),
+            (_, "") => format!("({})", letter(frame)),
+            (_, title) => format!("({}) {title}", letter(frame)),
+        }
+    }
+
+    /// Returns the words after the verdict of a frame: its headline margin, or what decides if no margin does.
+    fn words(&self, frame: usize) -> Vec<String> {
+        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[frame]);
+        let unexplained =
+            found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
+        // The panels of a strip are too narrow for margins.
+        let margin = if self.options.margin && self.analysis.frames.len() == 1 {
+            governing(scene, frame, found).words
+        } else {
+            Vec::new()
+        };
+        if margin.is_empty() && unexplained {
+            let reason = verdict::reason(scene, found);
+            return if reason.is_empty() { Vec::new() } else { vec![reason] };
+        }
+        margin
+    }
+
+    /// Describes a frame in a sentence, for screen readers.
+    fn described(&self, frame: usize) -> String {
+        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[frame]);
+        let blocks = counted(scene.frames[frame].placed.len(), "block");
+        let weight = quantity(found.weight, scene.units.force());
+        let mut parts = vec![format!("{blocks}, {weight} in all, {}", verdict::word(found.verdict))];
+        parts.push(verdict::reason(scene, found));
+        parts.extend(self.words(frame));
+        parts.extend(found.notices.iter().cloned());
+        parts.retain(|part| !part.is_empty());
+        parts.dedup();
+        let caption = self.caption(frame);
+        let start = if caption.is_empty() { String::new() } else { format!("{caption}: ") };
+        format!("{start}{}.", parts.join("; ").replace(text::NO_BREAK, " "))
+    }
+}
+
+/// A page that is written from top to bottom.
+struct Page<'a> {
+    sheet: &'a Sheet<'a>,
+    /// Width of the page, pixels.
+    width: f64,
+    /// Width of all panels of a row, pixels.
+    inner: f64,
+    /// The y coordinate below all parts that are already written, pixels.
+    y: f64,
+    items: Vec<Item>,
+}
+
+/// A part of a line of text with its face and its colour.
+type Span = (String, Face, Colour);
+
+impl Page<'_> {
+    fn mm(&self, length: f64) -> f64 {
+        self.sheet.look.mm(length)
+    }
+
+    fn heading(&mut self, heading: &str) {
+        let theme = &self.sheet.options.theme;
+        let size = self.sheet.look.text * theme.sizes.title;
+        let room = self.width - self.mm(2.0 * MARGIN);
+        for line in text::balanced(heading, title::FACE, size, room, MAX_LINES) {
+            self.y += 1.15 * size;
+            let at = PagePoint::new(self.width / 2.0, self.y - 0.22 * size);
+            self.items.push(Text::new(at, line, title::FACE, size, theme.ink).anchored(Anchor::Middle).into());
+        }
+        self.y += self.mm(2.2);
+    }
+
+    /// Draws a row of pictures, each with its lines below. `middle` is the middle of all pictures on their canvases.
+    fn row(&mut self, row: &[&(usize, Picture)], panel: f64, middle: f64) {
+        let top = row.iter().map(|(_, p)| p.extent.at.y).fold(f64::INFINITY, f64::min);
+        let bottom = row.iter().map(|(_, p)| p.extent.at.y + p.extent.height).fold(f64::NEG_INFINITY, f64::max);
+        let left = (self.width - self.inner) / 2.0;
+        let start = self.y;
+        let mut end = start;
+        for (column, (frame, picture)) in row.iter().enumerate() {
+            let centre = left + panel / 2.0 + column as f64 * (panel + self.mm(GAP));
+            let found = &self.sheet.analysis.frames[*frame];
+            let mut group = Group { id: Some(format!("frame-{}", frame + 1)), ..Group::with_class("frame") };
+            let caption = self.sheet.caption(*frame);
+            let word = verdict::word(found.verdict);
+            group.title = if caption.is_empty() { word.to_owned() } else { format!("{caption}: {word}") };
+            group = group.with(Item::from(picture.group.clone()).moved(centre - middle, start - top));
+            let (lines, below) = self.lines(*frame, PagePoint::new(centre, start + bottom - top), panel);
+            group.items.extend(lines);
+            self.items.push(group.into());
+            end = end.max(below);
+        }
+        self.y = end;
+    }
+
+    /// Writes the lines below the picture of a frame: the symbol of its verdict with its caption in a strip, with the
+    /// verdict and the governing margin otherwise. Also returns the y coordinate below them.
+    fn lines(&self, frame: usize, top: PagePoint, room: f64) -> (Vec<Item>, f64) {
+        let (options, look) = (self.sheet.options, self.sheet.look);
+        let (theme, found) = (&options.theme, &self.sheet.analysis.frames[frame]);
+        let size = look.text * theme.sizes.verdict;
+        let colour = verdict::badge_colour(found, theme);
+        let caption = if options.captions { self.sheet.caption(frame) } else { String::new() };
+        let plain = |line: String| vec![(line, Face::Sans, theme.ink)];
+        let broken = |words: &str, room: f64| {
+            let lines = text::sentence_lines(words, Face::Sans, size, room, MAX_LINES).into_iter();
+            lines.map(plain).collect::<Vec<Vec<Span>>>()
+        };
+        let indent = if options.verdicts { look.mm(3.8) } else { 0.0 };
+        let mut lines = broken(&caption, room - indent);
+        // The symbol of the verdict stands before the caption in a strip, and before the verdict otherwise.
+        let alone = self.sheet.analysis.frames.len() == 1 || caption.is_empty();
+        let marked_line = if alone { lines.len() } else { 0 };
+        if options.verdicts {
+            let badge = (verdict::badge(found).to_owned(), Face::SansBold, colour);
+            let mut line = if alone { vec![badge] } else { Vec::new() };
+            let mut long = Vec::new();
+            for words in self.sheet.words(frame) {
+                let span = (format!("{}·\u{a0}{words}", text::NO_BREAK), Face::Sans, theme.ink);
+                let wide: f64 =
+                    line.iter().chain([&span]).map(|(words, face, _)| text::width(words, *face, size)).sum();
+                if alone && wide <= room - indent { line.push(span) } else { long.push(words) }
+            }
+            if !line.is_empty() {
+                lines.push(line);
+            }
+            lines.extend(long.iter().flat_map(|words| broken(words, room)));
+        }
+        let mut items = Vec::new();
+        let mut y = top.y + look.mm(0.8);
+        for (number, spans) in lines.iter().enumerate() {
+            y += look.mm(3.4);
+            let total: f64 = spans.iter().map(|(words, face, _)| text::width(words, *face, size)).sum();
+            let marked = options.verdicts && number == marked_line;
+            let mut x = top.x - (total + if marked { indent } else { 0.0 }) / 2.0;
+            if marked {
+                let centre = PagePoint::new(x + look.mm(1.35), y - 0.36 * size);
+                items.push(verdict::mark_in(colour, found.verdict, centre, look.mm(1.35), theme).into());
+                x += indent;
+            }
+            for (words, face, colour) in spans {
+                items.push(Text::new(PagePoint::new(x, y), words.as_str(), *face, size, *colour).into());
+                x += text::width(words, *face, size);
+            }
+        }
+        (items, y + look.mm(0.8))
+    }
+
+    /// Writes the legend: the entries of the marks that are drawn, in as few lines as possible.
+    fn legend(&mut self, shown: &[&(usize, Picture)]) {
+        let (options, look) = (self.sheet.options, self.sheet.look);
+        let theme = &options.theme;
+        let size = look.text * theme.sizes.key;
+        let mut keys: Vec<Rc<Key>> = shown.iter().flat_map(|(_, picture)| picture.keys.iter().cloned()).collect();
+        keys.sort_by_key(|key| key.rank);
+        keys.dedup_by_key(|key| key.rank);
+        let gap = |key: &Key| if key.symbol.is_empty() { 0.0 } else { look.mm(1.2) };
+        let width = |key: &Key| key.width + gap(key) + text::width(&key.words, Face::Sans, size);
+        let room = self.width - look.mm(2.0 * MARGIN);
+        let between = look.mm(4.0);
+        let broken = |keys: &[Rc<Key>]| {
+            let mut rows: Vec<(f64, Vec<Rc<Key>>)> = Vec::new();
+            for key in keys {
+                let own = width(key);
+                match rows.last_mut() {
+                    Some((total, row)) if *total + between + own <= room => {
+                        *total += between + own;
+                        row.push(Rc::clone(key));
+                    }
+                    _ => rows.push((own, vec![Rc::clone(key)])),
+                }
+            }
+            rows
+        };
+        let mut rows = broken(&keys);
+        if rows.len() > MAX_KEY_ROWS {
+            // Notes without a symbol are the first that a reader can miss.
+            keys.retain(|key| !key.symbol.is_empty());
+            rows = broken(&keys);
+        }
+        self.y += look.mm(1.0);
+        let mut group = Group::with_class("legend");
+        for (total, row) in rows {
+            self.y += look.mm(3.4);
+            let mut x = (self.width - total) / 2.0;
+            for key in row {
+                let middle = PagePoint::new(x, self.y - 0.36 * size);
+                let symbol = key.symbol.iter().map(|path| Item::from(path.clone()).moved(middle.x, middle.y));
+                group.items.extend(symbol);
+                let at = PagePoint::new(x + key.width + gap(&key), self.y);
+                group.items.push(Text::new(at, key.words.as_str(), Face::Sans, size, theme.faint).into());
+                x += width(&key) + between;
+            }
+        }
+        if !group.items.is_empty() {
+            self.items.push(group.into());
+        }
+    }
+}

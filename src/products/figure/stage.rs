@@ -1,0 +1,365 @@
+//! Draws what every kind of figure shows: the ground, the blocks, the planned blocks, the robots and the loads.
+
+use std::rc::Rc;
+
+use super::canvas::Canvas;
+use super::design::{ArrowSize, Key, Layer, Mark, along};
+use super::pen::{colour, seams};
+use super::placing::Label;
+use super::words::{force, quantity};
+use crate::geometry::{Edge, Point, Vector};
+use crate::mechanics::scene::{BlockId, BodyId, Load};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, arrow};
+
+/// The ranks of the entries of the legend that this module explains.
+const LOAD_RANK: u8 = 40;
+
+/// The angle through which the arc of a torque turns: 225°.
+const TORQUE_SWEEP: f64 = 1.25 * core::f64::consts::PI;
+/// The angle at which the arc of an anticlockwise torque begins: −60°.
+const TORQUE_START: f64 = -core::f64::consts::PI / 3.0;
+
+/// Draws the ground as a hatched line along the edges that carry joints in any frame. On a lattice, and where no edge
+/// carries a joint, the ground is drawn as a shape.
+pub(crate) fn ground(canvas: &mut Canvas<'_>) {
+    let scene = canvas.scene();
+    for (number, ground) in scene.ground.iter().enumerate() {
+        let body = BodyId::Ground(number);
+        let touches = |edge: &Edge| {
+            let mut contacts = canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts);
+            contacts.any(|contact| {
+                let ends = contact.interface.ends;
+                contact.interface.bodies.contains(&body)
+                    && ends.iter().all(|end| canvas.camera.length(edge.distance(*end)) < canvas.mm(0.2))
+            })
+        };
+        let edges: Vec<Edge> = ground.body.polygon.edges().filter(touches).collect();
+        if edges.is_empty() || scene.lattice.is_some() {
+            let near = canvas.structure;
+            let bounds = canvas.camera.rect(ground.body.polygon.bounds());
+            // Ground that carries nothing and lies far away does not make the picture larger.
+            if scene.lattice.is_some() && overlaps(bounds, near, canvas.mm(12.0)) {
+                let outline = canvas.camera.polygon(&ground.body.polygon);
+                let fill = ground.body.fill.map_or(canvas.theme().ground, colour);
+                let mark = Mark::new(Layer::Ground, "earth", vec![Path::filled(outline, fill)]);
+                canvas.put(mark.titled("Ground".into()).avoided(0.0));
+            }
+            continue;
+        }
+        let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, edge)).collect();
+        let mark = Mark::new(Layer::Ground, "earth", shapes);
+        canvas.put(mark.titled("Ground".into()).avoided(0.0));
+    }
+}
+
+fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
+    a.at.x < b.at.x + b.width + by
+        && b.at.x - by < a.at.x + a.width
+        && a.at.y < b.at.y + b.height + by
+        && b.at.y - by < a.at.y + a.height
+}
+
+/// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. A nearly horizontal edge
+/// ends 3 mm beyond the blocks.
+fn hatched(canvas: &Canvas<'_>, edge: &Edge) -> Vec<Path> {
+    let theme = canvas.theme();
+    let [mut from, mut to] = [edge.from, edge.to].map(|p| canvas.place(p));
+    if (to.y - from.y).abs() < (to.x - from.x).abs() {
+        let (left, beyond) = (canvas.structure.at.x, canvas.mm(3.0));
+        let window = PageRect {
+            at: PagePoint::new(left - beyond, from.y.min(to.y) - 1.0),
+            width: canvas.structure.width + 2.0 * beyond,
+            height: (to.y - from.y).abs() + 2.0,
+        };
+        if let Some(part) = window.part_of([from, to]) {
+            [from, to] = part;
+        }
+    }
+    let length = libm::hypot(to.x - from.x, to.y - from.y);
+    if length <= 0.0 {
+        return Vec::new();
+    }
+    let u = ((to.x - from.x) / length, (to.y - from.y) / length);
+    let outward = edge.outward();
+    let inward = if u.1 * outward.x + u.0 * outward.y > 0.0 { 1.0 } else { -1.0 };
+    let depth = canvas.mm(1.3);
+    let mut lines = Outline::default();
+    let mut at = canvas.mm(0.5);
+    while at < length {
+        let reach = depth.min(at);
+        let start = along(from, u, at, 0.0);
+        lines.extend(Outline::line([start, along(start, u, -reach, inward * reach)]));
+        at += canvas.mm(0.95);
+    }
+    let faint = theme.ground.mixed(theme.page, 0.25);
+    vec![
+        Path::stroked(lines, Stroke::new(faint, canvas.mm(0.16)).mitred()),
+        Path::stroked(Outline::line([from, to]), Stroke::new(theme.ground, canvas.mm(0.38)).mitred()),
+    ]
+}
+
+/// Draws the placed blocks in pale colours, and the outlines of the planned ones.
+pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let width = canvas.mm(if canvas.look.large { 0.22 } else { 0.16 });
+    for id in &canvas.frame().placed {
+        let block = &scene.blocks[id.0];
+        let outline = canvas.camera.polygon(&block.body.polygon);
+        let fill = block.body.fill.map_or(theme.block, colour);
+        let mut edge = Stroke::new(theme.outline, width);
+        if block.body.is_schematic {
+            edge = edge.dashed([canvas.mm(0.9), canvas.mm(0.7)]);
+        }
+        let mut shapes = vec![Path::filled(outline, fill).with_stroke(edge)];
+        let inner = seams(&block.body, scene.lattice, &canvas.camera);
+        if !inner.segments.is_empty() {
+            shapes.push(Path::stroked(inner, Stroke::new(theme.seam_on(fill, 0.22), 0.6 * width)));
+        }
+        let mut mark = Mark::new(Layer::Stone, "block", shapes).titled(format!("Block {}", block.id));
+        mark.description = format!("weight {}", quantity(block.weight, scene.units.force()));
+        canvas.put(mark);
+    }
+    for plan in &canvas.frame().plans {
+        let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
+        let ink = theme.robot(plan.robot.0);
+        let inner = seams(&block.body, scene.lattice, &canvas.camera);
+        let outline = canvas.camera.polygon(&block.body.polygon);
+        let shapes = vec![
+            Path::stroked(inner, Stroke::new(ink, canvas.mm(0.3))),
+            Path::stroked(outline, Stroke::new(ink, canvas.mm(0.45))),
+        ];
+        let title = format!("Block {}, planned by robot {}", block.id, robot.id);
+        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title));
+    }
+}
+
+/// Asks for the names of the blocks, inside them.
+pub(crate) fn names(canvas: &mut Canvas<'_>) {
+    if !canvas.look.names || !canvas.options.labels || !canvas.options.names {
+        return;
+    }
+    let theme = canvas.theme();
+    for id in &canvas.frame().placed {
+        let block = &canvas.scene().blocks[id.0];
+        let fill = block.body.fill.map_or(theme.block, colour);
+        canvas.label(Label {
+            words: block.id.clone(),
+            bold: false,
+            colour: theme.letters_on(fill, None),
+            anchors: vec![canvas.place(block.body.polygon.centroid())],
+            rank: 90,
+            away: None,
+            fixed: None,
+            inside: Some(canvas.camera.rect(block.body.polygon.bounds())),
+        });
+    }
+}
+
+/// Draws the loads of the frame as hollow arrows in one scale, each with its amount. The tip of an arrow is on the point
+/// of the load if the side before the point is freer of blocks than the side after it; otherwise the arrow hangs from
+/// the point.
+pub(crate) fn loads(canvas: &mut Canvas<'_>) {
+    let (scene, placed) = (canvas.scene(), &canvas.frame().placed);
+    let loads: Vec<&Load> = scene.loads.iter().filter(|load| placed.contains(&load.block)).collect();
+    let all = scene.loads.iter().map(|load| load.force.norm());
+    let largest = all.fold(0.0, f64::max);
+    let longest = canvas.scale * largest;
+    let fits = (canvas.mm(5.0)..=canvas.mm(11.0)).contains(&longest);
+    let scale = if fits { canvas.scale } else { canvas.mm(7.5) / largest };
+    let ink = canvas.theme().load;
+    let words = if loads.len() == 1 { "load" } else { "loads" };
+    let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
+    let symbol = hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
+    let key = Rc::new(Key { rank: LOAD_RANK, words: words.to_owned(), symbol: vec![symbol], width: canvas.mm(5.0) });
+    for load in loads {
+        if load.force.norm() > 0.0 {
+            one_load(canvas, load, scale, &key);
+        }
+        if load.torque != 0.0 {
+            let at = canvas.place(load.at);
+            let units = scene.units.torque();
+            let on = scene.name(BodyId::Block(load.block));
+            let title =
+                format!("Torque of a load on block {on}: {}", turning(load.torque, quantity(load.torque.abs(), units)));
+            let mark = torque(canvas, at, load.torque, (2.6, 0.45), ink);
+            canvas.put(Mark::new(Layer::Load, "load", mark).titled(title).avoided(canvas.mm(0.2)));
+            let side = at.moved(canvas.mm(3.0), 0.0);
+            amount(canvas, quantity(load.torque.abs(), units), ink, (vec![side], 0), Some((0.0, -1.0)));
+        }
+    }
+}
+
+fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
+    ArrowSize { length: 0.0, shaft: canvas.mm(0.85), head: (canvas.mm(1.9), canvas.mm(1.7)) }
+}
+
+fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
+    Path::filled(outline, canvas.theme().page).with_stroke(Stroke::new(ink, canvas.mm(0.32)).mitred())
+}
+
+fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>) {
+    let (scene, ink) = (canvas.scene(), canvas.theme().load);
+    let norm = load.force.norm();
+    let u = (load.force.x / norm, -load.force.y / norm);
+    let length = (scale * norm).max(canvas.mm(3.0));
+    let at = canvas.place(load.at);
+    let stone = |from: f64, to: f64| stone_length(canvas, [along(at, u, from, 0.0), along(at, u, to, 0.0)]);
+    let (before, after) = (stone(-length, -canvas.mm(0.05)), stone(canvas.mm(0.05), length));
+    let ends = before <= after + canvas.mm(0.3);
+    let tail = if ends { along(at, u, -length, 0.0) } else { at };
+    let outline = ArrowSize { length, ..load_size(canvas) }.outline(tail, u);
+    let mut shapes = vec![hollow(canvas, outline, ink)];
+    let polygon = &scene.blocks[load.block.0].body.polygon;
+    let deep = polygon.edges().all(|edge| canvas.camera.length(edge.distance(load.at)) > canvas.mm(0.6));
+    if deep && polygon.contains(load.at) {
+        shapes.push(Path::filled(Outline::circle(at, canvas.mm(0.5)), ink));
+    }
+    let title = format!("Load on block {}: {}", scene.name(BodyId::Block(load.block)), force(load.force, scene.units));
+    canvas.put(Mark::new(Layer::Load, "load", shapes).titled(title).keyed(key).avoided(canvas.mm(0.2)));
+    let far = if ends { tail } else { along(at, u, length, 0.0) };
+    let away = if ends { (-u.0, -u.1) } else { u };
+    let anchors = vec![far, along(tail, u, length / 2.0, 0.0)];
+    amount(canvas, quantity(norm, scene.units.force()), ink, (anchors, 0), Some(away));
+}
+
+/// Returns the length of the part of a line segment that lies in placed blocks, pixels.
+fn stone_length(canvas: &Canvas<'_>, [from, to]: [PagePoint; 2]) -> f64 {
+    let scene = canvas.scene();
+    let [start, end] = [from, to].map(|p| canvas.camera.back(p));
+    let blocks = canvas.frame().placed.iter().map(|id| &scene.blocks[id.0].body.polygon);
+    let metres: f64 = blocks.map(|polygon| inside_length(polygon.rings(), start, end - start)).sum();
+    canvas.camera.length(metres)
+}
+
+/// Returns the length of the part of the segment from `start` along `way` that lies inside the rings, metres.
+pub(crate) fn inside_length(rings: &[Vec<Point>], start: Point, way: Vector) -> f64 {
+    let mut cuts = vec![0.0, 1.0];
+    let mut inside = false;
+    for ring in rings {
+        for i in 0..ring.len() {
+            let (a, b) = (ring[i] - start, ring[(i + 1) % ring.len()] - start);
+            let (left, right) = (way.x * a.y - way.y * a.x, way.x * b.y - way.y * b.x);
+            if (left >= 0.0) == (right >= 0.0) {
+                continue;
+            }
+            let hit = a + (b - a) * (left / (left - right));
+            let share = hit.dot(&way) / way.norm_squared();
+            if share <= 0.0 {
+                inside = !inside;
+            } else if share < 1.0 {
+                cuts.push(share);
+            }
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    let mut length = 0.0;
+    for pair in cuts.windows(2) {
+        if inside {
+            length += pair[1] - pair[0];
+        }
+        inside = !inside;
+    }
+    length * way.norm()
+}
+
+/// Asks for the label with the amount of a mark. `anchors` are the points beside which it may stand, and the rank.
+pub(crate) fn amount(
+    canvas: &mut Canvas<'_>,
+    words: String,
+    ink: Colour,
+    (anchors, rank): (Vec<PagePoint>, u8),
+    away: Option<(f64, f64)>,
+) {
+    if canvas.options.labels && canvas.options.main_amounts {
+        canvas.label(Label { words, bold: rank > 0, colour: ink, anchors, rank, away, fixed: None, inside: None });
+    }
+}
+
+/// Draws a torque around `at` as an arc with a head. `sizes` are its radius and width in mm.
+pub(crate) fn torque(canvas: &Canvas<'_>, at: PagePoint, torque: f64, sizes: (f64, f64), ink: Colour) -> Vec<Path> {
+    let (radius, width) = (canvas.mm(sizes.0), canvas.mm(sizes.1));
+    let turned = |outline: Outline| {
+        if torque < 0.0 { outline.mapped(|p| PagePoint::new(2.0 * at.x - p.x, p.y)) } else { outline }
+    };
+    let outline = arrow::turning(at, radius, TORQUE_START, TORQUE_SWEEP, width);
+    vec![Path::filled(turned(outline), ink).cased(canvas.theme().page, canvas.mm(0.25))]
+}
+
+/// Writes the direction of a torque after its amount.
+pub(crate) fn turning(torque: f64, amount: String) -> String {
+    let direction = if torque > 0.0 { "anticlockwise" } else { "clockwise" };
+    format!("{amount} {direction}")
+}
+
+/// Draws the robots that hold a block, with their forces and torques: a disc on the grip point, an arrow from it, and
+/// an arc. Their labels have their names and forces.
+pub(crate) fn robots(canvas: &mut Canvas<'_>) {
+    let (scene, theme, found) = (canvas.scene(), canvas.theme(), canvas.found());
+    let edge = Stroke::new(theme.ink, canvas.mm(0.22));
+    for hold in &canvas.frame().holds {
+        let (name, at, fill) = (&scene.robots[hold.robot.0].id, canvas.place(hold.at), theme.robot(hold.robot.0));
+        let disc = Path::filled(Outline::circle(at, canvas.mm(1.35)), fill).with_stroke(edge.clone());
+        let title = format!("Robot {name} holds block {}", scene.blocks[hold.block.0].id);
+        canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
+        let Some(robot) = found.robots.iter().find(|robot| robot.robot == hold.robot && robot.block == hold.block)
+        else {
+            continue;
+        };
+        let (norm, mut anchors) = (robot.force.norm(), vec![at]);
+        let on = scene.name(BodyId::Block(robot.block));
+        if canvas.scale * norm > canvas.mm(1e-3) {
+            let u = (robot.force.x / norm, -robot.force.y / norm);
+            let length = (canvas.scale * norm).max(canvas.mm(3.4));
+            let large = canvas.look.large;
+            let (shaft, head) = if large { (0.75, 1.9) } else { (0.6, 1.6) };
+            let head = (canvas.mm(head), canvas.mm(1.7).min(0.6 * length));
+            let outline = ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(at, u);
+            let title = format!("Force on block {on} from robot {name}: {}", force(robot.force, scene.units));
+            let mark =
+                Mark::new(Layer::Symbol, "robot-force", vec![Path::filled(outline, fill).with_stroke(edge.clone())]);
+            canvas.put(mark.titled(title).avoided(canvas.mm(0.2)));
+            anchors.insert(0, along(at, u, length, 0.0));
+        }
+        let ink = theme.letters_on(theme.page, Some(fill));
+        let mut words = format!("{name}: {}", quantity(norm, scene.units.force()));
+        if robot.torque.abs() > 1e-9 * found.weight * found.length {
+            let stated = quantity(robot.torque.abs(), scene.units.torque());
+            let title = format!("Torque on block {on} from robot {name}: {}", turning(robot.torque, stated.clone()));
+            let shapes = torque(canvas, at, robot.torque, (2.1, 0.4), ink);
+            canvas.put(Mark::new(Layer::Symbol, "robot-torque", shapes).titled(title).avoided(canvas.mm(0.2)));
+            words = format!("{words}, {stated}");
+        }
+        if canvas.options.labels && canvas.options.main_amounts {
+            let label =
+                Label { words, bold: false, colour: ink, anchors, rank: 2, away: None, fixed: None, inside: None };
+            canvas.label(label);
+        }
+    }
+}
+
+/// Draws a dot at each contact that the scene lists.
+pub(crate) fn listed_contacts(canvas: &mut Canvas<'_>) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    if !scene.lists_contacts() {
+        return;
+    }
+    for contact in &canvas.found().contacts {
+        let interface = &contact.interface;
+        let at = canvas.place(interface.middle());
+        let [a, b] = interface.bodies.map(|body| scene.name(body));
+        let title = format!("Contact of {a} and {b}: friction coefficient {}", interface.friction);
+        let dot = Path::filled(Outline::circle(at, canvas.mm(0.35)), theme.ink);
+        canvas.put(Mark::new(Layer::Force, "contact", vec![dot]).titled(title));
+    }
+}
+
+/// Returns the blocks of all frames, placed or planned.
+pub(crate) fn shown_blocks(canvas_scene: &crate::mechanics::scene::Scene) -> Vec<BlockId> {
+    let frames = canvas_scene.frames.iter();
+    let mut ids: Vec<BlockId> = frames
+        .flat_map(|frame| frame.placed.iter().copied().chain(frame.plans.iter().map(|plan| plan.block)))
+        .collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}

@@ -1,0 +1,149 @@
+//! [`governing`] states a frame's headline margin in a few words, for the line of the verdict below a picture, with the
+//! collapse at its limit.
+
+use super::falls::lack;
+use super::list::{friction, stated};
+use super::{Parameter, StatedMargin, confirmed};
+use crate::mechanics::analysis::{End, FrameAnalysis, Motion, Verdict};
+use crate::mechanics::scene::Scene;
+use crate::products::wording::number::{three_down, three_up};
+
+/// The needed friction is stated if it is at least this fraction of the present friction.
+const NEAR_FRICTION: f64 = 0.8;
+
+/// The words after a verdict, and the motion to which they belong.
+#[derive(Clone, Debug, Default)]
+pub struct Governing<'a> {
+    /// The margins in words, the headline margin first: `carries 2.8 × its loads`. Rounded to the safe side.
+    pub words: Vec<String>,
+    /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
+    pub mechanism: &'a [Motion],
+}
+
+/// Returns the headline margin of a frame in words, followed by its tilt and its friction if they say more. The list is
+/// empty if no margins were computed, or if the frame is undecided.
+pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> Governing<'a> {
+    let placed = &scene.frames[number].placed;
+    let loads = scene.loads.iter().filter(|load| placed.contains(&load.block)).count();
+    match found.verdict {
+        Verdict::Undecided => Governing::default(),
+        Verdict::Unstable => Governing { words: lack(scene, found).into_iter().collect(), mechanism: &found.mechanism },
+        Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
+    }
+}
+
+fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {
+    let margins = stated(scene, found);
+    let mut governing = Governing::default();
+    for (place, margin) in margins.iter().enumerate() {
+        let is_more = match margin.parameter {
+            Parameter::Tilt => true,
+            Parameter::Friction => friction_share(margin, found) >= NEAR_FRICTION,
+            _ => false,
+        };
+        let Some((words, end)) = reserve(margin, found, load).filter(|_| place == 0 || is_more) else {
+            continue;
+        };
+        if governing.words.is_empty()
+            && let Some(End::At { mechanism, .. }) = end
+        {
+            governing.mechanism = mechanism;
+        }
+        governing.words.push(words);
+    }
+    governing
+}
+
+/// Returns the needed friction as a fraction of the least present friction.
+fn friction_share(margin: &StatedMargin<'_>, found: &FrameAnalysis) -> f64 {
+    let needed = margin.interval.low().and_then(confirmed).unwrap_or(0.0);
+    friction(found).map_or(0.0, |(least, _)| needed / least)
+}
+
+/// States a margin of a frame that stands, and the end of its interval to which the words belong. `None` if the
+/// parameter has no limit.
+fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> Option<(String, Option<&'a End>)> {
+    let (low, high) = (margin.interval.low(), margin.interval.high());
+    let value = |end: Option<&'a End>| Some((confirmed(end?)?, end));
+    let nearest = || {
+        let sides = [value(low), value(high)].into_iter().flatten();
+        let sides = sides.map(|(value, end)| (value.abs(), end));
+        sides.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    match margin.parameter {
+        Parameter::LoadFactor => {
+            let (factor, end) = value(high)?;
+            Some((format!("carries {} × its {load}", down(factor)), end))
+        }
+        Parameter::Tilt => {
+            let (angle, end) = nearest()?;
+            Some((format!("falls at {}° of tilt", down(angle)), end))
+        }
+        Parameter::HorizontalLoad => {
+            let (share, end) = nearest()?;
+            Some((format!("falls at {} × its weight sideways", down(share)), end))
+        }
+        Parameter::Friction => {
+            let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
+            let (least, most) = friction(found)?;
+            let has =
+                if least < most { format!("{}–{}", three_down(least), three_up(most)) } else { three_down(least) };
+            Some((format!("needs friction {} of {has}", up(needed)), end))
+        }
+        Parameter::Kernel => {
+            let (kernel, end) = value(high)?;
+            Some((format!("stands up to a kernel of {}", down(kernel)), end))
+        }
+        Parameter::RobotForce(_) | Parameter::RobotTorque(_) => None,
+    }
+}
+
+/// Writes a positive number with two significant digits, rounded down: `2.8`, `19`, `0.56`.
+fn down(value: f64) -> String {
+    two(value, -1.0)
+}
+
+/// Writes a positive number with two significant digits, rounded up.
+fn up(value: f64) -> String {
+    two(value, 1.0)
+}
+
+/// Writes a positive number with two significant digits, and from 10 on without decimals, rounded up if `sign` is 1 and
+/// down if it is −1. Margins have a relative error of 1e-6, which does not change the last digit.
+fn two(value: f64, sign: f64) -> String {
+    /// The relative error of margins.
+    const MARGIN_TOL: f64 = 1e-6;
+    if !(value > 0.0 && value.is_finite()) {
+        return "0".to_owned();
+    }
+    let digits = libm::floor(libm::log10(value) + 1e-12) as i32;
+    let decimals = usize::try_from((1 - digits).max(0)).unwrap_or(0);
+    let unit = libm::exp10(decimals as f64);
+    let scaled = value * unit;
+    let nearest = scaled.round();
+    let rounded = match () {
+        () if (scaled - nearest).abs() <= MARGIN_TOL * scaled => nearest,
+        () if sign > 0.0 => libm::ceil(scaled),
+        () => libm::floor(scaled),
+    };
+    let written = format!("{:.decimals$}", rounded / unit);
+    if written.contains('.') {
+        return written.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margins_are_rounded_to_the_safe_side_with_two_digits() {
+        let cases = [(2.812, "2.8", "2.9"), (19.03, "19", "20"), (0.5616, "0.56", "0.57"), (3.065, "3", "3.1")];
+        for (value, low, high) in cases {
+            assert_eq!((down(value).as_str(), up(value).as_str()), (low, high), "{value}");
+        }
+        assert_eq!((down(2.0 - 1e-9), up(0.3 + 1e-9)), ("2".to_owned(), "0.3".to_owned()));
+        assert_eq!((down(123.7), down(0.0123)), ("123".to_owned(), "0.012".to_owned()));
+    }
+}
