@@ -132,7 +132,7 @@ impl Kind {
     #[cfg(any(feature = "cli", feature = "wasm"))]
     fn states_margin(self, scene: &Scene, options: &Options) -> bool {
         let [frame] = &scene.frames[..] else { return false };
-        options.margin && frame.placed.len() <= MAX_MARGIN_BLOCKS && self.figure(options).is_some()
+        options.verdict_margin && frame.placed.len() <= MAX_MARGIN_BLOCKS && self.figure(options).is_some()
     }
 
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and

@@ -145,7 +145,7 @@ request! {
             arg(long = "no-amounts", action = clap::ArgAction::SetFalse,
                 help = "Leave out the magnitudes of loads, missing forces, robots and the largest force");
         /// Whether the line of the verdict gives the most important margin, if the analysis has computed it.
-        pub margin: bool = !given.flag("no_margin"),
+        pub verdict_margin: bool = !given.flag("no_margin"),
             arg(long = "no-margin", action = clap::ArgAction::SetFalse,
                 help = "Leave out the margin from the line of the verdict");
         /// Whether a scale bar in metres is drawn.

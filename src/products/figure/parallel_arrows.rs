@@ -21,8 +21,8 @@ pub(crate) const ARROW_GAP: f64 = 0.4;
 const PARALLEL_ANGLE: f64 = 0.12;
 /// With more arrows than this, none is moved, because a reader cannot distinguish single arrows there.
 const MAX_ARROWS: usize = 4000;
-/// Two arrows lie on one line if their distance is below this fraction of a shaft's width. A rounding error must not
-/// decide to which side each arrow moves.
+/// Two arrows lie on one line if their distance is below this fraction of a shaft's width, and two overlaps are equally
+/// large if they differ by less. A rounding error must not decide to which side an arrow moves.
 const ONE_LINE_TOL: f64 = 1e-3;
 
 /// The place of a straight arrow. All lengths are in the same unit, metres or pixels.
@@ -62,9 +62,9 @@ pub(crate) fn shifts(lanes: &[Lane]) -> Vec<Vector> {
                 continue;
             };
             for (arrow, side) in [(first, overlap.sides.0), (second, overlap.sides.1)] {
-                if overlap.lacks > worst[arrow] {
+                let lane = &lanes[arrow];
+                if overlap.lacks > worst[arrow] + ONE_LINE_TOL * lane.width {
                     worst[arrow] = overlap.lacks;
-                    let lane = &lanes[arrow];
                     let far = (0.5 * overlap.lacks).min(MAX_SHIFT * lane.width);
                     shifts[arrow] = quarter_turn(lane.reach) * (side * far / lane.reach.norm());
                 }
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn arrows_that_do_not_overlap_stay_in_place() {
-        let apart = [lane(0.0, 0.0, 5.0), lane(3.0, 0.0, 5.0), lane(0.0, 9.0, 5.0), lane(0.0, 8.0, 0.0)];
+        let apart = [lane(0.0, 0.0, 5.0), lane(3.5, 0.0, 5.0), lane(0.0, 9.0, 5.0), lane(0.0, 8.0, 0.0)];
         assert!(shifts(&apart).iter().all(|m| *m == Vector::zeros()));
     }
 }

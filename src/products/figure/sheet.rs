@@ -314,7 +314,7 @@ impl<'a> Sheet<'a> {
         let unexplained =
             found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
         // The panels of a strip are too narrow for margins.
-        let margin = if self.options.margin && self.analysis.frames.len() == 1 {
+        let margin = if self.options.verdict_margin && self.analysis.frames.len() == 1 {
             governing(scene, frame, found).words
         } else {
             Vec::new()

@@ -28,10 +28,12 @@ impl Component<'_> {
     /// Replaces the forces of an outcome by balancing forces of least sum, if a solution is accurate enough to prove
     /// that they are least.
     fn with_least_force(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        // Do not solve the program of least force if it ended without a result before, or if any balancing forces are
-        // enough.
-        if outcome.least_force_failed || self.settings.iter().any(|s| s.choice == Choice::Any) {
+        if self.settings.iter().any(|s| s.choice == Choice::Any) {
             return outcome;
+        }
+        // The program of least force is not solved again if it ended without a result before.
+        if outcome.least_force_failed {
+            return self.with_forces_of_parallel_joints(program, outcome);
         }
         // The first solver settings were tried before, so they are skipped. Exception: if a large component was decided
         // by least residual, they were not tried to the end.

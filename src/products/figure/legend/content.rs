@@ -256,6 +256,9 @@ fn has_too_many_loads(context: &FigureContext<'_>) -> bool {
 /// for frames in which all arrows are loads.
 fn own_scale(context: &FigureContext<'_>) -> bool {
     let longer = |marks: &Marks, arrow: &ForceArrow| {
+        if marks.newtons_per_unit == 0.0 {
+            return false;
+        }
         let usual = arrow.force.norm() / marks.newtons_per_unit * context.unit;
         arrow.kind == ArrowKind::Load && arrow.vector.norm() > 1.01 * usual
     };
