@@ -24,6 +24,8 @@ pub(crate) struct Look {
     pub is_strip: bool,
     /// Whether the blocks are large enough for their names.
     pub names: bool,
+    /// The width of a panel, pixels. Labels beside it would lie in the next panel or be cut.
+    pub panel: f64,
 }
 
 impl Look {
@@ -31,7 +33,8 @@ impl Look {
     pub fn new(options: &Options, is_strip: bool) -> Look {
         let printed = page_width(1.0);
         let text = if options.width.is_some() { PRINTED_TEXT * printed / SCREEN_TEXT } else { 1.0 };
-        Look { pixels: SCREEN_TEXT * text / PRINTED_TEXT, text, large: false, is_strip, names: false }
+        let pixels = SCREEN_TEXT * text / PRINTED_TEXT;
+        Look { pixels, text, large: false, is_strip, names: false, panel: f64::INFINITY }
     }
 
     /// Converts millimetres of the design to pixels.

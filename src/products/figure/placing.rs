@@ -22,6 +22,9 @@ const LEAST_LEADER: f64 = 1.4;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
 
+/// The cost of a label that lies beside its panel, per mm.
+const BESIDE_PANEL: f64 = 3.0;
+
 /// A text that needs a position.
 #[derive(Clone, Debug)]
 pub(crate) struct Label {
@@ -249,6 +252,10 @@ fn cost(
     if let Some((x, y)) = label.away {
         cost -= 0.9 * (dx * x + dy * y) / libm::hypot(dx, dy).max(1e-9);
     }
+    // Keep the label within the panel, which is centred about the structure.
+    let centre = drawn.structure.at.x + drawn.structure.width / 2.0;
+    let beside = (centre - rect.at.x).max(rect.at.x + rect.width - centre) - look.panel / 2.0;
+    cost += BESIDE_PANEL * per_mm(beside.max(0.0));
     let edges = per_mm(drawn.edge_length(rect));
     let inside = drawn.share_inside(rect);
     let near = drawn.covered(grown_rect(rect, look.mm(0.75)));

@@ -34,6 +34,8 @@ const FEW: usize = 12;
 const NAMED_BLOCK: f64 = 6.5;
 /// Space that a picture leaves for its loads and labels before they are known, mm.
 const FIRST_SPACE: f64 = 6.0;
+/// The structure is never drawn smaller than this share of the first scale, whatever space labels take.
+const LEAST_ZOOM: f64 = 0.8;
 /// How often the pictures are drawn to find the scale at which they fill the width.
 const ROUNDS: usize = 6;
 /// Largest number of lines of a caption and of a reason.
@@ -211,6 +213,7 @@ impl<'a> Sheet<'a> {
         let most = self.high() / self.structure.height().max(f64::MIN_POSITIVE);
         let most = most.min(self.look.mm(LARGEST_BLOCK) / self.block.max(f64::MIN_POSITIVE));
         let mut zoom = self.first_zoom();
+        let least = LEAST_ZOOM * zoom;
         // Labels do not shrink with the structure, so a step is never large, and the largest scale that fits is kept.
         let mut best: Option<(f64, Pictures)> = None;
         for _ in 0..ROUNDS {
@@ -218,7 +221,7 @@ impl<'a> Sheet<'a> {
             let over = pictures.sides.1 - pictures.sides.0 - self.panel;
             let fits = over <= self.look.mm(0.15);
             let share = over / (self.structure.width() * zoom).max(f64::MIN_POSITIVE);
-            let next = (zoom * (1.0 - share).clamp(0.75, 1.3)).min(most);
+            let next = (zoom * (1.0 - share).clamp(0.75, 1.3)).max(least).min(most);
             let is_better = |kept: &(f64, Pictures)| {
                 let kept_fits = kept.1.sides.1 - kept.1.sides.0 - self.panel <= self.look.mm(0.15);
                 if fits == kept_fits { fits == (zoom > kept.0) } else { fits }
@@ -239,8 +242,12 @@ impl<'a> Sheet<'a> {
         let size = self.block * zoom / self.look.mm(1.0);
         let blocks = self.analysis.scene.frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
         let narrow = self.columns == 3 && self.width < self.look.mm(COLUMN_WIDTH);
-        let look =
-            Look { large: size >= LARGE_BLOCK && blocks <= FEW, names: size >= NAMED_BLOCK && !narrow, ..self.look };
+        let look = Look {
+            large: size >= LARGE_BLOCK && blocks <= FEW,
+            names: size >= NAMED_BLOCK && !narrow,
+            panel: self.panel,
+            ..self.look
+        };
         let view = View { analysis: self.analysis, structure: self.structure, zoom };
         let scale = self.figure.scale(&view, look);
         let all: Vec<(usize, Picture)> = frames
