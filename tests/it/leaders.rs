@@ -31,7 +31,7 @@ fn leader(label: &Group) -> Option<[PagePoint; 2]> {
     pieces(label).last().copied()
 }
 
-/// In the crowded scene `steps30`, at most one leader in twenty may cross a label or another leader. In all other
+/// In the crowded scene `steps30`, at most one leader in eighteen may cross a label or another leader. In all other
 /// scenes, none may.
 #[test]
 fn leaders_cross_neither_each_other_nor_a_label() {
@@ -61,7 +61,7 @@ fn leaders_cross_neither_each_other_nor_a_label() {
     let crowded = |complaint: &&String| complaint.starts_with("steps30");
     let (crowded, others): (Vec<_>, Vec<_>) = complaints.iter().partition(crowded);
     assert!(others.is_empty(), "{others:?}");
-    assert!(crowded.len() * 20 <= count, "{} of {count}: {crowded:?}", crowded.len());
+    assert!(crowded.len() * 18 <= count, "{} of {count}: {crowded:?}", crowded.len());
 }
 
 /// Twelve loads stand so close together that their amounts do not fit beside each other. The amounts are in the order

@@ -14,7 +14,6 @@ use super::context::FigureContext;
 use super::displacement::Course;
 use super::label::{self, Callout};
 use super::legend::{self, Entry};
-use super::load_arrows::load_marks;
 use super::panel::{composed_with, cut_ground};
 use super::pen::{DISPLACED_OPACITY, Pen};
 use super::words::{quantity, round_below_in};
@@ -46,12 +45,6 @@ impl PanelContent for CarriedForces {
             lines_cross_names: true,
             ..About::default()
         }
-    }
-
-    /// Returns the arrows of the loads without a scale: their amounts are written beside them, and the only scale in the
-    /// figure is that of the polygon.
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        Marks { newtons_per_unit: 0.0, ..load_marks(of.analysis, of.frame, of.options, newtons_per_unit) }
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {

@@ -54,21 +54,24 @@ pub(crate) fn shifts(lanes: &[Lane]) -> Vec<Vector> {
     let spans: Vec<(f64, f64)> = lanes.iter().map(Lane::span).collect();
     let mut order: Vec<usize> = (0..lanes.len()).collect();
     order.sort_by(|a, b| spans[*a].0.total_cmp(&spans[*b].0));
-    let mut worst = vec![0.0; lanes.len()];
+    // For each arrow, the arrows that overlap it: what the distance lacks, their index, and the side to move to.
+    let mut overlaps: Vec<Vec<(f64, usize, f64)>> = vec![Vec::new(); lanes.len()];
     for (place, &i) in order.iter().enumerate() {
         for &j in order[place + 1..].iter().take_while(|j| spans[**j].0 <= spans[i].1) {
             let (first, second) = (i.min(j), i.max(j));
-            let Some(overlap) = Overlap::of(&lanes[first], &lanes[second]) else {
-                continue;
-            };
-            for (arrow, side) in [(first, overlap.sides.0), (second, overlap.sides.1)] {
-                let lane = &lanes[arrow];
-                if overlap.lacks > worst[arrow] + ONE_LINE_TOL * lane.width {
-                    worst[arrow] = overlap.lacks;
-                    let far = (0.5 * overlap.lacks).min(MAX_SHIFT * lane.width);
-                    shifts[arrow] = quarter_turn(lane.reach) * (side * far / lane.reach.norm());
-                }
+            if let Some(overlap) = Overlap::of(&lanes[first], &lanes[second]) {
+                overlaps[first].push((overlap.lacks, second, overlap.sides.0));
+                overlaps[second].push((overlap.lacks, first, overlap.sides.1));
             }
+        }
+    }
+    for ((lane, overlaps), shift) in lanes.iter().zip(&overlaps).zip(&mut shifts) {
+        let most = overlaps.iter().map(|(lacks, ..)| *lacks).fold(0.0, f64::max);
+        // Of several arrows that cover this one equally, the first in the list counts.
+        let worst = overlaps.iter().filter(|(lacks, ..)| *lacks >= most - ONE_LINE_TOL * lane.width);
+        if let Some((lacks, _, side)) = worst.min_by_key(|(_, other, _)| *other) {
+            let far = (0.5 * lacks).min(MAX_SHIFT * lane.width);
+            *shift = quarter_turn(lane.reach) * (side * far / lane.reach.norm());
         }
     }
     shifts

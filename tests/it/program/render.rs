@@ -174,9 +174,9 @@ fn every_kind_of_figure_states_what_it_shows() {
     let bench = Bench::new();
     for (kind, falls, stands) in [
         ("mechanism", "block lintel turns about a corner on block left", "there is no mechanism"),
-        ("thrust", "so it is not in equilibrium", "this width shows"),
+        ("thrust", "the line of thrust leaves the stone", "this width shows"),
         ("kernel", "no forces balance the structure", "safe part of an interface"),
-        ("utilisation", "with the missing forces added", "in the forces shown"),
+        ("utilisation", "stands at no value", "stands at any value"),
     ] {
         let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));
         assert_eq!(ran.code, 0, "{kind}: {}", ran.err);

@@ -91,10 +91,10 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     let turns = marks.turns.iter().filter(|_| options.labels || (options.amounts && few));
     let turns = largest(turns.collect(), |turn| turn.torque.abs());
     let turns = turns.into_iter().map(|turn| torque_label(pen, turn));
-    let mut labels: Vec<Label> = straight.chain(turns).collect();
-    // The amounts of loads in a row come first, and keep their order. The largest force comes last: other labels cannot be
-    // placed as freely.
-    labels.sort_by_key(|label| (label.request.with_leader.is_empty(), label.named));
+    let mut labels: Vec<Label> = turns.chain(straight).collect();
+    // The amounts of loads in a row come first, and keep their order. Those of torques come next, because they have the
+    // fewest places.
+    labels.sort_by_key(|label| label.request.with_leader.is_empty());
     labels
 }
 
