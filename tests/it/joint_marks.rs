@@ -91,7 +91,7 @@ fn every_mark_lies_at_its_joint_and_names_its_bodies() {
                 let title = format!("Force between {} and {}: ", bodies[0], bodies[1]);
                 let distance = |(_, at, camera): &&(String, PagePoint, Camera)| {
                     let joint = camera.place(joint.resultant.at);
-                    (joint.x - at.x).hypot(joint.y - at.y)
+                    libm::hypot(joint.x - at.x, joint.y - at.y)
                 };
                 let own = at.iter().filter(|(words, ..)| words.starts_with(&title));
                 let nearest = own.map(|mark| distance(&mark)).fold(f64::INFINITY, f64::min);

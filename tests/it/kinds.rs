@@ -357,7 +357,7 @@ fn no_kind_leaves_out_a_load_silently() {
 
 #[test]
 fn a_figure_of_the_structure_tells_nothing_about_the_solution() {
-    let text = svg::write(&draw(&Analysis::new(&scene("thesis/figure-4.json")), Kind::Structure));
+    let text = svg::write(&draw(&Analysis::new(scene("thesis/figure-4.json")), Kind::Structure));
     for word in ["stands", "falls", "Force on", "Weight of", "issing"] {
         assert!(!text.contains(word), "{word}: {text}");
     }
