@@ -1,7 +1,7 @@
 //! [`study`]: measures what accuracy costs on given scenes.
 //!
 //! The accuracy levels of drystone, and the solver clarabel alone, solve every frame at several tolerances. Each result
-//! is compared with a reference of higher precision: the level `proved` at the tolerance [`REFERENCE_TOLERANCE`], whose
+//! is compared with a reference of higher precision: the level `proved` at the tolerance `REFERENCE_TOLERANCE`, whose
 //! forces are refined on the optimal face with sums of 32 digits. Times are wall times on this machine, so only their
 //! ratios are meaningful. All other numbers are the same on every machine.
 //!
