@@ -240,10 +240,8 @@ fn two_solvers_agree_on_a_thousand_bricks_that_stand_or_fall() {
         let least_force = kinematic_dual(loads, &all, |c| c.cost).0;
         let any_balance = force_primal(loads, &all, |_| 0.0, None);
         let least_residual = least_residual_dual(loads, &all).0;
-        let expected = match stands {
-            true => [Status::Solved; 3],
-            false => [Status::Unbounded, Status::Infeasible, Status::Solved],
-        };
+        let expected =
+            if stands { [Status::Solved; 3] } else { [Status::Unbounded, Status::Infeasible, Status::Solved] };
         let problems = [least_force, any_balance, least_residual];
         for (problem, status) in problems.iter().zip(expected) {
             let [ours, theirs] =

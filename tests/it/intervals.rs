@@ -155,10 +155,7 @@ fn problems(number: u64) -> Vec<String> {
     let found = problems_of(number, &file, false);
     // A frame may fall by the exact program but stand within the tolerance of the verdicts. Then its ends are
     // compared within this tolerance.
-    match found.is_empty() || !is_borderline(&file) {
-        true => found,
-        false => problems_of(number, &file, true),
-    }
+    if found.is_empty() || !is_borderline(&file) { found } else { problems_of(number, &file, true) }
 }
 
 fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {

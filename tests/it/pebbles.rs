@@ -189,10 +189,7 @@ fn laid_down(chance: &mut Random, stone: &Outline) -> Outline {
         s > 0.0 && s < along[0] * along[0] + along[1] * along[1]
     };
     let bearing: Vec<usize> = all.iter().copied().filter(bears).collect();
-    let bottom = match chance.percent(70) {
-        true => chance.one_of(&bearing),
-        false => chance.one_of(&all),
-    };
+    let bottom = if chance.percent(70) { chance.one_of(&bearing) } else { chance.one_of(&all) };
     let (a, b) = edge(bottom);
     let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
     let (cos, sin) = ((b[0] - a[0]) / length, (b[1] - a[1]) / length);
@@ -224,10 +221,8 @@ fn random(number: u64) -> (Value, Outline, f64) {
     let rough = chance.one_of(&[0.0, 0.0, 0.02, 0.1]);
     let stone = pebble(&mut chance, radius, corners, rough);
     // A rough stone on an edge of its hull would touch the ground only at two corners, and corners carry no force.
-    let stone = match rough == 0.0 && chance.percent(50) {
-        true => laid_down(&mut chance, &stone),
-        false => dropped(&mut chance, &stone),
-    };
+    let stone =
+        if rough == 0.0 && chance.percent(50) { laid_down(&mut chance, &stone) } else { dropped(&mut chance, &stone) };
     // At least three digits of the radius are kept.
     let least = (2.5 - libm::log10(radius)).ceil().max(0.0) as usize;
     let decimals = match chance.whole(0, 5) {

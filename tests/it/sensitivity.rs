@@ -320,9 +320,10 @@ fn random_scene(random: &mut Random) -> Value {
     match random.below(3) {
         0 => {
             let count = random.whole(5, 12) as usize;
-            let weigh = match random.percent(50) {
-                true => json!({ "density": 1 }),
-                false => json!({ "weight": random.between(0.1, 0.4) }),
+            let weigh = if random.percent(50) {
+                json!({ "density": 1 })
+            } else {
+                json!({ "weight": random.between(0.1, 0.4) })
             };
             let (thickness, friction) = (random.between(0.12, 0.35), random.between(0.3, 1.0));
             loaded_arch(count, thickness, friction, random.below(count), &weigh)

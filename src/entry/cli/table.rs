@@ -119,9 +119,10 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     }
     for ((frame, state), cells) in analysis.frames.iter().zip(&scene.frames).zip(&rows) {
         let styles = [Style::new(), style(frame.verdict)];
-        match fits {
-            true => line(&mut page, cells, &widths, styles),
-            false => record(&mut page, &heads, cells, styles),
+        if fits {
+            line(&mut page, cells, &widths, styles)
+        } else {
+            record(&mut page, &heads, cells, styles)
         }
         for remark in remarks(scene, frame, state, detail) {
             page.line(&format!("      {remark}"));
@@ -263,10 +264,7 @@ fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
         exists(amount(largest.map_or(0.0, force), scene.units.force())),
         exists(between),
         exists(tenths(friction)),
-        exists(match frame.robots.is_empty() {
-            true => "none".into(),
-            false => tenths(limit.fold(0.0, f64::max)),
-        }),
+        exists(if frame.robots.is_empty() { "none".into() } else { tenths(limit.fold(0.0, f64::max)) }),
     ]
 }
 

@@ -217,10 +217,7 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(corners[j].gap);
             if j < i && corners[j].body != corner.body && distance <= gap {
-                match distance == 0.0 {
-                    true => coincident.push(j),
-                    false => pairs.push((distance, i, j)),
-                }
+                if distance == 0.0 { coincident.push(j) } else { pairs.push((distance, i, j)) }
             }
         }
         coincident.sort_unstable();

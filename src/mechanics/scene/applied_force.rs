@@ -44,12 +44,8 @@ impl Scene {
             torque: 0.0,
         };
         let weights = self.blocks.iter().enumerate().map(weight);
-        let mut forces: Vec<Vec<AppliedForce>> = weights
-            .map(|weight| match weight.force.norm() > 0.0 {
-                true => vec![weight],
-                false => Vec::new(),
-            })
-            .collect();
+        let mut forces: Vec<Vec<AppliedForce>> =
+            weights.map(|weight| if weight.force.norm() > 0.0 { vec![weight] } else { Vec::new() }).collect();
         for (number, load) in self.loads.iter().enumerate() {
             forces[load.block.0].push(AppliedForce {
                 block: load.block,

@@ -274,10 +274,7 @@ impl Session {
     /// Returns an error if the request is not valid, or if no proof was found.
     pub fn capacity(&self, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
         let _until = DeadlineGuard::new(self.options.deadline);
-        let interfaces = match self.scene.exact {
-            true => self.found.clone(),
-            false => Interfaces::new(&self.scene),
-        };
+        let interfaces = if self.scene.exact { self.found.clone() } else { Interfaces::new(&self.scene) };
         capacity_of(&self.scene, &interfaces, 0, request)
     }
 
@@ -289,9 +286,10 @@ impl Session {
             (verdict, Source::Examined)
         } else {
             let frame = &self.scene.frames[0];
-            let interfaces = match self.scene.exact {
-                true => self.found.all.iter().collect(),
-                false => self.found.in_frame(&self.scene, frame),
+            let interfaces = if self.scene.exact {
+                self.found.all.iter().collect()
+            } else {
+                self.found.in_frame(&self.scene, frame)
             };
             self.guess.verdict(&self.scene, frame, &interfaces, &self.options)
         };

@@ -110,9 +110,8 @@ pub fn place_avoiding(
     for (number, request) in requests.iter().enumerate() {
         let preferred = preferred_position(ink, page, request);
         let preferred = preferred.or_else(|| position_with_leader(ink, page, request));
-        let position = preferred.or_else(|| match misses < MAX_MISSES {
-            true => ring_position(ink, page, request, &|rect| avoid(number, rect)),
-            false => None,
+        let position = preferred.or_else(|| {
+            if misses < MAX_MISSES { ring_position(ink, page, request, &|rect| avoid(number, rect)) } else { None }
         });
         misses += usize::from(position.is_none());
         ink.add_label(position.as_ref());

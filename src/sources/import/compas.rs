@@ -95,9 +95,10 @@ pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<(S
     for (solid, (outline, depth)) in prisms {
         depths.push(depth * metres);
         let corners: Vec<Pair> = outline.iter().map(|c| c.map(|x| x * metres)).collect();
-        match solid.is_support {
-            true => scene.ground.push(GroundEntry::from(corners)),
-            false => scene.blocks.push(BlockEntry::from(corners).id(&solid.name)),
+        if solid.is_support {
+            scene.ground.push(GroundEntry::from(corners))
+        } else {
+            scene.blocks.push(BlockEntry::from(corners).id(&solid.name))
         }
     }
     let (thin, thick) = depths.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(*d), b.max(*d)));

@@ -108,10 +108,7 @@ fn name(number: f64, bodies: usize) -> Option<String> {
 fn degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let near = 15.0 * (degrees / 15.0).round();
-    match (degrees - near).abs() <= SNAP_DEGREES {
-        true => near,
-        false => degrees,
-    }
+    if (degrees - near).abs() <= SNAP_DEGREES { near } else { degrees }
 }
 
 /// Reads rows of numbers, separated by commas, semicolons, tabs or spaces. Skips comments, which begin with `#` or `%`,

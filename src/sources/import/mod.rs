@@ -262,12 +262,13 @@ fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, S
         ));
     } else if draft.parts.iter().any(|p| p.kind == Role::Block) {
         let names = naming.seen();
-        let help = match names.is_empty() {
-            true => "give the ground's layer or outline a name that begins with ground".into(),
-            false => format!(
+        let help = if names.is_empty() {
+            "give the ground's layer or outline a name that begins with ground".into()
+        } else {
+            format!(
                 "give the name of its layer or outline with --ground-layer, or let it begin with ground; the drawing has {}",
                 first_of(names, MAX_NAMES)
-            ),
+            )
         };
         draft.remark("", "no part of the drawing is ground, so nothing supports the blocks", help);
     }
@@ -355,9 +356,8 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
     let text = scene.to_json();
     // Nearby edges are already snapped together, so any overlap that is left is an error of the drawing. Check the
     // scene again, and allow no overlap beyond the tolerance.
-    let read = Scene::from_json(&text).and_then(|read| match read.penetrations.is_empty() {
-        true => Ok(read),
-        false => Scene::from_json_within(&text, Some(read.tolerance.gap)),
+    let read = Scene::from_json(&text).and_then(|read| {
+        if read.penetrations.is_empty() { Ok(read) } else { Scene::from_json_within(&text, Some(read.tolerance.gap)) }
     });
     match read {
         Ok(_) => Ok(Imported { scene, notes: draft.notes, remarks: draft.remarks, snapped }),

@@ -99,10 +99,7 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
         return Ok(Err(Skipped::InBand));
     }
     let stand = others().all(Balance::stands);
-    let exact = match stand {
-        true => own.farthest_forces(block, [at.x, at.y], directions),
-        false => None,
-    };
+    let exact = if stand { own.farthest_forces(block, [at.x, at.y], directions) } else { None };
     let found = match of(&scene, request) {
         Ok(found) => found,
         Err(CapacityError::Undecided) => return Ok(Err(Skipped::Withheld(number))),

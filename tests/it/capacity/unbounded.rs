@@ -9,11 +9,12 @@ use crate::structure::{rectangle, scene};
 
 /// A block of 10 N and 2 m × 1 m between two vertical walls without friction, on a floor or not.
 fn in_a_slot(floor: bool) -> Value {
-    let ground = match floor {
-        true => json!([{ "polygon":
-            [[-3, -1], [3, -1], [3, 3], [1, 3], [1, 0], [-1, 0], [-1, 3], [-3, 3]] }]),
-        false => json!([{ "polygon": [[-3, -1], [-1, -1], [-1, 3], [-3, 3]] },
-            { "polygon": [[1, -1], [3, -1], [3, 3], [1, 3]] }]),
+    let ground = if floor {
+        json!([{ "polygon":
+            [[-3, -1], [3, -1], [3, 3], [1, 3], [1, 0], [-1, 0], [-1, 3], [-3, 3]] }])
+    } else {
+        json!([{ "polygon": [[-3, -1], [-1, -1], [-1, 3], [-3, 3]] },
+            { "polygon": [[1, -1], [3, -1], [3, 3], [1, 3]] }])
     };
     json!({ "drystone": 1, "friction": 0, "ground": ground,
         "blocks": [{ "id": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "weight": 10 }] })

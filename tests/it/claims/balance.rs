@@ -140,16 +140,10 @@ fn listed_forces_and_missing_ones_balance_every_block() {
                 continue;
             }
             let (left, _) = remainder(*radius, acting);
-            let within = match frame["verdict"] == "stable" {
-                true => 1e-6 * acting.total,
-                false => 2e-6 * size,
-            };
+            let within = if frame["verdict"] == "stable" { 1e-6 * acting.total } else { 2e-6 * size };
             assert!(left <= within, "{id}: {left} of {size} in {}", checked.file);
         }
-        match frame["verdict"] == "stable" {
-            true => standing += 1,
-            false => falling += usize::from(unsupported.is_empty()),
-        }
+        if frame["verdict"] == "stable" { standing += 1 } else { falling += usize::from(unsupported.is_empty()) }
     }
     assert!(standing > 20 && falling > 20, "{standing} {falling}");
 }

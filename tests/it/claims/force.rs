@@ -25,10 +25,7 @@ fn totals_are_the_sums_of_the_listed_forces() {
         assert!((sum - total).abs() <= 1e-9 * sum.max(1e-9), "{sum} {total}: {}", checked.file);
         let missing: f64 = list(&frame["failures"])
             .iter()
-            .map(|f| match f["torque"].is_null() {
-                true => number(&f["amount"]),
-                false => number(&f["amount"]) / checked.length,
-            })
+            .map(|f| if f["torque"].is_null() { number(&f["amount"]) } else { number(&f["amount"]) / checked.length })
             .sum();
         let sticking = number(&frame["total_sticking"]);
         let size = number(&frame["weight"]).max(sticking).max(total);

@@ -90,10 +90,7 @@ fn problems(number: u64) -> Vec<String> {
     let (across, share) = (Growing::AcrossGravity, &found.horizontal_load);
     // If the weights are far below the loads, the error is relative to the loads.
     let exact = exact_interval(&file, across);
-    let band = match by > 1.0 {
-        true => [NONE * by, ROUNDING * by],
-        false => [NONE; 2],
-    };
+    let band = if by > 1.0 { [NONE * by, ROUNDING * by] } else { [NONE; 2] };
     problems.list.extend(compare_safely("horizontal", &file, share, exact, band));
     check_friction(&file, &found, &mut problems);
     check_kernel(&file, &found, &mut problems);

@@ -194,9 +194,10 @@ impl<'a> Balance<'a> {
 
     /// Whether changes within the tolerance change the verdict.
     pub fn is_borderline(&self) -> bool {
-        match self.stands() {
-            true => !self.stands_with_margin(Proof::IMBALANCE_TOL),
-            false => self.stands_within(Proof::IMBALANCE_TOL),
+        if self.stands() {
+            !self.stands_with_margin(Proof::IMBALANCE_TOL)
+        } else {
+            self.stands_within(Proof::IMBALANCE_TOL)
         }
     }
 

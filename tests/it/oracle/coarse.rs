@@ -60,9 +60,10 @@ fn found(number: u64) -> Vec<Found> {
     let falls = groups.iter().any(|group| !group.stands());
     let areas = written.blocks().iter().map(|block| block.body.polygon.area());
     let least = areas.fold(f64::INFINITY, f64::min).sqrt();
-    let is_clear = match falls {
-        true => groups.iter().any(|group| group.distance() > CLEAR),
-        false => groups.iter().all(|group| group.stands_with_margin(CLEAR)),
+    let is_clear = if falls {
+        groups.iter().any(|group| group.distance() > CLEAR)
+    } else {
+        groups.iter().all(|group| group.stands_with_margin(CLEAR))
     };
     let both = SHARES.into_iter().flat_map(|share| [(share, false), (share, true)]);
     let each = both.filter(|(_, is_off)| is_clear || !is_off).filter_map(|(share, is_off)| {
@@ -173,10 +174,7 @@ fn stones(number: u64) -> Value {
     let below = |from: [f64; 2], to: [f64; 2]| json!({ "polygon": [from, [from[0], -2.0], [to[0], -2.0], to] });
     let friction = chance.one_of(&[0.1, 0.3, 0.7, 1.5]);
     // In some scenes a robot holds the third stone.
-    let robots = match chance.percent(60) {
-        true => json!([{ "id": "r", "holds": "c" }]),
-        false => json!([]),
-    };
+    let robots = if chance.percent(60) { json!([{ "id": "r", "holds": "c" }]) } else { json!([]) };
     json!({ "drystone": 1, "contact_tolerance": 0.05, "friction": friction, "robots": robots,
         "ground": [below(a[7], a[8]), below(b[6], b[7])],
         "blocks": [

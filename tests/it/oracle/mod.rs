@@ -119,10 +119,7 @@ fn judged(
             // must equal that sum, to a tolerance ten times as large.
             let bound = frame.force_bound.unwrap_or(0.0);
             let above = off(bound.max(least), least, frame.weight);
-            let short = match frame.least_force {
-                true => off(bound.min(least), least, frame.weight) / 10.0,
-                false => 0.0,
-            };
+            let short = if frame.least_force { off(bound.min(least), least, frame.weight) / 10.0 } else { 0.0 };
             let total = off(frame.total_force, least, frame.weight);
             return Some(total.max(above).max(short));
         }
@@ -264,9 +261,10 @@ fn verdicts_of_scenes_with_small_stones_are_those_of_an_exact_program() {
                     let touches = touch::touches(&scene);
                     let analysis = Analysis::new(&scene);
                     let frame = &analysis.frames[0];
-                    let standing = match touches.len() == frame.contacts.len() {
-                        true => judged(&scene, &touches, frame, false).0,
-                        false => Standing::TouchesElsewhere,
+                    let standing = if touches.len() == frame.contacts.len() {
+                        judged(&scene, &touches, frame, false).0
+                    } else {
+                        Standing::TouchesElsewhere
                     };
                     (standing, format!("{:?} {}", frame.proof, frame.doubt()))
                 }

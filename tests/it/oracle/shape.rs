@@ -45,9 +45,12 @@ type Triangle = (i64, i64, bool);
 
 /// Blocks of one to six triangles. Each begins with a free triangle next to the ground or an earlier block.
 pub fn triangular_pile(chance: &mut Random) -> Value {
-    let neighbours = |(x, y, up): Triangle| match up {
-        true => [(x, y, false), (x - 1, y + 1, false), (x, y + 1, false)],
-        false => [(x, y, true), (x + 1, y - 1, true), (x, y - 1, true)],
+    let neighbours = |(x, y, up): Triangle| {
+        if up {
+            [(x, y, false), (x - 1, y + 1, false), (x, y + 1, false)]
+        } else {
+            [(x, y, true), (x + 1, y - 1, true), (x, y - 1, true)]
+        }
     };
     let buried = |c: Triangle| if c.2 { c.1 < 0 } else { c.1 < 1 };
     let written = |c: &Triangle| json!([c.0, c.1, if c.2 { "up" } else { "down" }]);

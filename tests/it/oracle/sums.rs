@@ -114,10 +114,7 @@ fn size(failure: &Failure, length: f64) -> (f64, Vec<usize>) {
 /// The errors in the sums of a scene, and the largest relative error of a component's sum. With `closely`, the sums
 /// on each block are compared too.
 fn compared(scene: &Scene, exact: bool, closely: bool) -> (Vec<String>, f64) {
-    let touches = match exact {
-        true => touch::touches(scene),
-        false => touch::as_found(scene),
-    };
+    let touches = if exact { touch::touches(scene) } else { touch::as_found(scene) };
     let analysis = Analysis::new(scene);
     let frame = &analysis.frames[0];
     if touches.len() != frame.contacts.len() {
@@ -191,10 +188,7 @@ fn compare_group(
         own.map(|(size, _)| size).sum()
     };
     let (stands, stuck) = (group.stands(), of(&failures, &group.blocks));
-    let (sum, sizes) = match stands {
-        true => (Sum::Forces, forces(frame)),
-        false => (Sum::Sticking, failures),
-    };
+    let (sum, sizes) = if stands { (Sum::Forces, forces(frame)) } else { (Sum::Sticking, failures) };
     // Within the tolerance of the proofs the verdict may differ from the exact one.
     if stands != (stuck == 0.0) && group.is_borderline() {
         return;

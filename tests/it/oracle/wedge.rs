@@ -48,10 +48,8 @@ impl<'a> Springs<'a> {
     fn column(&self, contact: usize, point: usize, along_face: bool) -> Vec<(usize, RBig)> {
         let contact = &self.frame.contacts[contact];
         let normal = contact.interface.normal;
-        let direction = match along_face {
-            false => [exact(normal.x), exact(normal.y)],
-            true => [-exact(normal.y), exact(normal.x)],
-        };
+        let direction =
+            if along_face { [-exact(normal.y), exact(normal.x)] } else { [exact(normal.x), exact(normal.y)] };
         let at = contact.application_points[point];
         let [on, from] = contact.interface.bodies;
         let mut column = Vec::new();

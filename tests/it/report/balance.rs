@@ -59,9 +59,10 @@ fn assert_balances((caption, head, rows): &(String, String, Vec<Row>)) {
         assert!(stated.abs() <= half, "{caption}: the printed sum is {stated}");
     }
     // The first row of the table of a block is its weight, which acts at its centroid.
-    let about = match caption.contains("its centroid") {
-        true => [forces[0].values[0], forces[0].values[1]].map(|v| v.expect("a place").0),
-        false => [0.0, 0.0],
+    let about = if caption.contains("its centroid") {
+        [forces[0].values[0], forces[0].values[1]].map(|v| v.expect("a place").0)
+    } else {
+        [0.0, 0.0]
     };
     let (force, moment) = (factor(head, 2), factor(head, 4));
     for row in forces {

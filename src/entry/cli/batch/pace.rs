@@ -106,10 +106,7 @@ impl<'t> BatchProgress<'t> {
         let rate = done as f64 / seconds.max(1e-9);
         self.terminal.note(&format!(
             "{done} scenes in {seconds:.1} s, {rate:.0} a second: {}",
-            match counts.is_empty() {
-                true => "nothing to do".to_owned(),
-                false => counts.join(", "),
-            }
+            if counts.is_empty() { "nothing to do".to_owned() } else { counts.join(", ") }
         ));
     }
 

@@ -55,18 +55,16 @@ impl Resolution<'_> {
         let given = self.file.contact_tolerance;
         let given = at_least_zero(findings, &Trail::Top, "contact_tolerance", given);
         // Estimate the rounding of the coordinates, unless the contacts are exact or the tolerance is given.
-        let rounding = match exact || given.is_some() {
-            true => None,
-            false => rounding::estimate_rounding(self.file),
-        };
+        let rounding = if exact || given.is_some() { None } else { rounding::estimate_rounding(self.file) };
         let (reach, healed) = if exact {
             let healed = Healed { source: ToleranceSource::Lattice, ..Healed::default() };
             (HealingReach::EXACT, healed)
         } else {
             let reach = reach(given, rounding, blocks);
-            match self.has_schematic_bodies() {
-                true => (reach, Healed::default()),
-                false => (reach, heal::heal(ground, blocks, reach)),
+            if self.has_schematic_bodies() {
+                (reach, Healed::default())
+            } else {
+                (reach, heal::heal(ground, blocks, reach))
             }
         };
         Closeness { exact, reach, healed, misfit: rounding.map_or(0.0, |r| misfit(&r)) }

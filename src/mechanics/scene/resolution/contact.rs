@@ -53,10 +53,7 @@ impl Resolution<'_> {
             let (sin, cos) = sin_cos_degrees(entry.normal);
             let normal = Vector::new(cos, sin);
             // Put the two bodies in the order that all interfaces have: the later block first, the ground last.
-            let (bodies, normal) = match a > b {
-                true => ([a, b], normal),
-                false => ([b, a], -normal),
-            };
+            let (bodies, normal) = if a > b { ([a, b], normal) } else { ([b, a], -normal) };
             contacts.push(ListedContact {
                 bodies,
                 at: Point::new(entry.at[0], entry.at[1]),

@@ -334,8 +334,5 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
         normal: normal_across(ends),
         friction: scene.friction_between(bodies[0], bodies[1]),
     };
-    Some(match is_short {
-        true => Relation::TooShort(interface),
-        false => Relation::Touching(interface, distance),
-    })
+    Some(if is_short { Relation::TooShort(interface) } else { Relation::Touching(interface, distance) })
 }

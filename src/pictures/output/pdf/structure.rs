@@ -19,9 +19,10 @@ pub(super) fn grouped(tags: Tags) -> Vec<Node> {
     let mut open: Option<(usize, Rows)> = None;
     for (role, content) in tags {
         if let Some(Role::Cell { table, row, head }) = role {
-            let cell: Node = match head {
-                true => TagGroup::with_children(Tag::TH(TableHeaderScope::Column), vec![content]).into(),
-                false => TagGroup::with_children(Tag::TD, vec![content]).into(),
+            let cell: Node = if head {
+                TagGroup::with_children(Tag::TH(TableHeaderScope::Column), vec![content]).into()
+            } else {
+                TagGroup::with_children(Tag::TD, vec![content]).into()
             };
             if open.as_ref().is_none_or(|o| o.0 != table) {
                 nodes.extend(open.take().map(table_of));

@@ -91,9 +91,10 @@ impl Steps {
         let Some((first, more)) = numbers.split_first() else {
             return;
         };
-        match stated {
-            true => self.more(&[*first]),
-            false => put(&mut self.data, *first),
+        if stated {
+            self.more(&[*first])
+        } else {
+            put(&mut self.data, *first)
         }
         self.more(more);
     }

@@ -48,10 +48,7 @@ pub(super) fn chains(curves: Vec<OpenCurve>, tolerance: f64) -> Chains {
         };
         let mut joined = curves[first].curve.clone();
         for &(i, is_backwards) in &walk[1..] {
-            let next = match is_backwards {
-                true => curves[i].curve.reversed(),
-                false => curves[i].curve.clone(),
-            };
+            let next = if is_backwards { curves[i].curve.reversed() } else { curves[i].curve.clone() };
             joined.segments.extend(next.segments);
         }
         joined.closed = true;

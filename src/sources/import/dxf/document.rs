@@ -55,10 +55,7 @@ impl<'r> Document<'r> {
                 _ => i + 1,
             };
         }
-        match has_entities {
-            true => Ok(document),
-            false => Err("it has no section ENTITIES, so it is not a DXF drawing".into()),
-        }
+        if has_entities { Ok(document) } else { Err("it has no section ENTITIES, so it is not a DXF drawing".into()) }
     }
 }
 

@@ -29,10 +29,7 @@ pub(super) fn loops(hatch: &Record<'_>) -> Result<Vec<Subpath>, &'static str> {
         };
         loops.extend(curve);
     }
-    match loops.is_empty() {
-        true => Err("it has no boundary"),
-        false => Ok(loops),
-    }
+    if loops.is_empty() { Err("it has no boundary") } else { Ok(loops) }
 }
 
 /// The groups of a hatch that are not read yet.

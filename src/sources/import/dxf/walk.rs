@@ -212,10 +212,7 @@ impl<'d> DxfWalk<'d> {
                 map: around.map.after(&transform(insert, block, [cell % columns, cell / columns])),
                 // Names of anonymous blocks, such as those of dimensions and hatches, begin with an asterisk. No user
                 // gave them, so the name of the outer block is kept.
-                block: match name.starts_with('*') {
-                    true => around.block.clone(),
-                    false => name.to_owned(),
-                },
+                block: if name.starts_with('*') { around.block.clone() } else { name.to_owned() },
                 role,
                 insertion: self.inserted,
                 depth: around.depth + 1,
@@ -259,10 +256,7 @@ impl<'d> DxfWalk<'d> {
     }
 
     fn chain(&mut self, layer: &str, place: &EntityContext, list: Vec<OpenCurve>, tolerance: f64) {
-        let chained = match tolerance > 0.0 {
-            true => chains(list, tolerance),
-            false => Default::default(),
-        };
+        let chained = if tolerance > 0.0 { chains(list, tolerance) } else { Default::default() };
         for (curve, element) in chained.loops {
             self.part(place, vec![curve], element);
         }

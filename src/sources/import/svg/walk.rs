@@ -109,11 +109,10 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         self.styled = self.styled.saturating_add(self.sheet.rules.len());
         if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
             let count = self.seen - 1;
-            let why = match self.seen > MAX_ELEMENTS {
-                true => format!("the drawing has more than {count} elements, copies included; this one is left out"),
-                false => {
-                    format!("the drawing has too many style rules for more than {count} elements; this one is left out")
-                }
+            let why = if self.seen > MAX_ELEMENTS {
+                format!("the drawing has more than {count} elements, copies included; this one is left out")
+            } else {
+                format!("the drawing has too many style rules for more than {count} elements; this one is left out")
             };
             self.remark(RemarkKind::TooManyElements, node, around, &why, "");
             return true;

@@ -91,10 +91,7 @@ impl Reference {
             };
         }
         Reference {
-            verdict: match falls_despite_adhesion(&program.loads, &all) {
-                true => Verdict::Unstable,
-                false => Verdict::Undecided,
-            },
+            verdict: if falls_despite_adhesion(&program.loads, &all) { Verdict::Unstable } else { Verdict::Undecided },
             ..unknown
         }
     }

@@ -85,9 +85,10 @@ fn output_of_other_scenes_or_options_is_not_resumed() {
     for (output, line, expected) in cases {
         write("out.ndjson", output);
         let line = format!("{line} -o out.ndjson --resume");
-        let ran = match line.contains('<') {
-            true => bench.run_with("batch -o out.ndjson --resume", other.concat().as_bytes()),
-            false => bench.run(&line),
+        let ran = if line.contains('<') {
+            bench.run_with("batch -o out.ndjson --resume", other.concat().as_bytes())
+        } else {
+            bench.run(&line)
         };
         assert_eq!((ran.code, &*ran.out), (2, ""), "{line}: {}", ran.err);
         let words = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
