@@ -4,29 +4,21 @@
 //! A type implements [`Read`]: it reads itself from a value of the syntax tree ([`tree::Tree`]) with the help of the
 //! [`Reader`], which collects the mistakes. [`from_text`] reads a whole text.
 //!
-//! A struct of options is declared in the macro `options!`. The macro declares the struct as it stands, and each field
-//! is a key. All keys may be absent; they then keep the value of `Default`. After `as` stands the function that reads
-//! the value, for ranges and words; without it, the value is read as its type says:
+//! The macro `read_keys!` implements [`Read`] for a struct whose fields are keys. All keys may be absent; they then keep
+//! the value of `Default`. After `as` stands the function that reads the value, for ranges and words; without it, the
+//! value is read as its type says. A field that is not listed is no key:
 //!
 //! ```ignore
-//! use crate::read::{Dialect, Notation, from_text, options};
-//!
-//! options! {
-//!     /// The options of a page.
-//!     #[derive(Clone, Debug, Default)]
-//!     pub struct Page {
-//!         /// The title.
-//!         pub title: Option<String>,
-//!         /// The width in millimetres.
-//!         pub width: Option<f64> as |r, node, at| r.number_within(node, at, [2.0, 5080.0], "a width").map(Some),
-//!         /// The paper, `white` or `none`.
-//!         pub paper: Paper as |r, node, at| r.choice(node, at, &[("white", Paper::White), ("none", Paper::None)]),
-//!     }
+//! #[derive(Default)]
+//! pub struct Page {
+//!     /// The title.
+//!     pub title: Option<String>,
+//!     /// The width in millimetres.
+//!     pub width: Option<f64>,
 //! }
+//! read_keys! { Page { title, width as |r, node, at| r.number_within(node, at, [2.0, 5080.0], "a width").map(Some) } }
 //! let page: Page = from_text(r#"{ "width": 180 }"#, Notation::Json, &Dialect::plain("page"), Page::read)?;
 //! ```
-//!
-//! If only some fields of a struct are keys, the macro `read_keys!` implements [`Read`] for these fields.
 
 mod given;
 pub mod mistake;
@@ -122,21 +114,6 @@ macro_rules! read_keys {
     };
 }
 
-/// Declares a struct of options, and implements [`Read`] and [`Update`] for it; see the documentation of this module.
-#[cfg_attr(not(test), allow(unused_macros))]
-macro_rules! options {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident {
-        $($(#[$attr:meta])* $field_vis:vis $field:ident: $type:ty $(as $how:expr)?),* $(,)?
-    }) => {
-        $(#[$meta])*
-        $vis struct $name {
-            $($(#[$attr])* $field_vis $field: $type,)*
-        }
-
-        $crate::read::read_keys! { $name { $($field $(as $how)?),* } }
-    };
-}
-
 /// The function that reads a value: the given one, or that of the value's type.
 macro_rules! how {
     () => {
@@ -147,8 +124,6 @@ macro_rules! how {
     };
 }
 
-#[allow(unused_imports, reason = "no options are declared with `options!` yet")]
-pub(crate) use options;
 pub(crate) use {how, read_keys};
 
 impl Read for f64 {
@@ -197,15 +172,24 @@ impl<T: Read + Default> Read for Vec<T> {
 mod tests {
     use super::*;
 
-    options! {
-        #[derive(Clone, Debug, Default, PartialEq)]
-        struct Page {
-            title: Option<String>,
-            width: Option<f64> as |r, node, at| r.number_within(node, at, [2.0, 5080.0], "a width").map(Some),
-            copies: u32 as |r, node, at| r.whole_within(node, at, [1, 9]),
-            paper: u8 as |r, node, at| r.choice(node, at, &[("white", 1), ("none", 0)]),
-            margins: Vec<f64>,
-            draft: bool,
+    #[derive(Clone, Debug, Default, PartialEq)]
+    struct Page {
+        title: Option<String>,
+        width: Option<f64>,
+        copies: u32,
+        paper: u8,
+        margins: Vec<f64>,
+        draft: bool,
+    }
+
+    read_keys! {
+        Page {
+            title,
+            width as |r, node, at| r.number_within(node, at, [2.0, 5080.0], "a width").map(Some),
+            copies as |r, node, at| r.whole_within(node, at, [1, 9]),
+            paper as |r, node, at| r.choice(node, at, &[("white", 1), ("none", 0)]),
+            margins,
+            draft,
         }
     }
 

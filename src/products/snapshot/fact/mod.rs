@@ -117,7 +117,7 @@ impl Facts {
             Facts { drystone_facts: VERSION, decimals: decimals.into_iter().collect(), sections: vec![causes(scene)] };
         let frames = scene.frames.iter().zip(&analysis.frames).enumerate();
         facts.sections.extend(frames.map(|(number, (step, found))| {
-            let verdict = json!({ "verdict": verdict(found.verdict) });
+            let verdict = json!({ "verdict": found.verdict.word() });
             let heading = fact(&format!("frame {}", number + 1), vec![&step.title], verdict);
             [vec![heading], frame(scene, step.placed.len(), found)].concat()
         }));
@@ -240,15 +240,6 @@ fn causes(scene: &Scene) -> Vec<Fact> {
         fact("load", vec![&scene.blocks[load.block.0].id], values)
     }));
     facts
-}
-
-/// Returns the verdict as in the result's JSON.
-fn verdict(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "unstable",
-        Verdict::Undecided => "undecided",
-    }
 }
 
 /// Returns the facts of a frame without its heading. `placed` is the number of its blocks.
