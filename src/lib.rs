@@ -236,6 +236,8 @@ pub mod internals;
 
 // The short paths of the public modules, for users of the crate. Code of the crate names the folder:
 // `crate::mechanics::scene`.
+#[cfg(feature = "certificate")]
+pub use mechanics::certificate;
 pub use mechanics::{analysis, scene, session};
 pub use pictures::{drawing, output};
 #[cfg(feature = "snapshot")]
@@ -299,6 +301,9 @@ pub mod doc {
 
     #[doc = include_str!("doc/snapshot.md")]
     pub mod snapshot {}
+
+    #[doc = include_str!("doc/certificate.md")]
+    pub mod certificate {}
 
     #[doc = include_str!("doc/claims.md")]
     pub mod claims {}

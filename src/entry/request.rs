@@ -2,10 +2,13 @@
 //! once: its name, its help, and how its value is read.
 
 use std::str::FromStr;
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::clock::Instant;
 use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
+#[cfg(feature = "certificate")]
+use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::{BlockId, Scene, SceneError};
 use crate::pictures::drawing::{Colour, Drawing, Theme};
 use crate::products::figure::{self, FREEBODY, FREEBODY_HELP, Kind};
@@ -17,7 +20,7 @@ request! {
     #[derive(Clone, Copy, Debug)]
     pub(crate) struct AnalysisArgs(given) {
         /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces
-        /// and 1000 for motions
+        /// and 1000 for motions, and says which verdicts hold in exact arithmetic
         accuracy: Accuracy = given.word("accuracy").unwrap_or_default(),
             arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser());
         /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
@@ -225,11 +228,20 @@ impl CheckArgs {
     pub(crate) fn analysis(&self, text: &str) -> Result<Analysis, Refused> {
         let scene = self.level.scene(text, self.frame)?;
         let options = self.capacity.add_to(self.base(), &scene)?;
-        let mut analysis = Analysis::with(scene, &options);
+        Ok(self.analysed(scene, &options))
+    }
+
+    /// Analyses a scene. With `--accuracy proved`, the analysis says which verdicts are proved exactly.
+    pub(crate) fn analysed(&self, scene: impl Into<Arc<Scene>>, options: &analysis::Options) -> Analysis {
+        let mut analysis = Analysis::with(scene, options);
         if self.no_notes {
             analysis.notes.clear();
         }
-        Ok(analysis)
+        #[cfg(feature = "certificate")]
+        if self.level.accuracy == Accuracy::Proved {
+            Certificate::new(&analysis, String::new()).note_in(&mut analysis);
+        }
+        analysis
     }
 }
 

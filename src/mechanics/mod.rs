@@ -20,3 +20,6 @@ pub mod analysis;
 pub mod session;
 
 pub mod batch;
+
+#[cfg(feature = "certificate")]
+pub mod certificate;

@@ -69,10 +69,22 @@ fn members_of(root: &Path, group: &str) -> Vec<String> {
 
 /// The files in which a foreign crate may be named. A path that ends in a slash stands for all files below it.
 const CRATE_FILES: &[(&str, &[&str])] = &[
-    ("serde", &["mechanics/scene/format.rs", "mechanics/scene/format/", "products/result/", "products/snapshot/fact/"]),
+    (
+        "serde",
+        &[
+            "mechanics/certificate/mod.rs",
+            "mechanics/scene/format.rs",
+            "mechanics/scene/format/",
+            "products/result/",
+            "products/snapshot/fact/",
+        ],
+    ),
+    ("dashu_ratio", &["mechanics/certificate/check.rs"]),
+    ("hmac_sha256", &["entry/cli/verify.rs"]),
     (
         "serde_json",
         &[
+            "mechanics/certificate/mod.rs",
             "mechanics/scene/format.rs",
             "mechanics/scene/format/",
             "read/tree.rs",

@@ -12,6 +12,7 @@ mod assembly;
 mod book;
 mod bound;
 mod capacity;
+mod certificate;
 mod capacity_figure;
 mod built;
 mod circle;

@@ -12,6 +12,7 @@ use crate::entry::cli::progress::{BarVisibility, Progress};
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::table::{self, Detail};
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::cli::verify;
 use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::scene::Note;
@@ -41,6 +42,10 @@ pub(crate) struct Check {
     /// Add the sum of all forces, the sum of the missing forces, the proof, the time and the contact tolerance
     #[arg(long, short, conflicts_with = "json")]
     verbose: bool,
+    /// Write a certificate of the verdicts of one scene: forces or a motion for each frame, which drystone verify or any
+    /// other program can check in exact arithmetic
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Exit with 0 for every verdict; for wrong input, the exit code is still 2
     #[arg(long)]
     exit_zero: bool,
@@ -54,6 +59,10 @@ impl Check {
         let outcomes = source::read_each(&self.scenes, self.what.frame, self.what.level.contact_tolerance)?;
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
+        if self.certificate.is_some() && outcomes.len() != 1 {
+            let why = "--certificate writes the certificate of one scene; give one scene file".to_owned();
+            return Err(vec![CliError::CommandLine(why)]);
+        }
         let mut sources = Vec::new();
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
@@ -132,9 +141,9 @@ impl Check {
         width: Option<usize>,
     ) -> Result<SceneResult, CliError> {
         let options = self.what.capacity.add_to(*options, &source.scene)?;
-        let mut analysis = Analysis::with(&source.scene, &options);
-        if self.what.no_notes {
-            analysis.notes.clear();
+        let mut analysis = self.what.analysed(&source.scene, &options);
+        if let Some(output) = &self.certificate {
+            verify::write(&mut analysis, &source.path, output)?;
         }
         let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };
         let ending = ExitStatus::from_analysis(&analysis);

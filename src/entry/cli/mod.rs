@@ -40,6 +40,7 @@ mod snapshot;
 mod source;
 mod table;
 mod terminal;
+mod verify;
 mod watch;
 
 use std::ffi::OsString;
@@ -77,6 +78,7 @@ enum Command {
     Figures(figures::Figures),
     Check(check::Check),
     Batch(Box<batch::Batch>),
+    Verify(verify::Verify),
     Report(report::Report),
     Accuracy(accuracy::Accuracy),
     Schema(print::Schema),
@@ -114,6 +116,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
         Command::Figures(figures) => figures.run(&terminal),
         Command::Check(check) => check.run(&terminal),
         Command::Batch(batch) => batch.run(&terminal),
+        Command::Verify(verify) => verify.run(&terminal),
         Command::Report(report) => report.run(&terminal),
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),

@@ -43,6 +43,8 @@ mod strategy;
 
 pub(super) use candidate::Candidate;
 pub(super) use proof_cache::ProofCache;
+#[cfg(feature = "certificate")]
+pub(crate) use verdict_only::mechanism_of;
 pub(super) use verdict_only::{
     LimitResults, add_limit_to_cache, decide_verdict, decided_forces, least_force_error, proved_exact_motion,
     proved_forces, proved_motion, verdict_from_cache,

@@ -47,6 +47,8 @@ pub use capacity::{
 };
 pub use cost::{SolveReport, Stages};
 pub use decide::Method;
+#[cfg(feature = "certificate")]
+pub(crate) use decide::mechanism_of;
 pub use force::{Contact, Failure, RobotForce};
 pub use margin::{
     End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals, RobotMargins, Sides,
@@ -178,6 +180,8 @@ pub struct FrameAnalysis {
     pub effects: Vec<EffectReport>,
     /// How well the verdict is proved.
     pub proof: Proof,
+    /// Whether forces or a motion prove the verdict in exact arithmetic. `None` if no certificate was made.
+    pub exact: Option<bool>,
     /// How the frame was solved.
     pub solve: SolveReport,
     /// Remarks that are not errors, such as contacts too short to count.

@@ -307,7 +307,7 @@ impl<'a> Frame<'a> {
                 .iter()
                 .map(|e| Effect { effect: e.effect.word(), simulated: e.simulated, why: &e.why, unknowns: e.unknowns })
                 .collect(),
-            proof: ProofNumbers::new(frame.proof),
+            proof: ProofNumbers::new(frame.proof, frame.exact),
             solve: Solve::new(&frame.solve, timing),
             notices: &frame.notices,
         }
@@ -368,8 +368,21 @@ impl<'a> NoteEntry<'a> {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ProofNumbers {
-    Forces { worst_imbalance: Number, worst_share: Number, worst_pull: Number, worst_slip: Number },
-    Mechanism { power: Number, worst_violation: Number, no_balance_below: BalanceBound },
+    Forces {
+        worst_imbalance: Number,
+        worst_share: Number,
+        worst_pull: Number,
+        worst_slip: Number,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        exact: Option<bool>,
+    },
+    Mechanism {
+        power: Number,
+        worst_violation: Number,
+        no_balance_below: BalanceBound,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        exact: Option<bool>,
+    },
 }
 
 /// The sum of forces, relative to the loads of the moving blocks, below which no forces balance. `"unbounded"` if no
@@ -382,13 +395,14 @@ enum BalanceBound {
 }
 
 impl ProofNumbers {
-    fn new(proof: Proof) -> ProofNumbers {
+    fn new(proof: Proof, exact: Option<bool>) -> ProofNumbers {
         match proof {
             Proof::Forces { worst_imbalance, worst_share, worst_pull, worst_slip } => ProofNumbers::Forces {
                 worst_imbalance: Number(worst_imbalance),
                 worst_share: Number(worst_share),
                 worst_pull: Number(worst_pull),
                 worst_slip: Number(worst_slip),
+                exact,
             },
             Proof::Mechanism { power, worst_violation } => ProofNumbers::Mechanism {
                 power: Number(power),
@@ -397,6 +411,7 @@ impl ProofNumbers {
                     sum if sum.is_finite() => BalanceBound::Sum(Number(sum)),
                     _ => BalanceBound::Unbounded("unbounded"),
                 },
+                exact,
             },
         }
     }

@@ -37,6 +37,13 @@ pub(in crate::mechanics::analysis) fn decide_verdict(
     (found.verdict, found.mechanism)
 }
 
+/// Returns a mechanism of all components of an assembly that fall.
+#[cfg(feature = "certificate")]
+pub(crate) fn mechanism_of(assembly: &Assembly) -> Vec<Motion> {
+    let fresh = |component| decide_verdict(&component, LimitDistance::Unknown, &mut ProofCache::default()).1;
+    assembly.components().into_iter().flat_map(fresh).collect()
+}
+
 /// Returns the error of the most accurate known forces that balance an assembly, as `Proof::force_error` defines it.
 /// Known forces are those in the cache, and those that the balance equations alone determine. `None` if no such forces
 /// are known.

@@ -1,0 +1,249 @@
+#!/usr/bin/env python3
+"""verify.py FILE…: checks certificates of `drystone check --certificate` in exact arithmetic.
+
+Written from the page src/doc/certificate.md, with the standard library alone. Exit code 0 if everything is proved."""
+import itertools
+import json
+import math
+import sys
+from fractions import Fraction as F
+
+TAN_OF_ANGLE = F(1, 100)  # the largest angle between a contact and the edges that it lies at
+
+vec = lambda p: (F(p[0]), F(p[1]))
+sub = lambda p, q: (p[0] - q[0], p[1] - q[1])
+dot = lambda p, q: p[0] * q[0] + p[1] * q[1]
+cross = lambda p, q: p[0] * q[1] - p[1] * q[0]
+turned = lambda g, h: math.degrees(math.atan2(cross(g, h), dot(g, h)))
+
+def wrench(force, at):
+    """A force and its moment about the origin."""
+    return [force[0], force[1], cross(at, force)]
+
+def add(total, w, factor=1):
+    for i in range(3):
+        total[i] += factor * w[i]
+
+def edges(body):
+    """The edges of outline and holes, each with the body on its left."""
+    out = []
+    for k, ring in enumerate([body["outline"]] + body.get("holes", [])):
+        ring = [vec(p) for p in ring]
+        pairs = list(zip(ring, ring[1:] + ring[:1]))
+        left = (sum(cross(p, q) for p, q in pairs) > 0) == (k == 0)
+        out += pairs if left else [(q, p) for p, q in pairs]
+    return out
+
+def load(body, index, frame):
+    """Weight at the centroid, listed loads times the load factor, and the further load, as one wrench."""
+    if body.get("centre"):
+        centre = vec(body["centre"])
+    else:
+        parts = [(cross(p, q), p[0] + q[0], p[1] + q[1]) for p, q in edges(body)]
+        area = 3 * sum(a for a, _, _ in parts)
+        centre = sum(a * x for a, x, _ in parts) / area, sum(a * y for a, _, y in parts) / area
+    total = wrench([g * F(body["weight"]) for g in vec(frame["gravity"])], centre)
+    items = [(item, F(frame.get("load_factor", 1))) for item in body.get("loads", [])]
+    further = frame.get("force")
+    for item, factor in items + ([(further[1], 1)] if further and further[0] == index else []):
+        add(total, wrench(vec(item["force"]), vec(item["at"])), factor)
+        total[2] += factor * F(item["torque"])
+    return total
+
+def axes(contact):
+    """Normal and tangent, not normalised."""
+    if len(contact["points"]) == 2:
+        t = sub(vec(contact["points"][1]), vec(contact["points"][0]))
+        return (t[1], -t[0]), t
+    n = vec(contact["normal"])
+    return n, (-n[1], n[0])
+
+def grips(frame, values):
+    """The robot, the limit and the value of each component of a grip."""
+    limits = [(g["robot"], limit) for g in frame.get("grips", []) for limit in g["limits"]]
+    return [(*both, value) for both, value in zip(limits, values[3 * len(frame["contacts"]) :])]
+
+def components(frame):
+    """For each component: the first body, the second body or None, and the wrench on the first."""
+    out = []
+    for c in frame["contacts"]:
+        (n, t), p = axes(c), [vec(q) for q in c["points"]]
+        out += [(c["bodies"][0], c["bodies"][1], w) for w in (wrench(n, p[0]), wrench(n, p[-1]), wrench(t, p[0]))]
+    for g in frame.get("grips", []):
+        out += [(g["body"], None, w) for w in (wrench((1, 0), vec(g["at"])), wrench((0, 1), vec(g["at"])), (0, 0, 1))]
+    return out
+
+def det(a, b, c):
+    return a[0] * cross(b[1:], c[1:]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * cross(b, c)
+
+def stands(bodies, frame):
+    """Yields what is wrong with the forces of a frame."""
+    given, parts = frame["forces"], components(frame)
+    amounts = [F(v) for three in given["contacts"] + given["grips"] for v in three]
+    residual = {k: load(bodies[k], k, frame) for k in frame["placed"]}
+    for amount, (on, other, w) in zip(amounts, parts, strict=True):
+        add(residual[on], w, amount)
+        if other in residual:
+            add(residual[other], w, -amount)
+    done = set()
+    for body, *three in given["order"]:
+        if body in done or any(body not in parts[k][:2] or done & set(parts[k][:2]) for k in three):
+            yield f"the order is wrong at {bodies[body]['id']}"
+        done.add(body)
+        columns = [[v if parts[k][0] == body else -v for v in parts[k][2]] for k in three]
+        left, whole = [-v for v in residual[body]], det(*columns)
+        if whole == 0:
+            yield f"{bodies[body]['id']} cannot be corrected"
+            continue
+        for i, k in enumerate(three):
+            change = F(det(*(left if j == i else columns[j] for j in range(3)))) / whole
+            amounts[k] += change
+            for which, sign in zip(parts[k][:2], (1, -1)):
+                if which in residual:
+                    add(residual[which], parts[k][2], sign * change)
+    for k, r in residual.items():
+        if any(r):
+            yield f"{bodies[k]['id']} does not balance by {float(max(map(abs, r))):.1e} N"
+    for k, c in enumerate(frame["contacts"]):
+        n1, n2, t = amounts[3 * k : 3 * k + 3]
+        slack = min(n1, n2, F(c["friction"]) * (n1 + n2) - abs(t))
+        if slack < 0 or (len(c["points"]) == 1 and n2 != 0):
+            yield f"contact {k} leaves its law by {float(-slack):.1e}"
+    for robot, limit, amount in grips(frame, amounts):
+        if limit is not None and abs(amount) > F(limit):
+            yield f"{robot} exceeds its limit"
+
+def falls(bodies, frame):
+    """Yields what is wrong with the motion of a frame."""
+    motion = {}
+    for m in frame["motion"]:
+        a, v, w = vec(m["at"]), vec(m["velocity"]), F(m["spin"])
+        motion[m["body"]] = [v[0] + w * a[1], v[1] - w * a[0], w]  # the velocity of the origin, and the spin
+    power = lambda w, body: sum(a * b for a, b in zip(w, motion.get(body, (0, 0, 0))))
+    speeds = [power(w, on) - power(w, other) for on, other, w in components(frame)]
+    total = sum(power(load(bodies[k], k, frame), k) for k in frame["placed"])
+    for k, c in enumerate(frame["contacts"]):
+        n1, n2, t = speeds[3 * k : 3 * k + 3]
+        if min(n1, n2) < F(c["friction"]) * abs(t):
+            yield f"contact {k} can resist by {float(F(c['friction']) * abs(t) - min(n1, n2)):.1e}"
+    for robot, limit, speed in grips(frame, speeds):
+        total -= F(limit or 0) * abs(speed)
+        if limit is None and speed:
+            yield f"{robot} holds, but moves by {float(speed):.1e}"
+    if total <= 0:
+        yield f"the loads do no work: {float(total):.1e}"
+
+def distance2(at, a, b):
+    """The square of the distance of a point from a segment."""
+    along, start = sub(b, a), sub(at, a)
+    length, place = dot(along, along), dot(along, start)
+    if 0 < place < length:
+        return cross(along, start) ** 2 / length
+    return min(dot(start, start), dot(sub(at, b), sub(at, b)))
+
+def places(file, frame, edges_of, farthest):
+    """Yields what is wrong with the places and normals of the contacts; and, for a fall, which contacts are missing."""
+    bodies, near = file["bodies"], F(file["distance"]) ** 2
+    for k, c in enumerate(frame["contacts"]):
+        n, p, faces, between = axes(c)[0], vec(c["points"][0]), False, len(c["points"]) == 1
+        for body, sign in zip(c["bodies"], (1, -1)):
+            least = max(min(distance2(vec(q), a, b) for a, b in edges_of[body]) for q in c["points"])
+            farthest[0] = max(farthest[0], least)
+            if least > near:
+                yield f"contact {k}: a point is not at {bodies[body]['id']}"
+            for a, b in edges_of[body]:
+                along, across = sign * cross(sub(b, a), n), dot(sub(b, a), n)
+                straight = along > 0 and across**2 <= (TAN_OF_ANGLE * along) ** 2
+                faces = faces or (straight and distance2(p, a, b) <= near)
+            ways = [sub(e[1 - i], e[i]) for e in edges_of[body] for i in (0, 1) if dot(sub(e[i], p), sub(e[i], p)) <= near]
+            flat = [sign * dot(n, w) >= 0 or dot(n, w) ** 2 <= (TAN_OF_ANGLE * cross(n, w)) ** 2 for w in ways]
+            between = between and len(ways) == 2 and all(flat)
+        if not faces and not between:
+            yield f"contact {k}: its normal is not that of the outlines"
+    if frame["verdict"] == "unstable":
+        ground = [k for k, body in enumerate(bodies) if body["ground"]]
+        for one, two in itertools.combinations(ground + frame["placed"], 2):
+            if two not in ground and touch(file, frame, one, two, edges_of):
+                yield f"{bodies[one]['id']} and {bodies[two]['id']} touch without a contact"
+
+def touch(file, frame, one, two, edges_of):
+    """Whether two bodies come close where they have no contact."""
+    box = [[(min(p[x] for p, _ in edges_of[k]), max(p[x] for p, _ in edges_of[k])) for x in (0, 1)] for k in (one, two)]
+    if any(box[i][x][0] - 2 * file["distance"] > box[1 - i][x][1] for i in (0, 1) for x in (0, 1)):
+        return False
+    near, covered = F(file["distance"]) ** 2, (2 * F(file["distance"]) + F(file["shortest"])) ** 2
+    own = [c.get("ends") or c["points"] for c in frame["contacts"] if sorted(c["bodies"]) == sorted((one, two))]
+    for (a, b), (c, d) in itertools.product(edges_of[one], edges_of[two]):
+        close = [p for p, q, r in ((a, c, d), (b, c, d), (c, a, b), (d, a, b)) if distance2(p, q, r) <= near]
+        bare = [p for p in close if all(distance2(p, vec(s[0]), vec(s[-1])) > covered for s in own)]
+        turns = [cross(sub(q, p), sub(r, p)) for p, q, r in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
+        crosses = not own and not close and turns[0] * turns[1] < 0 and turns[2] * turns[3] < 0
+        far = any(dot(sub(p, q), sub(p, q)) > covered for p in bare for q in bare)
+        if far or crosses or (bare and file["corners_carry"]):
+            return True
+    return False
+
+def form(file, frame):
+    """Yields what makes a frame no structure: bodies that are not there, and numbers of a wrong sign."""
+    bodies, placed = file["bodies"], frame["placed"]
+    blocks = [k for k, body in enumerate(bodies) if not body["ground"]]
+    if file["drystone_certificate"] != 1 or min(file["distance"], file["shortest"]) < 0:
+        yield "the version or a distance is wrong"
+    if any(body["weight"] < 0 for body in bodies) or not set(placed) <= set(blocks) or len(set(placed)) != len(placed):
+        yield "a weight is negative, or a placed body is no block"
+    for k, c in enumerate(frame["contacts"]):
+        on, other = c["bodies"]
+        fine = on in placed and on != other and (other in placed or bodies[other]["ground"]) and other >= 0
+        if not fine or c["friction"] < 0 or (len(c["points"]), "normal" in c) not in ((1, True), (2, False)):
+            yield f"contact {k} is none"
+    if any(g["body"] not in placed or any(v is not None and v < 0 for v in g["limits"]) for g in frame.get("grips", [])):
+        yield "a grip is none"
+
+def changed(frame, change):
+    """The frame with one change, made in double arithmetic."""
+    frame, ((kind, value),) = json.loads(json.dumps({**frame, "forces": None, "motion": None})), change.items()
+    if kind in ("load_factor", "gravity"):
+        frame[kind] = value
+    elif kind == "limit":
+        frame["grips"][value[0]]["limits"][value[1]] = value[2]
+    elif kind == "force":
+        frame["force"] = value[:2]
+        if value[2] is not None:
+            frame["grips"][value[2]]["limits"] = [0, 0, 0]
+    for c in frame["contacts"]:
+        ends = c.get("ends") or c["points"]
+        if kind == "friction":
+            c["friction"] = value
+        elif kind == "kernel" and len(ends) == 2:
+            step = [(q - p) * (0.5 * value) for p, q in zip(*ends)]
+            c["points"] = [[p + d for p, d in zip(ends[0], step)], [p - d for p, d in zip(ends[1], step)]]
+            if value >= 1 or c["points"][0] == c["points"][1]:
+                c["points"], c["normal"] = c["points"][:1], [ends[1][1] - ends[0][1], ends[0][0] - ends[1][0]]
+    return frame
+
+WORDS = {"stable": ("stands", stands, "forces"), "unstable": ("falls", falls, "motion")}
+
+def main(path):
+    with open(path, encoding="utf-8") as text:
+        file = json.load(text)
+    bodies, farthest, edges_of, exact = file["bodies"], [F(0)], [edges(body) for body in file["bodies"]], True
+    for entry in file["frames"] + file.get("limits", []):
+        frame, faults, name = entry, [], f"frame {entry['frame']}"
+        if "change" in entry:
+            base = next(frame for frame in file["frames"] if frame["frame"] == entry["frame"])
+            frame = {**changed(base, entry["change"]), **entry}
+            name += f", just {'inside' if entry['verdict'] == 'stable' else 'beyond'} {entry['of']}"
+            if "gravity" in entry["change"]:
+                name += f" (gravity turned by {turned(base['gravity'], frame['gravity']):.9f}°)"
+        elif not file["listed"]:
+            faults = list(places(file, frame, edges_of, farthest))
+        faults += form(file, frame)
+        word, check, proof = WORDS.get(frame["verdict"], ("undecided", None, ""))
+        faults += check(bodies, frame) if frame.get(proof) is not None and not faults else ["no proof"] * (not faults)
+        exact = exact and not faults
+        print(f"{name}: {word}, " + ("not proved: " + "; ".join(faults) if faults else "exactly"))
+    print("contacts as the scene lists them" if file["listed"] else f"farthest contact point: {float(farthest[0]) ** 0.5:.1e} m")
+    return exact
+
+if __name__ == "__main__":
+    sys.exit(0 if all([main(path) for path in sys.argv[1:]]) else 1)

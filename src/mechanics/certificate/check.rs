@@ -1,0 +1,731 @@
+//! [`Certificate::check`]: decides in exact rational arithmetic whether the forces or the motion of each frame prove its
+//! verdict.
+//!
+//! No number is rounded: each double is the rational number that it is. The method needs no solver: sums, products, and
+//! for each body with a residual one system of three equations. `examples/verify/verify.py` does the same, and was
+//! written from the page [`certificate`](crate::doc::certificate).
+
+use dashu_ratio::Relaxed as Rational;
+
+use super::{BodyForm, Certificate, Change, ContactForm, FrameForm, GripForm, LimitForm, LoadForm, Pair};
+
+/// The result of checking a certificate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// One entry for each frame.
+    pub frames: Vec<FrameCheck>,
+    /// One entry for each side of an end of a margin, or of a corner or an edge of a capacity.
+    pub limits: Vec<LimitCheck>,
+    /// The largest distance of a contact point from the outlines of its two bodies, metres. 0 if the contacts are given
+    /// by the scene.
+    pub farthest: f64,
+}
+
+/// The result of checking one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameCheck {
+    /// The number of the frame, from 1.
+    pub frame: usize,
+    /// The verdict that the certificate states.
+    pub verdict: String,
+    /// What is not exactly as the certificate states, in sentences. Empty if the verdict is proved.
+    pub faults: Vec<String>,
+}
+
+/// The result of checking one changed frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitCheck {
+    /// The number of the frame that is changed, from 1.
+    pub frame: usize,
+    /// What is proved, as in the certificate.
+    pub of: String,
+    /// The rotation of gravity in degrees, anticlockwise positive; `None` if it is not changed.
+    pub turned: Option<f64>,
+    /// The verdict that the certificate states for the changed frame.
+    pub verdict: String,
+    /// What is not exactly as the certificate states, in sentences. Empty if the verdict is proved.
+    pub faults: Vec<String>,
+}
+
+impl FrameCheck {
+    /// True if the verdict is `stable` or `unstable` and exactly proved.
+    pub fn is_exact(&self) -> bool {
+        self.faults.is_empty()
+    }
+}
+
+impl Certificate {
+    /// Checks the certificate in exact arithmetic. Returns the errors in its form if it cannot be read as a proof, such
+    /// as an index without a body.
+    pub fn check(&self) -> Result<Checked, Vec<String>> {
+        let errors = self.form_errors();
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let mut farthest = 0.0_f64;
+        let frames = self.frames.iter().map(|frame| {
+            let mut faults = self.place_faults(frame, &mut farthest);
+            faults.extend(self.proof_faults(frame));
+            FrameCheck { frame: frame.frame, verdict: frame.verdict.clone(), faults }
+        });
+        let frames = frames.collect();
+        let limits = self.limits.iter().map(|limit| LimitCheck {
+            frame: limit.frame,
+            of: limit.of.clone(),
+            turned: self.turned(limit),
+            verdict: limit.verdict.clone(),
+            faults: self.limit_faults(limit),
+        });
+        Ok(Checked { frames, limits: limits.collect(), farthest })
+    }
+
+    /// Returns by which angle, in degrees, a change rotates gravity. Sines are no fractions, so this is rounded.
+    fn turned(&self, limit: &LimitForm) -> Option<f64> {
+        let [x, y] = self.frames.iter().find(|frame| frame.frame == limit.frame)?.gravity;
+        match limit.change {
+            Change::Gravity([a, b]) => Some(libm::atan2(x * b - y * a, x * a + y * b).to_degrees()),
+            _ => None,
+        }
+    }
+
+    /// Checks the proof of a changed frame.
+    pub(super) fn limit_faults(&self, limit: &LimitForm) -> Vec<String> {
+        let Some(frame) = self.frames.iter().find(|frame| frame.frame == limit.frame) else {
+            return vec![format!("there is no frame {}", limit.frame)];
+        };
+        let changed = FrameForm {
+            verdict: limit.verdict.clone(),
+            forces: limit.forces.clone(),
+            motion: limit.motion.clone(),
+            ..limit.change.of(frame)
+        };
+        let mut faults =
+            Certificate { frames: vec![changed.clone()], limits: Vec::new(), ..self.clone() }.form_errors();
+        if faults.is_empty() {
+            faults = self.proof_faults(&changed);
+        }
+        faults
+    }
+
+    /// Checks the forces or the motion of a frame, as its verdict needs.
+    pub(super) fn proof_faults(&self, frame: &FrameForm) -> Vec<String> {
+        match (frame.verdict.as_str(), &frame.forces, &frame.motion) {
+            ("stable", Some(_), _) => self.force_faults(frame),
+            ("unstable", _, Some(_)) => self.motion_faults(frame),
+            ("stable", None, _) => vec!["the certificate contains no forces".to_owned()],
+            ("unstable", _, None) => vec!["the certificate contains no motion".to_owned()],
+            _ => vec!["the certificate states no verdict".to_owned()],
+        }
+    }
+
+    /// Returns what makes the certificate unreadable as a proof: indices without an entry, lists of a wrong length, and
+    /// numbers of a wrong sign.
+    fn form_errors(&self) -> Vec<String> {
+        let mut errors = Vec::new();
+        let mut need = |fine: bool, text: &dyn Fn() -> String| {
+            if !fine {
+                errors.push(text());
+            }
+        };
+        need(self.drystone_certificate == 1, &|| format!("version {} is not 1", self.drystone_certificate));
+        need(self.distance >= 0.0 && self.shortest >= 0.0, &|| "a distance is negative".to_owned());
+        for body in &self.bodies {
+            let rings = std::iter::once(&body.outline).chain(&body.holes);
+            need(rings.clone().all(|ring| ring.len() >= 3), &|| {
+                format!("an outline of {} has fewer than 3 corners", body.id)
+            });
+            need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
+        }
+        let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
+        for frame in &self.frames {
+            let n = frame.frame;
+            let is_placed = |index: usize| is_block(index) && frame.placed.contains(&index);
+            need(frame.placed.iter().all(|index| is_block(*index)), &|| {
+                format!("frame {n}: a placed body is no block")
+            });
+            for (k, contact) in frame.contacts.iter().enumerate() {
+                let [on, from] = contact.bodies;
+                let is_ground = self.bodies.get(from).is_some_and(|body| body.ground);
+                need(is_placed(on) && on != from && (is_ground || is_placed(from)), &|| {
+                    format!("frame {n}, contact {k}: the bodies {on} and {from} are not two bodies of this frame")
+                });
+                let normals = matches!((contact.points.len(), contact.normal), (2, None) | (1, Some(_)));
+                need(normals, &|| format!("frame {n}, contact {k}: needs two points, or one point and a normal"));
+                need(contact.points.len() != 2 || contact.points[0] != contact.points[1], &|| {
+                    format!("frame {n}, contact {k}: its two points are equal")
+                });
+                need(contact.friction >= 0.0, &|| format!("frame {n}, contact {k}: its friction is negative"));
+            }
+            need(frame.force.as_ref().is_none_or(|(body, _)| is_placed(*body)), &|| {
+                format!("frame {n}: a load on a body that is not placed")
+            });
+            for (k, grip) in frame.grips.iter().enumerate() {
+                need(is_placed(grip.body), &|| format!("frame {n}, grip {k}: holds no placed block"));
+                need(grip.limits.iter().flatten().all(|limit| *limit >= 0.0), &|| {
+                    format!("frame {n}, grip {k}: a limit is negative")
+                });
+            }
+            if let Some(forces) = &frame.forces {
+                let (contacts, grips) = (frame.contacts.len(), frame.grips.len());
+                need(forces.contacts.len() == contacts && forces.grips.len() == grips, &|| {
+                    format!("frame {n}: the forces are not those of {contacts} contacts and {grips} grips")
+                });
+                for [body, components @ ..] in &forces.order {
+                    need(is_placed(*body) && components.iter().all(|c| *c < 3 * (contacts + grips)), &|| {
+                        format!("frame {n}: the order names a body or a component that is not there")
+                    });
+                }
+            }
+            for motion in frame.motion.iter().flatten() {
+                need(is_placed(motion.body), &|| format!("frame {n}: the motion of a body that is not placed"));
+            }
+        }
+        errors
+    }
+
+    /// Checks that the forces of a frame, corrected in the given order, balance every body and keep every limit.
+    pub(super) fn force_faults(&self, frame: &FrameForm) -> Vec<String> {
+        let Some(forces) = &frame.forces else { return Vec::new() };
+        let mut faults = Vec::new();
+        let links = self.links(frame);
+        let mut amounts: Vec<Rational> =
+            forces.contacts.iter().chain(&forces.grips).flatten().map(|v| exact(*v)).collect();
+        // The residual of each body: its loads and the forces of its contacts and grips.
+        let mut residual: Vec<Wrench> = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
+        for (component, amount) in amounts.iter().enumerate() {
+            let link = &links[component / 3];
+            let wrench = link.wrenches[component % 3].times(amount);
+            if let Some(from) = link.from {
+                residual[from] = residual[from].minus(&wrench);
+            }
+            residual[link.on] = residual[link.on].plus(&wrench);
+        }
+        // Carry each residual on to the next body, by three components of the forces.
+        let mut done = vec![false; self.bodies.len()];
+        for [body, components @ ..] in &forces.order {
+            let name = &self.bodies[*body].id;
+            if std::mem::replace(&mut done[*body], true) {
+                faults.push(format!("{name} is corrected twice"));
+                continue;
+            }
+            let mut columns = Vec::with_capacity(3);
+            for component in components {
+                let link = &links[component / 3];
+                let other = if link.on == *body { link.from } else { Some(link.on) };
+                if link.on != *body && link.from != Some(*body) || other.is_some_and(|other| done[other]) {
+                    faults.push(format!("the correction of {name} uses a force that does not lead on to the ground"));
+                }
+                let wrench = link.wrenches[component % 3].clone();
+                columns.push(if link.on == *body { wrench } else { wrench.negative() });
+            }
+            let left = std::mem::replace(&mut residual[*body], Wrench::zero());
+            let Some(changes) = solve(&columns, &left.negative()) else {
+                faults.push(format!("the three forces that correct {name} cannot carry any residual"));
+                continue;
+            };
+            for (component, change) in components.iter().zip(&changes) {
+                amounts[*component] = &amounts[*component] + change;
+            }
+            // The other bodies receive the opposite forces. A single other body receives what was left over; in this usual
+            // case no fraction arises, and the numbers stay short.
+            let others = components.map(|component| {
+                let link = &links[component / 3];
+                if link.on == *body { link.from } else { Some(link.on) }
+            });
+            if others == [others[0]; 3] {
+                if let Some(other) = others[0] {
+                    residual[other] = residual[other].plus(&left);
+                }
+                continue;
+            }
+            for ((other, column), change) in others.into_iter().zip(&columns).zip(&changes) {
+                if let Some(other) = other {
+                    residual[other] = residual[other].minus(&column.times(change)).reduced();
+                }
+            }
+        }
+        for index in &frame.placed {
+            let worst = residual[*index].largest();
+            if worst != zero() {
+                faults.push(format!("{} does not balance by {:.1e} N", self.bodies[*index].id, float(&worst)));
+            }
+        }
+        // Check the inequalities of contacts and grips.
+        for (k, contact) in frame.contacts.iter().enumerate() {
+            let [n1, n2, t] = [0, 1, 2].map(|i| &amounts[3 * k + i]);
+            let length = length_of_normal(contact);
+            let mut miss = |by: Rational, what: &str| {
+                if by > zero() {
+                    let names = self.names(contact);
+                    faults.push(format!("{names}: {what} by {:.1e} N", float(&by) * length));
+                }
+            };
+            miss(-n1.clone(), "the first normal force pulls");
+            miss(-n2.clone(), "the second normal force pulls");
+            if contact.points.len() == 1 {
+                miss(n2.clone(), "a second normal force without a point presses");
+            }
+            miss(magnitude(t) - exact(contact.friction) * (n1 + n2), "the friction exceeds its limit");
+        }
+        for (k, grip) in frame.grips.iter().enumerate() {
+            for (component, limit) in grip.limits.iter().enumerate().filter_map(|(i, limit)| Some((i, (*limit)?))) {
+                let by = magnitude(&amounts[3 * (frame.contacts.len() + k) + component]) - exact(limit);
+                if by > zero() {
+                    faults.push(format!("{} exceeds its limit by {:.1e}", grip.robot, float(&by)));
+                }
+            }
+        }
+        faults
+    }
+
+    /// Checks that no force of a contact or of a grip can resist the motion of a frame, and that its loads do work.
+    pub(super) fn motion_faults(&self, frame: &FrameForm) -> Vec<String> {
+        let mut faults = Vec::new();
+        // The motion of each body: the velocity of the origin, and the angular velocity.
+        let mut motions = vec![Wrench::zero(); self.bodies.len()];
+        for motion in frame.motion.iter().flatten() {
+            let (at, velocity, spin) = (Vector::new(motion.at), Vector::new(motion.velocity), exact(motion.spin));
+            let at_origin = Vector { x: velocity.x + &spin * at.y, y: velocity.y - &spin * at.x };
+            motions[motion.body] = Wrench { force: at_origin, moment: spin };
+        }
+        let mut power = zero();
+        for index in &frame.placed {
+            power += self.load(*index, frame).power(&motions[*index]);
+        }
+        for (contact, link) in frame.contacts.iter().zip(self.links(frame)) {
+            let relative = match link.from {
+                Some(from) => motions[link.on].minus(&motions[from]),
+                None => motions[link.on].clone(),
+            };
+            for at in &contact.points {
+                let at = Vector::new(*at);
+                let opening = Wrench::of_force(&link.normal, &at).power(&relative);
+                let sliding = Wrench::of_force(&link.normal.turned(), &at).power(&relative);
+                let by = exact(contact.friction) * magnitude(&sliding) - opening;
+                if by > zero() {
+                    let by = float(&by) / length_of_normal(contact);
+                    faults.push(format!("{}: a contact force can resist, by {by:.1e}", self.names(contact)));
+                }
+            }
+        }
+        for grip in &frame.grips {
+            for (wrench, limit) in grip_wrenches(grip).iter().zip(grip.limits) {
+                let speed = magnitude(&wrench.power(&motions[grip.body]));
+                match limit {
+                    Some(limit) => power -= speed * exact(limit),
+                    None if speed > zero() => {
+                        faults.push(format!(
+                            "{} holds without a limit, but moves by {:.1e}",
+                            grip.robot,
+                            float(&speed)
+                        ));
+                    }
+                    None => {}
+                }
+            }
+        }
+        if power <= zero() {
+            faults.push(format!("the loads do no work along the motion: {:.1e}", float(&power)));
+        }
+        faults
+    }
+
+    /// Returns the loads of a body in a frame: its weight at its centroid, its listed loads, and the further load.
+    fn load(&self, index: usize, frame: &FrameForm) -> Wrench {
+        let body = &self.bodies[index];
+        if body.ground {
+            return Wrench::zero();
+        }
+        let centre = body.centre.map_or_else(|| centroid(body), Vector::new);
+        let gravity = Vector::new(frame.gravity);
+        let weight = exact(body.weight);
+        let mut sum = Wrench::of_force(&Vector { x: &gravity.x * &weight, y: &gravity.y * &weight }, &centre);
+        let mut add = |load: &LoadForm, factor: f64| {
+            let mut wrench = Wrench::of_force(&Vector::new(load.force), &Vector::new(load.at));
+            wrench.moment += exact(load.torque);
+            sum = sum.plus(&wrench.times(&exact(factor)));
+        };
+        body.loads.iter().for_each(|load| add(load, frame.load_factor));
+        if let Some((_, load)) = frame.force.as_ref().filter(|(body, _)| *body == index) {
+            add(load, 1.0);
+        }
+        sum
+    }
+
+    /// Returns each contact and grip of a frame as the bodies that it joins and the wrenches of its three components.
+    fn links(&self, frame: &FrameForm) -> Vec<Link> {
+        let contacts = frame.contacts.iter().map(|contact| {
+            let [on, from] = contact.bodies;
+            let normal = normal_of(contact);
+            let points: Vec<Vector> = contact.points.iter().map(|p| Vector::new(*p)).collect();
+            let last = points.len() - 1;
+            let wrenches = [
+                Wrench::of_force(&normal, &points[0]),
+                Wrench::of_force(&normal, &points[last]),
+                Wrench::of_force(&normal.turned(), &points[0]),
+            ];
+            Link { on, from: (!self.bodies[from].ground).then_some(from), normal, wrenches }
+        });
+        let grips = frame.grips.iter().map(|grip| Link {
+            on: grip.body,
+            from: None,
+            normal: Vector { x: zero(), y: zero() },
+            wrenches: grip_wrenches(grip),
+        });
+        contacts.chain(grips).collect()
+    }
+
+    /// The names of the two bodies of a contact.
+    fn names(&self, contact: &ContactForm) -> String {
+        let [on, from] = contact.bodies.map(|index| self.bodies[index].id.as_str());
+        format!("{on} on {from}")
+    }
+
+    /// Checks that the contact points of a frame lie at both outlines and that every pair of bodies that touch has its
+    /// contact. Raises `farthest` to the largest distance of a point from an outline.
+    fn place_faults(&self, frame: &FrameForm, farthest: &mut f64) -> Vec<String> {
+        if self.listed {
+            return Vec::new();
+        }
+        let mut faults = Vec::new();
+        let allowed = square(&exact(self.distance));
+        for contact in &frame.contacts {
+            let mut edges_at = Vec::new();
+            for (body, sign) in contact.bodies.iter().zip([1, -1]) {
+                let edges = edges(&self.bodies[*body]);
+                for at in &contact.points {
+                    let at = Vector::new(*at);
+                    let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
+                    let Some(nearest) = nearest else { continue };
+                    *farthest = farthest.max(float(&nearest).sqrt());
+                    if nearest > allowed {
+                        faults.push(format!("{}: a point does not lie at both outlines", self.names(contact)));
+                    }
+                }
+                edges_at.push((edges, sign));
+            }
+            if !self.faces(contact, &edges_at) {
+                faults.push(format!("{}: the normal does not point from one body into the other", self.names(contact)));
+            }
+        }
+        if frame.verdict == "unstable" {
+            faults.extend(self.missing_contacts(frame));
+        }
+        faults
+    }
+
+    /// True if the normal of a contact is that of the outlines: it makes an angle of less than 0.6° with the inner normal
+    /// of an edge of the first body or with the outer normal of an edge of the second body at the contact. Where two
+    /// corners meet, it separates them.
+    fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<[Vector; 2]>, i32)]) -> bool {
+        let normal = normal_of(contact);
+        let allowed = square(&exact(self.distance));
+        let middle = Vector::new(contact.points[0]);
+        let is_corner = contact.points.len() == 1
+            && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
+        is_corner
+            || edges_at.iter().any(|(edges, sign)| {
+                edges.iter().any(|[a, b]| {
+                    let inner = b.minus(a).turned();
+                    let along = normal.dot(&inner) * Rational::from(*sign);
+                    let across = square(&normal.cross(&inner));
+                    // An edge shorter than the distance bounds no angle; tan² = (10⁻³)² for the others.
+                    along > zero()
+                        && across <= exact(ANGLE_SQUARED) * square(&along)
+                        && distance_squared(&middle, a, b) <= allowed
+                })
+            })
+    }
+
+    /// Returns the pairs of bodies that touch in a frame without a contact.
+    ///
+    /// Two outlines that come close do so at a corner of one of them. So each corner that lies at another outline must
+    /// lie at a contact of these bodies. Where corners carry no force, one corner alone needs no contact, but two on the
+    /// same edges that are farther apart than the shortest joint do.
+    fn missing_contacts(&self, frame: &FrameForm) -> Vec<String> {
+        let mut faults = Vec::new();
+        let allowed = square(&exact(self.distance));
+        let covered = square(&exact(2.0 * self.distance + self.shortest));
+        let shortest = square(&exact(self.shortest + 2.0 * self.distance));
+        let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
+        let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
+        for (k, one) in present.iter().enumerate() {
+            for other in &present[k + 1..] {
+                let bodies = [&self.bodies[*one], &self.bodies[*other]];
+                if bodies.iter().all(|body| body.ground) || !boxes_meet(bodies, self.distance) {
+                    continue;
+                }
+                let contacts =
+                    frame.contacts.iter().filter(|c| c.bodies == [*one, *other] || c.bodies == [*other, *one]);
+                let spans: Vec<[Vector; 2]> = contacts.map(span).collect();
+                let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
+                let edges = bodies.map(edges);
+                for [a, b] in &edges[0] {
+                    for [c, d] in &edges[1] {
+                        let near = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
+                        let near = near.into_iter().filter(|(at, p, q)| distance_squared(at, p, q) <= allowed);
+                        let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
+                        let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
+                        let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
+                        let crosses = bare.is_empty() && spans.is_empty() && cross_each_other([a, b], [c, d]);
+                        if !is_corner || (self.corners_carry && !bare.is_empty()) || crosses {
+                            let names = bodies.map(|body| body.id.as_str()).join(" and ");
+                            faults.push(format!("{names} touch without a contact"));
+                        }
+                    }
+                }
+            }
+        }
+        faults.dedup();
+        faults
+    }
+}
+
+/// True if both edges of a body that meet at a corner lie on its own side of the contact: along the normal for the first
+/// body (sign 1), against it for the second (sign −1).
+fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, allowed: &Rational) -> bool {
+    let ends = edges.iter().flat_map(|[a, b]| [(a, b), (b, a)]);
+    let ways = ends.filter(|(near, _)| square_length(&near.minus(at)) <= *allowed).map(|(near, far)| far.minus(near));
+    let ways: Vec<Vector> = ways.collect();
+    ways.len() == 2
+        && ways.iter().all(|way| {
+            let along = normal.dot(way) * Rational::from(sign);
+            along >= zero() || square(&along) <= exact(ANGLE_SQUARED) * square(&normal.cross(way))
+        })
+}
+
+/// The square of the tangent of the largest angle between a contact and the edge that it lies at. A joint of bricks
+/// within the contact tolerance may be turned by about 0.1°.
+const ANGLE_SQUARED: f64 = 1e-4;
+
+/// A contact or a grip: the body on which it acts, the body that receives the opposite force (none for the ground and for
+/// robots), its normal, and the wrenches of its three components.
+struct Link {
+    on: usize,
+    from: Option<usize>,
+    normal: Vector,
+    wrenches: [Wrench; 3],
+}
+
+/// A vector or a point with rational coordinates.
+#[derive(Clone, Debug, PartialEq)]
+struct Vector {
+    x: Rational,
+    y: Rational,
+}
+
+impl Vector {
+    fn new([x, y]: Pair) -> Vector {
+        Vector { x: exact(x), y: exact(y) }
+    }
+
+    fn minus(&self, other: &Vector) -> Vector {
+        Vector { x: &self.x - &other.x, y: &self.y - &other.y }
+    }
+
+    fn dot(&self, other: &Vector) -> Rational {
+        &self.x * &other.x + &self.y * &other.y
+    }
+
+    fn cross(&self, other: &Vector) -> Rational {
+        &self.x * &other.y - &self.y * &other.x
+    }
+
+    /// This vector turned by 90° anticlockwise.
+    fn turned(&self) -> Vector {
+        Vector { x: -self.y.clone(), y: self.x.clone() }
+    }
+}
+
+/// A force with its moment about the origin; or the velocity of the origin with the angular velocity.
+#[derive(Clone, Debug)]
+struct Wrench {
+    force: Vector,
+    moment: Rational,
+}
+
+impl Wrench {
+    fn zero() -> Wrench {
+        Wrench { force: Vector { x: zero(), y: zero() }, moment: zero() }
+    }
+
+    fn of_force(force: &Vector, at: &Vector) -> Wrench {
+        Wrench { force: force.clone(), moment: at.cross(force) }
+    }
+
+    fn plus(&self, other: &Wrench) -> Wrench {
+        let force = Vector { x: &self.force.x + &other.force.x, y: &self.force.y + &other.force.y };
+        Wrench { force, moment: &self.moment + &other.moment }
+    }
+
+    fn minus(&self, other: &Wrench) -> Wrench {
+        Wrench { force: self.force.minus(&other.force), moment: &self.moment - &other.moment }
+    }
+
+    fn negative(&self) -> Wrench {
+        Wrench::zero().minus(self)
+    }
+
+    fn times(&self, factor: &Rational) -> Wrench {
+        let force = Vector { x: &self.force.x * factor, y: &self.force.y * factor };
+        Wrench { force, moment: &self.moment * factor }
+    }
+
+    /// The power of this force along a motion.
+    fn power(&self, motion: &Wrench) -> Rational {
+        self.force.dot(&motion.force) + &self.moment * &motion.moment
+    }
+
+    fn largest(&self) -> Rational {
+        [&self.force.x, &self.force.y, &self.moment].into_iter().map(magnitude).max().unwrap_or_else(zero)
+    }
+
+    /// The same numbers as fractions in lowest terms.
+    fn reduced(&self) -> Wrench {
+        let [x, y, moment] = self.entries().map(|v| v.clone().canonicalize().relax());
+        Wrench { force: Vector { x, y }, moment }
+    }
+
+    fn entries(&self) -> [&Rational; 3] {
+        [&self.force.x, &self.force.y, &self.moment]
+    }
+}
+
+/// The rational number that a double is. JSON has no infinite numbers, and the form has been checked.
+fn exact(value: f64) -> Rational {
+    Rational::try_from(value).unwrap_or_else(|_| zero())
+}
+
+fn zero() -> Rational {
+    Rational::ZERO
+}
+
+fn float(value: &Rational) -> f64 {
+    value.to_f64().value()
+}
+
+fn magnitude(value: &Rational) -> Rational {
+    if *value < zero() { -value.clone() } else { value.clone() }
+}
+
+fn square(value: &Rational) -> Rational {
+    value * value
+}
+
+fn square_length(vector: &Vector) -> Rational {
+    vector.dot(vector)
+}
+
+/// The centroid of an outline without its holes, whatever the direction of the rings.
+fn centroid(body: &BodyForm) -> Vector {
+    let (mut area, mut x, mut y) = (zero(), zero(), zero());
+    for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
+        let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
+        let (mut own, mut own_x, mut own_y) = (zero(), zero(), zero());
+        for (p, q) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let twice = p.cross(q);
+            own_x += (&p.x + &q.x) * &twice;
+            own_y += (&p.y + &q.y) * &twice;
+            own += twice;
+        }
+        // The outline counts as positive, and each hole as negative.
+        let sign = Rational::from(if (own > zero()) == (ring == 0) { 1 } else { -1 });
+        area += own * &sign;
+        x += own_x * &sign;
+        y += own_y * &sign;
+    }
+    if area == zero() {
+        return Vector::new(body.outline[0]);
+    }
+    let three = area * Rational::from(3);
+    Vector { x: x / &three, y: y / three }
+}
+
+/// The normal of a contact, which points into its first body.
+fn normal_of(contact: &ContactForm) -> Vector {
+    match (&contact.points[..], contact.normal) {
+        ([first, second], _) => {
+            let tangent = Vector::new(*second).minus(&Vector::new(*first));
+            Vector { x: tangent.y, y: -tangent.x }
+        }
+        (_, normal) => Vector::new(normal.unwrap_or_default()),
+    }
+}
+
+/// The length of the normal, by which components are multiplied to print newtons.
+fn length_of_normal(contact: &ContactForm) -> f64 {
+    float(&square_length(&normal_of(contact))).sqrt()
+}
+
+/// The wrenches of a grip's force x, force y and torque.
+fn grip_wrenches(grip: &GripForm) -> [Wrench; 3] {
+    let at = Vector::new(grip.at);
+    let torque = Wrench { force: Vector { x: zero(), y: zero() }, moment: Rational::ONE };
+    [Wrench::of_force(&Vector::new([1.0, 0.0]), &at), Wrench::of_force(&Vector::new([0.0, 1.0]), &at), torque]
+}
+
+/// Solves Σ amount · column = wanted by Cramer's rule; `None` if the columns depend on each other.
+fn solve(columns: &[Wrench], wanted: &Wrench) -> Option<[Rational; 3]> {
+    let det = |a: &Wrench, b: &Wrench, c: &Wrench| -> Rational {
+        let ([ax, ay, am], [bx, by, bm], [cx, cy, cm]) = (a.entries(), b.entries(), c.entries());
+        ax * (by * cm - bm * cy) - ay * (bx * cm - bm * cx) + am * (bx * cy - by * cx)
+    };
+    let [a, b, c] = columns else { return None };
+    let whole = det(a, b, c);
+    (whole != zero()).then(|| [det(wanted, b, c) / &whole, det(a, wanted, c) / &whole, det(a, b, wanted) / &whole])
+}
+
+/// The edges of a body, with its inside on the left.
+fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
+    let mut edges = Vec::new();
+    for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
+        let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
+        let next = || corners.iter().cycle().skip(1);
+        let twice = corners.iter().zip(next()).map(|(p, q)| p.cross(q)).fold(zero(), |sum, term| sum + term);
+        let is_forward = (twice > zero()) == (ring == 0);
+        edges.extend(corners.iter().zip(next()).map(|(p, q)| match is_forward {
+            true => [p.clone(), q.clone()],
+            false => [q.clone(), p.clone()],
+        }));
+    }
+    edges
+}
+
+/// The square of the distance of a point from a segment.
+fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
+    let (along, from) = (b.minus(a), at.minus(a));
+    let (length, place) = (square_length(&along), along.dot(&from));
+    if place <= zero() {
+        square_length(&from)
+    } else if place >= length {
+        square_length(&at.minus(b))
+    } else {
+        square(&along.cross(&from)) / length
+    }
+}
+
+/// The two ends of a contact.
+fn span(contact: &ContactForm) -> [Vector; 2] {
+    match contact.ends {
+        Some(ends) => ends.map(Vector::new),
+        None => [&contact.points[0], &contact.points[contact.points.len() - 1]].map(|p| Vector::new(*p)),
+    }
+}
+
+/// True if the boxes around two bodies, grown by twice the distance, meet. Bodies for which this is false do not touch.
+fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
+    [0, 1].iter().all(|axis| {
+        let [one, other] = bodies.map(|body| {
+            let places = body.outline.iter().map(|p| p[*axis]);
+            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        });
+        one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]
+    })
+}
+
+/// True if two segments cross in a point inside both.
+fn cross_each_other([a, b]: [&Vector; 2], [c, d]: [&Vector; 2]) -> bool {
+    let side = |p: &Vector, q: &Vector, at: &Vector| q.minus(p).cross(&at.minus(p));
+    let opposite = |one: Rational, other: Rational| one * other < zero();
+    opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))
+}

@@ -1,0 +1,172 @@
+//! [`Limits`]: proofs on both sides of each end of a margin, and of each corner and edge of a capacity.
+
+use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
+use crate::geometry::{Vector, quarter_turn};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, LoadCapacity, Verdict};
+use crate::mechanics::proof::Motion;
+use crate::mechanics::statics::assembly::{Assembly, load_about};
+
+/// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
+/// the margin and the exact correction leave room.
+const DISTANCES: [f64; 5] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5];
+
+/// The size of an end at 0, as a share of 1 or of the heaviest load.
+const LEAST_SIZE: f64 = 1e-3;
+
+/// A frame whose margins and capacity are proved.
+pub(super) struct Limits<'a> {
+    pub certificate: &'a Certificate,
+    pub bare: &'a FrameForm,
+    pub assembly: &'a Assembly,
+    pub found: &'a FrameAnalysis,
+}
+
+/// A changed frame: the change, and the assembly that it gives.
+type Changed = (Change, Assembly);
+
+impl Limits<'_> {
+    /// Returns the proofs of all margins and of the capacity of the frame, as far as they were requested.
+    pub fn all(&self) -> Vec<LimitForm> {
+        let mut proofs = Vec::new();
+        let given = self.assembly;
+        let intervals = self.found.margins.as_ref().map(|margins| &margins.intervals);
+        if let Some(intervals) = intervals {
+            let mut add = |name: &str, interval: &Option<Interval>, change: &dyn Fn(f64) -> Changed| {
+                self.add_ends(&mut proofs, name, interval.as_ref(), 1.0, change);
+            };
+            add("friction", &intervals.friction, &|mu| (Change::Friction(mu), given.clone().with_friction(mu)));
+            add("tilt", &intervals.tilt, &|degrees| self.tilted(degrees));
+            add("horizontal_load", &intervals.horizontal_load, &|share| {
+                self.with_gravity(given.pull + quarter_turn(given.pull) * share)
+            });
+            add("kernel", &intervals.kernel, &|kernel| (Change::Kernel(kernel), given.clone().with_kernel(kernel)));
+            add("load_factor", &intervals.load_factor, &|factor| {
+                (Change::LoadFactor(factor), given.clone().with_load_factor(factor))
+            });
+            for (hold, robot) in intervals.robots.iter().enumerate() {
+                let Some(grip) = given.grips.iter().position(|grip| grip.hold == hold) else { continue };
+                let name = &self.bare.grips[grip].robot;
+                let limits = [("fx", &robot.fx), ("fy", &robot.fy), ("torque", &robot.torque)];
+                for (component, (word, interval)) in limits.into_iter().enumerate() {
+                    let size = given.heaviest_load() * if component == 2 { given.length } else { 1.0 };
+                    self.add_ends(&mut proofs, &format!("{name} {word}"), Some(interval), size, &|value| {
+                        let mut limits = given.grips[grip].limits;
+                        *[&mut limits.fx, &mut limits.fy, &mut limits.torque][component] = value;
+                        (Change::Limit(grip, component, value), given.clone().with_limits(grip, limits))
+                    });
+                }
+            }
+        }
+        if let Some(capacity) = &self.found.capacity {
+            self.add_capacity(&mut proofs, capacity);
+        }
+        proofs
+    }
+
+    /// Adds the proofs just inside and just beyond each end of an interval. An end at which the range of the parameter
+    /// ends, such as friction 0, and an end that is not confirmed have none.
+    fn add_ends(
+        &self,
+        proofs: &mut Vec<LimitForm>,
+        name: &str,
+        interval: Option<&Interval>,
+        size: f64,
+        change: &dyn Fn(f64) -> Changed,
+    ) {
+        let Some(Interval::Between { low, high }) = interval else { return };
+        for (word, end, outward) in [("low", low, -1.0), ("high", high, 1.0)] {
+            let End::At { value, mechanism } = end else { continue };
+            if mechanism.is_empty() {
+                continue;
+            }
+            let size = value.abs().max(LEAST_SIZE * size);
+            // An interval may be as narrow as one value.
+            let width = match (low.value(), high.value()) {
+                (Some(low), Some(high)) => high - low,
+                _ => f64::INFINITY,
+            };
+            let name = format!("{name} {word} {value}");
+            let inside = |share: f64| change(value - outward * (share * size).min(width / 2.0));
+            let beyond = |share: f64| change(value + outward * share * size);
+            proofs.extend(self.proof(&name, Verdict::Stable, &[], &inside));
+            proofs.extend(self.proof(&name, Verdict::Unstable, mechanism, &beyond));
+        }
+    }
+
+    /// Adds a proof just inside each corner of a capacity, and one just beyond each edge. A capacity in ranges of
+    /// parameters, and a force at two points, have none.
+    fn add_capacity(&self, proofs: &mut Vec<LimitForm>, capacity: &LoadCapacity) {
+        let Some(body) = self.assembly.bodies.iter().position(|body| body.block == capacity.block) else { return };
+        let (&[at], 1, false) = (&capacity.at[..], capacity.cases, capacity.vertices.is_empty()) else { return };
+        let without = capacity.robot.and_then(|robot| self.assembly.grips.iter().position(|grip| grip.robot == robot));
+        let corners: Vec<Vector> = capacity.vertices.iter().map(|vertex| vertex.force).collect();
+        let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * self.assembly.heaviest_load(), f64::max);
+        let far = capacity.rays.iter().sum::<Vector>() * size;
+        let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
+        let loaded = |force: Vector| {
+            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque: 0.0 };
+            let mut changed = self.assembly.clone();
+            let own = &mut changed.bodies[body];
+            own.load = own.load.plus(load_about(own.centroid, at, force, 0.0));
+            if let Some(grip) = without {
+                let limits = &mut changed.grips[grip].limits;
+                (limits.fx, limits.fy, limits.torque) = (0.0, 0.0, 0.0);
+            }
+            (Change::Force(self.bare.placed[body], load, without), changed)
+        };
+        for (number, corner) in corners.iter().enumerate() {
+            let inside = |share: f64| loaded(corner + (middle - corner) * share);
+            proofs.extend(self.proof(&format!("capacity corner {number}"), Verdict::Stable, &[], &inside));
+        }
+        for (number, edge) in capacity.edges.iter().enumerate() {
+            let ends: Vec<Vector> = edge.ends.iter().flatten().map(|corner| corners[*corner]).collect();
+            let Some(first) = ends.first().or(corners.first()) else { continue };
+            let on_edge = (first + ends.last().unwrap_or(first)) / 2.0;
+            let beyond = |share: f64| loaded(on_edge + edge.normal * (share * size));
+            let name = format!("capacity edge {number}");
+            proofs.extend(self.proof(&name, Verdict::Unstable, &edge.mechanism, &beyond));
+        }
+    }
+
+    /// Rotates gravity by an angle in degrees.
+    fn tilted(&self, degrees: f64) -> Changed {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        self.with_gravity(self.assembly.pull * cos + quarter_turn(self.assembly.pull) * sin)
+    }
+
+    fn with_gravity(&self, pull: Vector) -> Changed {
+        (Change::Gravity([pull.x, pull.y]), self.assembly.clone().with_gravity(pull))
+    }
+
+    /// Returns the proof nearest to an end that is exact, or else the farthest one that was tried.
+    fn proof(
+        &self,
+        of: &str,
+        verdict: Verdict,
+        mechanism: &[Motion],
+        change: &dyn Fn(f64) -> Changed,
+    ) -> Option<LimitForm> {
+        let mut last = None;
+        for share in DISTANCES {
+            let (change, assembly) = change(share);
+            let bare = FrameForm { verdict: verdict.word().to_owned(), ..change.of(self.bare) };
+            let proved = match verdict {
+                Verdict::Stable => self.certificate.standing(&bare, &assembly, None),
+                _ => self.certificate.falling(&bare, &assembly, mechanism),
+            };
+            let is_exact = self.certificate.proof_faults(&proved).is_empty();
+            last = Some(LimitForm {
+                frame: self.bare.frame,
+                of: of.to_owned(),
+                change,
+                verdict: proved.verdict,
+                forces: proved.forces,
+                motion: proved.motion,
+            });
+            if is_exact {
+                break;
+            }
+        }
+        last
+    }
+}

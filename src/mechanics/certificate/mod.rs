@@ -1,0 +1,315 @@
+//! [`Certificate`]: a verdict with all that a stranger needs to check it in exact arithmetic, without this program.
+//!
+//! A certificate contains the structure in its normal form (outlines of the placed bodies in metres, loads in newtons,
+//! contacts with their points), and for each frame either forces or a motion. Every number is a double and stands for
+//! the rational number that it is. [`check`](Certificate::check) decides the inequalities with rational arithmetic:
+//!
+//! - *Stands:* forces that press and stay within the friction cone of every contact. Their residual, which rounding
+//!   leaves on each body, is computed exactly and carried to the ground by three force components per body, in the
+//!   order that the certificate gives. The corrected forces balance every body exactly; then each inequality is checked
+//!   again. Forces with slack at every contact survive the correction, so `make` looks for the largest slack.
+//! - *Falls:* a motion along which no contact force can resist, and the loads do more work than the robots can absorb.
+//!
+//! The page [`certificate`](crate::doc::certificate) describes the file. Both proofs are the theorems of limit analysis
+//! ([Livesley78](crate::doc::references)).
+
+mod check;
+mod limits;
+mod make;
+
+use serde::{Deserialize, Serialize};
+
+pub use check::{Checked, FrameCheck, LimitCheck};
+
+/// A point or a vector: x to the right and y up, in metres, newtons or without unit.
+pub type Pair = [f64; 2];
+
+/// The proofs of a scene's frames, and the structure that they are about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    /// The version of the format: 1.
+    pub drystone_certificate: u32,
+    /// The SHA-256 of the bytes of the scene file, in hexadecimal digits; empty if the scene is not from a file.
+    pub scene_sha256: String,
+    /// The largest distance of a contact point from the outlines that it joins, metres. Bodies that come closer than
+    /// this need a contact.
+    pub distance: f64,
+    /// Whether a corner that touches carries force. If not, two outlines may touch along less than `shortest` without a
+    /// contact.
+    pub corners_carry: bool,
+    /// The length in metres up to which a common edge counts as a corner.
+    pub shortest: f64,
+    /// Whether the contacts are given by the scene. Their position is then not checked against the outlines.
+    pub listed: bool,
+    /// All bodies: first the parts of the ground, then the blocks.
+    pub bodies: Vec<BodyForm>,
+    /// One entry for each frame of the scene.
+    pub frames: Vec<FrameForm>,
+    /// Proofs of the margins and capacities: for each end of a margin, and for each corner and edge of a capacity, a
+    /// changed frame just inside that stands and one just beyond that falls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<LimitForm>,
+}
+
+/// A body in metres and newtons.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyForm {
+    /// The name: the id of a block, or `ground`.
+    pub id: String,
+    /// Whether the body is a part of the ground, which never moves and bears any load.
+    pub ground: bool,
+    /// The corners of the outline, metres.
+    pub outline: Vec<Pair>,
+    /// The corners of each hole, metres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<Vec<Pair>>,
+    /// The weight, N, along the gravity of the frame.
+    pub weight: f64,
+    /// The point at which the weight acts, metres, if the scene gives one. Otherwise the checker computes the centroid of the
+    /// outline with its holes cut out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre: Option<Pair>,
+    /// The loads that act besides the weight.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadForm>,
+}
+
+/// A load on a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadForm {
+    /// The force, N.
+    pub force: Pair,
+    /// The point at which it acts, metres.
+    pub at: Pair,
+    /// The torque, N·m, anticlockwise positive.
+    pub torque: f64,
+}
+
+/// One frame: what is placed, what touches, and the proof.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrameForm {
+    /// The number of the frame, from 1.
+    pub frame: usize,
+    /// The verdict: `stable`, `unstable` or `undecided`.
+    pub verdict: String,
+    /// The direction of gravity. Each body has the load weight · gravity.
+    pub gravity: Pair,
+    /// The factor by which the loads of all bodies, without their weights, are multiplied.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub load_factor: f64,
+    /// A further load on a body, which no load factor multiplies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<(usize, LoadForm)>,
+    /// The indices of the blocks that are placed. The ground is always there.
+    pub placed: Vec<usize>,
+    /// The contacts.
+    pub contacts: Vec<ContactForm>,
+    /// The grips of robots.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grips: Vec<GripForm>,
+    /// Forces that balance the frame, if it stands.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForcesForm>,
+    /// The motion, if the frame falls. A body without an entry is at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Vec<MotionForm>>,
+}
+
+/// A contact. Its normal n points into the first body. At each point, a normal force presses along n; one friction
+/// force acts on the first body along t = (−n_y, n_x), at the first point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactForm {
+    /// The indices of the two bodies. The forces act on the first; the opposite forces act on the second.
+    pub bodies: [usize; 2],
+    /// The one or two points at which normal forces act, metres. With two points, t is the vector from the first to the
+    /// second, with its length, and n = (t_y, −t_x).
+    pub points: Vec<Pair>,
+    /// The normal n of a contact with one point; any length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Pair>,
+    /// The ends of the common edge, metres, if they are not the points (because of a safety kernel).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ends: Option<[Pair; 2]>,
+    /// The friction coefficient μ: |T| ≤ μ (N₁ + N₂).
+    pub friction: f64,
+}
+
+/// The grip of a robot on a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GripForm {
+    /// The name of the robot.
+    pub robot: String,
+    /// The index of the held body.
+    pub body: usize,
+    /// The grip point, metres.
+    pub at: Pair,
+    /// The largest |force x| and |force y| in newtons, and |torque| in N·m; `null` without a limit.
+    pub limits: [Option<f64>; 3],
+}
+
+/// Forces, and the way in which the residual of each body reaches the ground.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ForcesForm {
+    /// For each contact N₁, N₂ and T: multiples of the vectors n, n and t, so newtons divided by the length of n. N₂ is 0
+    /// for a contact with one point.
+    pub contacts: Vec<[f64; 3]>,
+    /// For each grip the force x and y on the body, N, and the torque, N·m.
+    pub grips: Vec<[f64; 3]>,
+    /// For each body with a residual, in the order in which they are corrected: the index of the body and three
+    /// components that are changed so that the body balances exactly. Component 3k + i is number i (0, 1, 2) of contact k;
+    /// the grips follow the contacts. The other body of such a component is ground, or comes later in this list.
+    pub order: Vec<[usize; 4]>,
+}
+
+/// The motion of a rigid body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionForm {
+    /// The index of the body.
+    pub body: usize,
+    /// A point that moves with the body, metres.
+    pub at: Pair,
+    /// The velocity of this point.
+    pub velocity: Pair,
+    /// The angular velocity, anticlockwise positive.
+    pub spin: f64,
+}
+
+/// One side of an end of a margin, or of a corner or an edge of a capacity: a frame with one change, and its proof.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitForm {
+    /// The number of the frame that is changed, from 1.
+    pub frame: usize,
+    /// What is proved: `load_factor high 2.5`, `capacity corner 1`.
+    pub of: String,
+    /// The change.
+    pub change: Change,
+    /// The verdict of the changed frame.
+    pub verdict: String,
+    /// Forces that balance the changed frame, if it stands.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forces: Option<ForcesForm>,
+    /// The motion, if the changed frame falls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<Vec<MotionForm>>,
+}
+
+/// One change of a frame. [`Change::of`] makes it, in double arithmetic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Change {
+    /// The factor on the listed loads.
+    LoadFactor(f64),
+    /// The direction of gravity: rotated for a tilt, and lengthened too for a horizontal load.
+    Gravity(Pair),
+    /// The friction coefficient of every contact.
+    Friction(f64),
+    /// The safety kernel of every contact with two ends.
+    Kernel(f64),
+    /// One limit of a grip: the index of the grip, the component (0 force x, 1 force y, 2 torque), and the limit.
+    Limit(usize, usize, f64),
+    /// A further load on a body; the grip with the given index is taken away.
+    Force(usize, LoadForm, Option<usize>),
+}
+
+impl Change {
+    /// Returns the changed frame, without proof.
+    pub fn of(&self, frame: &FrameForm) -> FrameForm {
+        let mut changed = FrameForm { forces: None, motion: None, ..frame.clone() };
+        match self {
+            Change::LoadFactor(factor) => changed.load_factor = *factor,
+            Change::Gravity(gravity) => changed.gravity = *gravity,
+            Change::Friction(friction) => changed.contacts.iter_mut().for_each(|c| c.friction = *friction),
+            Change::Kernel(kernel) => changed.contacts.iter_mut().for_each(|contact| contact.set_kernel(*kernel)),
+            Change::Limit(grip, component, limit) => {
+                let grip = changed.grips.get_mut(*grip);
+                if let Some(place) = grip.and_then(|grip| grip.limits.get_mut(*component)) {
+                    *place = Some(*limit);
+                }
+            }
+            Change::Force(body, force, without) => {
+                changed.force = Some((*body, force.clone()));
+                if let Some(grip) = without.and_then(|grip| changed.grips.get_mut(grip)) {
+                    grip.limits = [Some(0.0); 3];
+                }
+            }
+        }
+        changed
+    }
+}
+
+impl Checked {
+    /// True if the verdicts of all frames and of all changed frames are exactly proved.
+    pub fn is_exact(&self) -> bool {
+        self.frames.iter().all(FrameCheck::is_exact) && self.limits.iter().all(|limit| limit.faults.is_empty())
+    }
+}
+
+impl ContactForm {
+    /// Moves the two points inward by half of the kernel times the length of the contact. A contact with one end stays.
+    fn set_kernel(&mut self, kernel: f64) {
+        let [first, second] = match (self.ends, &self.points[..]) {
+            (Some(ends), _) => ends,
+            (None, [first, second]) => [*first, *second],
+            _ => return,
+        };
+        let along = [second[0] - first[0], second[1] - first[1]];
+        let step = [along[0] * (0.5 * kernel), along[1] * (0.5 * kernel)];
+        self.ends = Some([first, second]);
+        self.points = vec![[first[0] + step[0], first[1] + step[1]], [second[0] - step[0], second[1] - step[1]]];
+        self.normal = None;
+        if kernel >= 1.0 || self.points[0] == self.points[1] {
+            self.points.truncate(1);
+            self.normal = Some([along[1], -along[0]]);
+        }
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(factor: &f64) -> bool {
+    *factor == 1.0
+}
+
+impl Certificate {
+    /// Reads a certificate from JSON. Returns the reason if the text is not one.
+    pub fn from_json(text: &[u8]) -> Result<Certificate, String> {
+        serde_json::from_slice(text).map_err(|error| error.to_string())
+    }
+
+    /// Writes the certificate as JSON, with a line for each frame. Every number reads back to the last bit.
+    pub fn to_json(&self) -> String {
+        let text = serde_json::to_string(self).expect("a certificate has finite numbers and text keys");
+        let text = text.replace("\"frames\":[", "\"frames\":[\n").replace("\"limits\":[", "\"limits\":[\n");
+        text.replace(",{\"frame\":", ",\n{\"frame\":") + "\n"
+    }
+
+    /// Returns in which part this certificate is about another structure than `other`; `None` if the structures are
+    /// equal. The proofs may differ.
+    pub fn differs_from(&self, other: &Certificate) -> Option<&'static str> {
+        let form = |frame: &FrameForm| FrameForm { forces: None, motion: None, ..frame.clone() };
+        if self.bodies != other.bodies {
+            Some("the bodies differ")
+        } else if [self.distance, self.shortest] != [other.distance, other.shortest]
+            || (self.corners_carry, self.listed) != (other.corners_carry, other.listed)
+        {
+            Some("the tolerances or the rules of contact differ")
+        } else if !self.frames.iter().map(form).eq(other.frames.iter().map(form)) {
+            Some("the frames differ: verdicts, placed blocks, contacts or robots")
+        } else if self.scene_sha256 != other.scene_sha256 {
+            Some("the file has another hash")
+        } else {
+            None
+        }
+    }
+}

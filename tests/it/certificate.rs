@@ -1,0 +1,233 @@
+//! Certificates: what `check --certificate` writes is proved exactly, by our checker and by `examples/verify/verify.py`
+//! alike, and is refused as soon as a number in it is wrong.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use drystone::analysis::{Options, Verdict};
+use drystone::certificate::{Certificate, Checked};
+use drystone::{Analysis, Scene};
+
+/// Frames that stand exactly at their limit, where rounding leaves no room for an exact proof: harmonic stacks, a block
+/// whose load passes through its edge, and a wedge that is held by rounding alone.
+const AT_THEIR_LIMIT: &[&str] = &["doorway", "stack-4", "stack-6", "starter", "starter-falls", "wedge-1e-7"];
+
+/// The valid scenes of the project with at most this number of bytes.
+fn scenes(largest: u64) -> Vec<(String, Scene)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in ["tests/scenes", "assets", "examples"] {
+        collect(&root.join(folder), &mut files);
+    }
+    files.sort();
+    let small = files.into_iter().filter(|file| fs::metadata(file).is_ok_and(|data| data.len() <= largest));
+    small
+        .filter_map(|file| {
+            let scene = Scene::from_json(&fs::read_to_string(&file).ok()?).ok()?;
+            Some((file.file_stem()?.to_str()?.to_owned(), scene))
+        })
+        .collect()
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|end| end == "json") {
+            files.push(path);
+        }
+    }
+}
+
+/// Writes a certificate and reads it back; both must be equal to the last bit.
+fn certificate(scene: &Scene, options: &Options) -> Certificate {
+    let certificate = Certificate::new(&Analysis::with(scene, options), String::new());
+    let text = certificate.to_json();
+    let read = Certificate::from_json(text.as_bytes()).expect("a certificate");
+    assert_eq!(read, certificate);
+    read
+}
+
+/// Runs `verify.py` on certificates. Returns its lines for each of them. `None` without Python, which is said; with `CI`
+/// set, Python must be there.
+fn by_python(certificates: &[String]) -> Option<Vec<Vec<String>>> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = Command::new("python3");
+    command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/verify/verify.py"));
+    for (number, text) in certificates.iter().enumerate() {
+        let path = folder.path().join(format!("{number}.json"));
+        fs::write(&path, text).expect("a certificate");
+        command.arg(path);
+    }
+    let Ok(output) = command.output() else {
+        assert!(std::env::var_os("CI").is_none(), "python3 is needed");
+        eprintln!("skipped: python3 is not there");
+        return None;
+    };
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut pages = vec![Vec::new()];
+    for line in text.lines() {
+        pages.last_mut().expect("a page").push(line.to_owned());
+        if !line.starts_with("frame ") {
+            pages.push(Vec::new());
+        }
+    }
+    pages.pop();
+    assert_eq!(pages.len(), certificates.len(), "{text}");
+    Some(pages)
+}
+
+/// Whether each frame and each changed frame is proved, in their order.
+fn proved(checked: &Checked) -> Vec<bool> {
+    let frames = checked.frames.iter().map(|frame| frame.is_exact());
+    frames.chain(checked.limits.iter().map(|limit| limit.faults.is_empty())).collect()
+}
+
+fn proved_by_python(lines: &[String]) -> Vec<bool> {
+    lines.iter().filter(|line| line.starts_with("frame ")).map(|line| line.ends_with(", exactly")).collect()
+}
+
+#[test]
+fn verdicts_of_the_projects_scenes_are_exact_for_both_checkers() {
+    let mut texts = Vec::new();
+    let mut rust = Vec::new();
+    let (mut frames, mut exact) = (0, 0);
+    for (name, scene) in scenes(60_000) {
+        let certificate = certificate(&scene, &Options::default());
+        let checked = certificate.check().expect("a structure");
+        for frame in checked.frames.iter().filter(|frame| frame.verdict != Verdict::Undecided.word()) {
+            frames += 1;
+            exact += usize::from(frame.is_exact());
+            let at_limit = AT_THEIR_LIMIT.contains(&name.as_str());
+            assert!(frame.is_exact() || at_limit, "{name}, frame {}: {:?}", frame.frame, frame.faults);
+        }
+        if scene.blocks().len() <= 40 && certificate.frames.len() <= 12 {
+            texts.push(certificate.to_json());
+            rust.push((name, proved(&checked)));
+        }
+    }
+    assert!(frames >= 200 && exact * 100 >= frames * 97, "{exact} of {frames} frames are exact");
+    let Some(pages) = by_python(&texts) else { return };
+    for ((name, rust), page) in rust.iter().zip(&pages) {
+        assert_eq!(*rust, proved_by_python(page), "{name}: {page:#?}");
+    }
+}
+
+/// A scene with all margins that a margin has: friction, tilt, horizontal load, kernel, load factor and robots.
+const ROBOT: &str = r#"{ "drystone": 1, "friction": 0.6,
+    "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
+    "robots": [{ "id": "arm", "holds": "b", "limits": { "force": 50, "torque": 60 } }],
+    "blocks": [{ "id": "a", "polygon": [[2, 0], [4, 0], [4, 1], [2, 1]], "weight": 100 },
+               { "id": "b", "polygon": [[3, 1], [5.5, 1], [5.5, 2], [3, 2]], "weight": 90 }],
+    "loads": [{ "block": "b", "force": [8, -4], "at": [3.2, 2] }] }"#;
+
+#[test]
+fn both_sides_of_margins_and_capacities_are_exact() {
+    let robot = Scene::from_json(ROBOT).expect("a scene");
+    let mut texts = Vec::new();
+    let (mut sides, mut exact, mut kinds) = (0, 0, std::collections::BTreeSet::new());
+    let all = scenes(3_000).into_iter().filter(|(_, scene)| scene.frames().len() == 1 && scene.blocks().len() <= 9);
+    for (name, scene) in std::iter::once(("robot".to_owned(), robot)).chain(all.take(30)) {
+        let certificate = certificate(&scene, &Options::default().margins(true));
+        let checked = certificate.check().expect("a structure");
+        for limit in &checked.limits {
+            sides += 1;
+            exact += usize::from(limit.faults.is_empty());
+            kinds.insert(limit.of.rsplit_once(' ').expect("a value").0.to_owned());
+            if !limit.faults.is_empty() {
+                eprintln!("{name}: {limit:?}");
+            }
+        }
+        texts.push((certificate.to_json(), proved(&checked)));
+    }
+    assert!(sides > 200 && exact * 100 >= sides * 93, "{exact} of {sides} sides are exact");
+    for kind in ["friction low", "tilt high", "horizontal_load low", "kernel high", "load_factor high", "arm fy low"] {
+        assert!(kinds.contains(kind), "{kind}: {kinds:?}");
+    }
+    let Some(pages) = by_python(&texts.iter().map(|(text, _)| text.clone()).collect::<Vec<_>>()) else { return };
+    for ((text, rust), page) in texts.iter().zip(&pages) {
+        assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
+    }
+}
+
+#[test]
+fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
+    let mut random = 1_u64;
+    let mut next = |below: usize| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) as usize % below
+    };
+    let sources: Vec<String> = scenes(2_500)
+        .iter()
+        .filter(|(_, scene)| scene.frames().len() == 1 && scene.blocks().len() <= 5)
+        .take(12)
+        .map(|(_, scene)| certificate(scene, &Options::default()).to_json())
+        .collect();
+    let mut mutants = Vec::new();
+    while mutants.len() < 400 {
+        let text = &sources[next(sources.len())];
+        // Alter one number with a decimal point: its sign, a digit, or its size.
+        let starts: Vec<usize> = text.match_indices('.').map(|(at, _)| at).collect();
+        let at = starts[next(starts.len())];
+        let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
+        let from = text[..at].rfind(|c| !is_part(c)).map_or(0, |place| place + 1);
+        let end = text[at..].find(|c| !is_part(c)).map_or(text.len(), |place| at + place);
+        let Ok(number) = text[from..end].parse::<f64>() else { continue };
+        let altered = match next(4) {
+            0 => -number,
+            1 => number * 2.0 + 1.0,
+            2 => number * (1.0 + 1e-6),
+            _ => number * 0.3,
+        };
+        mutants.push(format!("{}{altered:?}{}", &text[..from], &text[end..]));
+    }
+    let rust: Vec<Vec<bool>> = mutants
+        .iter()
+        .map(|text| match Certificate::from_json(text.as_bytes()).expect("a certificate").check() {
+            Ok(checked) => proved(&checked),
+            Err(_) => vec![false],
+        })
+        .collect();
+    let refused = rust.iter().filter(|proved| proved.contains(&false)).count();
+    assert!(refused > 100 && refused < 400, "{refused} of 400 are refused");
+    let Some(pages) = by_python(&mutants) else { return };
+    for ((text, rust), page) in mutants.iter().zip(&rust).zip(&pages) {
+        assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
+    }
+}
+
+#[test]
+fn the_program_writes_and_verifies_a_certificate() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a file");
+    write("stands.json", ROBOT);
+    write("falls.json", &ROBOT.replace("[8, -4]", "[800, -4]"));
+    let run = |words: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_drystone")).args(words).current_dir(&folder).output();
+        let output = output.expect("the program");
+        let text = String::from_utf8(output.stdout).expect("text") + &String::from_utf8_lossy(&output.stderr);
+        (output.status.code(), text)
+    };
+    let (code, json) = run(&["check", "stands.json", "--json", "--no-timing", "--certificate", "proof.json"]);
+    assert!(code == Some(0) && json.contains("\"exact\": true"), "{json}");
+    let (code, text) = run(&["verify", "proof.json", "stands.json"]);
+    assert!(code == Some(0) && text.contains("frame 1: stands, exactly"), "{text}");
+    let (code, text) = run(&["verify", "proof.json", "falls.json"]);
+    assert!(code == Some(2) && text.contains("is not about falls.json: the bodies differ"), "{text}");
+    let (code, json) = run(&["check", "falls.json", "--json", "--no-timing", "--accuracy", "proved"]);
+    assert!(code == Some(1) && json.contains("\"exact\": true"), "{json}");
+    run(&["check", "falls.json", "--certificate", "proof.json"]);
+    let (code, text) = run(&["verify", "proof.json"]);
+    assert!(code == Some(1) && text.contains("frame 1: falls, exactly"), "{text}");
+    let proof = fs::read_to_string(folder.path().join("proof.json")).expect("a certificate");
+    write("proof.json", &proof.replace("\"weight\":100.0", "\"weight\":100000.0"));
+    let (code, text) = run(&["verify", "proof.json"]);
+    assert!(code == Some(3) && text.contains("falls, not proved exactly"), "{text}");
+    let (code, text) = run(&["verify", "stands.json"]);
+    assert!(code == Some(2) && text.contains("is not a certificate"), "{text}");
+    let (code, text) = run(&["check", "stands.json", "falls.json", "--certificate", "proof.json"]);
+    assert!(code == Some(2) && text.contains("one scene"), "{text}");
+}
