@@ -193,9 +193,30 @@ fn a_force_carried_in_all_cases_is_carried_in_each_case() {
     }
 }
 
-/// Scenes for the checks below: the arch, the block on a floor, and ten random scenes.
+/// A block on a floor and a robot hold a hook with a friction of 10⁶; gravity acts to the right. Motions had no proof,
+/// and the capacity was withheld.
+fn hook() -> Value {
+    let hook = json!([[-1, 1.5], [0, 1.5], [0, 4], [0.5, 4], [0.5, 1.5], [2.5, 1.5], [2.5, 5], [-1, 5]]);
+    json!({ "drystone": 1, "gravity": [9.81, 0], "kernel": 0.99, "friction": 0.5,
+        "materials": { "A": { "friction": 0.05 }, "B": { "friction": 0.3 }, "C": { "density": 0 } },
+        "friction_pairs": [{ "between": ["A", "B"], "friction": 0.3 }, { "between": ["B", "C"], "friction": 1e6 }],
+        "ground": [{ "polygon": rectangle(-9.0, -1.0, 39.0, 1.0), "material": "A" }],
+        "blocks": [{ "id": "b0", "polygon": rectangle(0.0, 0.0, 0.5, 4.0), "material": "C", "weight": 9 },
+                   { "id": "b1", "polygon": hook, "material": "B", "weight": 8 }],
+        "robots": [{ "id": "R0", "holds": "b0", "at": [2, 5] }] })
+}
+
+#[test]
+fn a_capacity_at_a_friction_of_a_million_is_found() {
+    let (file, none) = (hook(), [0.0; 2]);
+    assert!(capacity(&file, "b1", ForceAt::Default).contains(none));
+    let robot = capacity(&file, "b0", ForceAt::Default);
+    assert!(!robot.contains(none) && robot.gap < 1e-3, "{robot:?}");
+}
+
+/// Scenes for the checks below: the arch, the block on a floor, the hook, and ten random scenes.
 fn scenes() -> Vec<Value> {
-    let mut all = vec![semicircle(), on_floor()];
+    let mut all = vec![semicircle(), on_floor(), hook()];
     all.extend((0..10).map(|number| crate::oracle::random::scene(number).1));
     all
 }

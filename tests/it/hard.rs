@@ -4,7 +4,8 @@
 mod numbers;
 
 use drystone::Analysis;
-use drystone::analysis::{Proof, Verdict};
+use drystone::analysis::{Failure, Proof, Verdict};
+use drystone::scene::BodyId;
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, first, on_floor, on_slope, rectangle, scene, tower, verdict, wall};
@@ -218,4 +219,60 @@ fn a_wedged_pile_that_falls_could_be_held_by_adhesion() {
     assert_eq!(frame.verdict, FALLS);
     assert!(frame.unsupported.is_empty(), "{:?}", frame.unsupported);
     assert!((frame.total_sticking / 1.325_152_168_800_875 - 1.0).abs() < 1e-7, "{}", frame.total_sticking);
+}
+
+/// At a friction of 10⁶ a motion may not slide at all. The rounding of a violation is relative to a force with
+/// N + |T| = 1; relative to N = 1 it would be a million times larger, and no motion would be proved. An exact rational
+/// simplex method finds that no forces balance this heap without gravity.
+#[test]
+fn a_fall_is_proved_at_a_friction_of_a_million() {
+    let blocks = [
+        ("b0", 0.0, 0.0, 1.0, 1.0),
+        ("b1", 2.0, 0.0, 0.375, 1.0),
+        ("b2", 2.375, 0.0, 0.25, 1.0),
+        ("b3", 2.75, 0.0, 0.375, 1.0),
+        ("b4", 3.25, 0.0, 0.625, 1.0),
+        ("b5", 4.875, 0.0, 0.75, 1.0),
+        ("b6", -0.125, 1.0, 5.625, 0.625),
+        ("b7", 0.0, 1.625, 0.75, 1.5),
+        ("b8", 1.75, 1.625, 0.625, 1.5),
+        ("b9", 2.75, 1.625, 0.5, 1.5),
+        ("b10", 3.25, 1.625, 0.25, 1.5),
+        ("b11", 0.0, 3.125, 5.125, 0.75),
+    ];
+    let blocks = blocks.map(|(id, x, y, width, height)| block(id, rectangle(x, y, width, height), 1.0));
+    let mut file = on_floor(1e6, blocks.to_vec());
+    file["kernel"] = json!(0.5);
+    file["gravity"] = json!([0, 0]);
+    file["loads"] = json!([{ "block": "b2", "force": [-2.57, -3.55], "at": [4, 3] },
+        { "block": "b1", "force": [2.22, 0.621] }, { "block": "b3", "torque": -1.42 }]);
+    assert_eq!(verdict(&file), FALLS);
+}
+
+/// Gravity acts upwards, so each block needs a pull of its weight, or more if it carries others. The program's error is
+/// 10⁻⁹ of the heaviest weight.
+#[test]
+fn no_failure_is_left_out_at_weights_of_sixteen_powers_of_ten() {
+    let mut file = json!({ "drystone": 1, "gravity": [0, 3],
+        "ground": [{ "polygon": rectangle(-20.0, -1.0, 80.0, 1.0) }],
+        "blocks": [block("b1", rectangle(1.0, 0.0, 0.875, 1.125), 10.0),
+                   block("b2", rectangle(3.625, 0.0, 0.5, 1.125), 1e9),
+                   block("b3", rectangle(-1.375, 1.125, 6.625, 0.25), 1e-7)] });
+    file["blocks"][0]["friction"] = json!(0);
+    file["blocks"][1]["friction"] = json!(0.1);
+    let (scene, frame) = (scene(&file), first(&file));
+    assert_eq!(frame.verdict, FALLS);
+    // The pull on each block from below, minus the pull from above: its weight.
+    let mut pulls = [0.0; 3];
+    for failure in &frame.failures {
+        let Failure::Tension { bodies, force, .. } = failure else { panic!("{failure:?}") };
+        for (body, sign) in bodies.iter().zip([-1.0, 1.0]) {
+            if let BodyId::Block(block) = body {
+                pulls[block.0] += sign * force.y;
+            }
+        }
+    }
+    for (block, pull) in scene.blocks().iter().zip(pulls) {
+        assert!((pull / block.weight - 1.0).abs() < 1e-6, "{}: {pull} {:?}", block.id, frame.failures);
+    }
 }

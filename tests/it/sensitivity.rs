@@ -1,6 +1,7 @@
 //! Compares derivatives of margins with difference quotients, for which scenes are changed and analysed again.
 
 use drystone::analysis::{CornerMoves, EndSensitivity, MarginKind, NoSensitivity, Options, Sensitivity, Slope};
+use drystone::internals::geometry::Vector;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -415,4 +416,25 @@ fn the_derivatives_of_random_scenes_equal_central_differences() {
     assert!(sum.wrong.is_empty(), "{:#?}", sum.wrong);
     assert!(ends as u64 * 3 > 2 * wanted, "{ends} ends, {sum:?}");
     assert!(sum.slopes > 5 * ends, "{ends} ends, {sum:?}");
+}
+
+/// A block of 10 N and 2 m × 2 m tips over its right lower corner under 3 times a push of 1 N at a height of 4 m, held by
+/// a robot of 1 N per component at the centroid: 4 λ = 10 + 1 + 1. The grip point moves with the centroid, if the file
+/// gives none.
+#[test]
+fn a_grip_without_a_point_moves_with_the_centroid() {
+    let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 0.0, 2.0, 2.0), 10.0)]);
+    file["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "force": 1 } }]);
+    file["loads"] = json!([{ "block": "a", "force": [1, 0], "at": [2, 4] }]);
+    let slope = |file: &Value| {
+        let found = end(file, MarginKind::LoadFactor, true).expect("a largest factor");
+        assert!((found.value - 3.0).abs() < 1e-6, "{}", found.value);
+        let tally = compared(file, MarginKind::LoadFactor, true, 1).expect("it has an end");
+        assert!(tally.wrong.is_empty(), "{:?}", tally.wrong);
+        found.corners[3].moves.gradient().expect("unique")
+    };
+    // The left upper corner moves by 1 m to the left: the centroid moves by 5/12 m to the left and 1/12 m down or up.
+    assert!((slope(&file) - Vector::new(-17.0 / 24.0, 7.0 / 24.0)).norm() < 1e-9);
+    file["robots"][0]["at"] = json!([1, 1]);
+    assert!((slope(&file) - Vector::new(-15.0 / 24.0, 5.0 / 24.0)).norm() < 1e-9);
 }

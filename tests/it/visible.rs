@@ -249,3 +249,20 @@ fn the_key_of_colours_is_true_if_colours_repeat() {
         assert!(words.contains("the forces on a block share a colour"), "{words}");
     }
 }
+
+/// The joint of `a` uses 99 % of its friction. The resultant of `b` acts within 1 % of the joint's length from its end: only
+/// this joint is at its limit.
+#[test]
+fn the_joint_that_is_named_is_the_joint_that_is_marked() {
+    let scene = r#"{ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": [[-1,-1],[9,-1],[9,0],[-1,0]] }],
+        "blocks": [{ "id": "a", "polygon": [[0,0],[1,0],[1,1],[0,1]], "weight": 100 },
+                   { "id": "b", "polygon": [[4,0],[5,0],[5,1],[4,1]], "weight": 1 }],
+        "loads": [{ "block": "a", "force": [49.5, 0], "at": [0.5, 0] },
+                  { "block": "b", "force": [0, -99], "at": [4.997474747474747, 1] }] }"#;
+    let drawing = drawn(scene, Kind::Forces);
+    let marks = classes(&drawing.items, &["limit"]);
+    let titles: Vec<&str> = marks.iter().map(|mark| mark.title.as_str()).collect();
+    assert_eq!(titles, ["The joint between b and the ground is at its limit"]);
+    let words = words(&drawing);
+    assert!(words.contains("the joint between b and the ground; its resultant acts at the edge"), "{words}");
+}

@@ -316,9 +316,9 @@ fn worst_violation(assembly: &Assembly, motions: &[Motion]) -> f64 {
             // The worst force is an extreme force of the friction cone: either the normal force alone, or the normal
             // force with full friction against the sliding.
             let friction = contact.friction;
-            let used = (friction * slides.abs() - opens) / (1.0 + friction);
-            let magnitude = normal.abs().dot(&summed) + friction * tangent.abs().dot(&summed);
-            violation = violation.max(used.max(-opens) + ROUNDING_TOL * magnitude);
+            let against = |slides: f64, closes: f64| ((friction * slides + closes) / (1.0 + friction)).max(closes);
+            let rounding = ROUNDING_TOL * against(tangent.abs().dot(&summed), normal.abs().dot(&summed));
+            violation = violation.max(against(slides.abs(), -opens) + rounding);
         }
     }
     violation

@@ -98,6 +98,20 @@ pub struct Grip {
     pub block: BlockId,
     /// The grip point, metres.
     pub at: Point,
+    /// Whether the grip point is the centroid because the file gives no point.
+    pub(crate) at_centroid: bool,
+}
+
+impl Grip {
+    /// Creates the grip at a point of a block; at its centroid if no point is given.
+    pub(crate) fn new(block: BlockId, given: Option<Point>, centroid: Point) -> Grip {
+        Grip { block, at: given.unwrap_or(centroid), at_centroid: given.is_none() }
+    }
+
+    /// Returns this grip as the hold of a robot.
+    pub(crate) fn by(self, robot: RobotId) -> Hold {
+        Hold { robot, block: self.block, at: self.at, at_centroid: self.at_centroid }
+    }
 }
 
 /// A robot that can hold a block.
@@ -161,6 +175,8 @@ pub struct Hold {
     pub block: BlockId,
     /// The grip point, metres.
     pub at: Point,
+    /// Whether the grip point is the centroid because the file gives no point.
+    pub(crate) at_centroid: bool,
 }
 
 /// A block that a robot is about to place. It is drawn as an outline and carries no force.

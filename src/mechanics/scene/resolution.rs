@@ -21,7 +21,7 @@ use super::problem;
 use super::shape;
 use super::steps::{self, StepContext};
 use super::unit;
-use super::{Block, BlockId, BodyId, Frame, Ground, Hold, Material, Rgb, Robot, RobotId, Scene};
+use super::{Block, BlockId, BodyId, Frame, Grip, Ground, Material, Rgb, Robot, RobotId, Scene};
 use crate::geometry::{Lattice, LatticeKind, Point, Vector};
 use crate::read::Trail;
 use crate::read::reader::unknown_choice;
@@ -188,16 +188,13 @@ impl<'f> Resolution<'f> {
         robots: &[Robot],
         centroids: &[Point],
     ) -> Vec<Frame> {
-        let grips: Vec<Option<(BlockId, Point)>> = robots.iter().map(|r| r.holds.map(|g| (g.block, g.at))).collect();
         if self.file.steps.is_empty() {
-            let holds = |(i, grip): (usize, &Option<(BlockId, Point)>)| {
-                grip.map(|(block, at)| Hold { robot: RobotId(i), block, at })
-            };
-            let holds = grips.iter().enumerate().filter_map(holds).collect();
-            return vec![steps::frame_without_steps(centroids.len(), holds)];
+            let holds = robots.iter().enumerate().filter_map(|(i, robot)| Some(robot.holds?.by(RobotId(i))));
+            return vec![steps::frame_without_steps(centroids.len(), holds.collect())];
         }
         // If a step could not be read, the frames from this step on are unknown. Execute only the steps before it.
         let known = (findings.unread.first_entry("steps")).unwrap_or(usize::MAX).min(self.file.steps.len());
+        let grips: Vec<Option<Grip>> = robots.iter().map(|robot| robot.holds).collect();
         let context = StepContext { blocks: &names.blocks, robots: &names.robots, centroids, grips: &grips };
         steps::frames(findings, &self.file.steps[..known], &context)
     }

@@ -12,7 +12,7 @@ use super::name::{self, Names};
 use super::number::is_sane;
 use super::problem;
 use super::{BlockId, RobotId};
-use super::{Frame, Hold, Plan};
+use super::{Frame, Grip, Hold, Plan};
 use crate::geometry::Point;
 use crate::read::Trail;
 
@@ -30,15 +30,14 @@ pub(super) struct StepContext<'s> {
     pub(super) centroids: &'s [Point],
     /// For each robot, the block in its key `holds` and the grip point on this block; `None` if the robot has no valid
     /// key `holds`.
-    pub(super) grips: &'s [Option<(BlockId, Point)>],
+    pub(super) grips: &'s [Option<Grip>],
 }
 
 impl StepContext<'_> {
-    fn grip(&self, robot: RobotId, block: BlockId, at: Option<Pair>) -> Point {
+    fn grip(&self, robot: RobotId, block: BlockId, at: Option<Pair>) -> Grip {
         match (at, self.grips[robot.0]) {
-            (Some(at), _) => Point::new(at[0], at[1]),
-            (None, Some((own, point))) if own == block => point,
-            _ => self.centroids[block.0],
+            (None, Some(own)) if own.block == block => own,
+            _ => Grip::new(block, at.map(|at| Point::new(at[0], at[1])), self.centroids[block.0]),
         }
     }
 }
@@ -82,7 +81,7 @@ struct StepState {
     by_placing_order: BTreeMap<usize, BlockId>,
     /// The next number in placing order.
     next: usize,
-    holds: BTreeMap<RobotId, (BlockId, Point)>,
+    holds: BTreeMap<RobotId, Grip>,
 }
 
 impl StepState {
@@ -129,11 +128,7 @@ impl StepState {
         Frame {
             title: step.title.clone().unwrap_or_default(),
             placed: self.by_placing_order.values().copied().collect(),
-            holds: self
-                .holds
-                .iter()
-                .map(|(robot, (block, at))| Hold { robot: *robot, block: *block, at: *at })
-                .collect(),
+            holds: self.holds.iter().map(|(robot, grip)| grip.by(*robot)).collect(),
             plans,
             expected: step.expect,
         }
@@ -152,7 +147,8 @@ impl StepState {
             return;
         };
         self.by_placing_order.remove(&place);
-        let holders: Vec<RobotId> = self.holds.iter().filter(|(_, held)| held.0 == block).map(|(r, _)| *r).collect();
+        let holders: Vec<RobotId> =
+            self.holds.iter().filter(|(_, held)| held.block == block).map(|(r, _)| *r).collect();
         if let Some(robot) = holders.first() {
             findings.add(at, problem::message::removed_held(name, context.robots.name(robot.0)));
         }
@@ -183,13 +179,13 @@ impl StepState {
             return;
         }
         let Some(robot) = robot else { return };
-        if let Some((other, _)) = self.holds.get(&robot)
-            && *other != block
+        if let Some(other) = self.holds.get(&robot)
+            && other.block != block
         {
-            findings.add(at, problem::message::holds_two(robot_name, context.blocks.name(other.0), name));
+            findings.add(at, problem::message::holds_two(robot_name, context.blocks.name(other.block.0), name));
         }
         if sound {
-            self.holds.insert(robot, (block, context.grip(robot, block, point)));
+            self.holds.insert(robot, context.grip(robot, block, point));
         }
     }
 

@@ -21,7 +21,7 @@ use crate::mechanics::analysis::{
     capacity_of, hinges_on_gaps,
 };
 use crate::mechanics::scene::format::{BlockEntry, SceneFile};
-use crate::mechanics::scene::{BlockId, BodyId, Hold, RobotId, Scene, SceneError};
+use crate::mechanics::scene::{BlockId, BodyId, Grip, RobotId, Scene, SceneError};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::interface::{Interfaces, LatticeEdges};
 
@@ -193,7 +193,8 @@ impl Session {
     /// another block.
     pub fn hold(&mut self, robot: &str, block: &str, at: Option<Point>) -> Result<Verdict, SessionError> {
         let (robot_id, number) = (self.robot(robot)?, self.block(block)?);
-        let point = at.unwrap_or(self.scene.blocks[number.0].centroid);
+        let grip = Grip::new(number, at, self.scene.blocks[number.0].centroid);
+        let point = grip.at;
         if !(point.x.abs() <= 1e12 && point.y.abs() <= 1e12) {
             return Err(SessionError::NoPlace(point.x, point.y));
         }
@@ -205,7 +206,7 @@ impl Session {
             }
             holds.retain(|hold| hold.robot != robot_id);
         }
-        holds.push(Hold { robot: robot_id, block: number, at: point });
+        holds.push(grip.by(robot_id));
         holds.sort_by_key(|hold| hold.robot);
         self.grips.insert(robot_id, (block.into(), at));
         Ok(self.update_verdict())
@@ -340,7 +341,7 @@ impl Session {
         let grips = self.grips.iter();
         let holds = grips.filter_map(|(robot, (block, at))| {
             let block = *self.lookup.numbers.get(block)?;
-            Some(Hold { robot: *robot, block, at: at.unwrap_or(scene.blocks[block.0].centroid) })
+            Some(Grip::new(block, *at, scene.blocks[block.0].centroid).by(*robot))
         });
         scene.frames[0].holds = holds.collect();
         self.found = Interfaces::new(&scene);

@@ -64,10 +64,17 @@ impl Amounts {
 
     /// Multiplies every force by a factor.
     pub(super) fn multiply(&mut self, factor: f64) {
-        let friction = self.friction.iter_mut();
-        let (normal, grip) = (self.normal.iter_mut(), self.grip.iter_mut());
-        let pairs = normal.flatten().chain(friction);
-        pairs.chain(grip.flatten()).for_each(|v| *v *= factor);
+        self.all_mut().for_each(|v| *v *= factor);
+    }
+
+    /// Adds other forces to these, contact by contact and grip by grip.
+    pub fn add_all(&mut self, other: &Amounts) {
+        let others = other.normal.iter().flatten().chain(&other.friction).chain(other.grip.iter().flatten());
+        self.all_mut().zip(others).for_each(|(v, more)| *v += more);
+    }
+
+    fn all_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.normal.iter_mut().flatten().chain(&mut self.friction).chain(self.grip.iter_mut().flatten())
     }
 
     /// Adds `amount` times the unit force `force` to the forces of its contact or grip.

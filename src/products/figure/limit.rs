@@ -59,7 +59,7 @@ fn nearness<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearnes
 
 /// Returns the joints of a frame that are at their limit. The list is empty if the frame does not stand.
 pub(crate) fn reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a Contact> {
-    let all = nearness(scene, frame_analysis).into_iter();
+    let all = nearest(scene, frame_analysis).into_iter();
     all.filter(Nearness::reached).map(|n| n.contact).collect()
 }
 
@@ -93,14 +93,9 @@ const MAX_NAMED: usize = 3;
 /// nearest to its limit, provided that the text of the figure names this joint.
 pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<MarkedJoint<'a>> {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let all = nearness(scene, frame_analysis);
-    if all.iter().any(Nearness::reached) {
-        let reached = all.into_iter().filter(Nearness::reached);
-        return reached.map(|n| MarkedJoint::new(n.contact, true)).collect();
-    }
-    let nearest = nearest(&all).filter(|_| names_nearest(context));
-    let nearest = nearest.map(|n| MarkedJoint::new(n.contact, false));
-    nearest.into_iter().collect()
+    let found = nearest(scene, frame_analysis).into_iter();
+    let shown = found.filter(|n| n.reached() || names_nearest(context));
+    shown.map(|n| MarkedJoint { reached: n.reached(), contact: n.contact }).collect()
 }
 
 /// A joint that figures mark with a diamond.
@@ -111,11 +106,7 @@ pub(crate) struct MarkedJoint<'a> {
     pub reached: bool,
 }
 
-impl<'a> MarkedJoint<'a> {
-    fn new(contact: &'a Contact, reached: bool) -> Self {
-        Self { contact, reached }
-    }
-
+impl MarkedJoint<'_> {
     /// Returns the diamond that marks the joint at `at`: filled if the joint is at its limit, otherwise open. `radius`
     /// is in pixels.
     pub(crate) fn symbol(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
@@ -126,14 +117,18 @@ impl<'a> MarkedJoint<'a> {
     }
 }
 
-/// Returns the joint that is nearest to one of its limits, or at a limit. Returns `None` if the value
-/// [`Nearness::share`] of every joint is below [`MIN_NAMED_SHARE`].
-fn nearest<'a, 'b>(all: &'b [Nearness<'a>]) -> Option<&'b Nearness<'a>> {
+/// Returns the joints that are at their limit. If none is, returns the joint that is nearest to one of its limits; no
+/// joint if the value [`Nearness::share`] of every joint is below [`MIN_NAMED_SHARE`]. Marks and texts use this list.
+fn nearest<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
+    let (reached, others): (Vec<_>, Vec<_>) = nearness(scene, frame_analysis).into_iter().partition(Nearness::reached);
+    if !reached.is_empty() {
+        return reached;
+    }
     // If several joints are equally near to their limits except for rounding, take the first, so that rounding errors
     // do not change the result.
     let farther = |a: &Nearness, b: &Nearness| b.share() > (1.0 + EQUAL_SHARE_TOL) * a.share();
-    let nearest = all.iter().reduce(|a, b| if farther(a, b) { b } else { a });
-    nearest.filter(|n| n.share() >= MIN_NAMED_SHARE)
+    let nearest = others.into_iter().reduce(|a, b| if farther(&a, &b) { b } else { a });
+    nearest.filter(|n| n.share() >= MIN_NAMED_SHARE).into_iter().collect()
 }
 
 /// True if the text of a figure names joints at or near their limits. False for figures in the style of the thesis and
@@ -148,27 +143,23 @@ fn names_nearest(context: &FigureContext<'_>) -> bool {
 /// style of the thesis, for zoomed figures, and for several frames, whose panels have no space for it.
 pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let all = nearness(scene, frame_analysis);
-    let at_limit = all.iter().filter(|n| n.reached()).count();
-    let Some(nearest) = nearest(&all).filter(|_| names_nearest(context)) else {
+    let shown = nearest(scene, frame_analysis);
+    let Some(first) = shown.first().filter(|_| names_nearest(context)) else {
         return String::new();
     };
-    let pair = joint_name(scene, frame_analysis, nearest.contact);
-    let how = match nearest.friction >= nearest.edge {
-        true => format!("{} of its friction is used", percent(nearest.friction)),
-        false if nearest.reached() => "its resultant acts at the edge".to_owned(),
-        false => format!("its resultant is {} of the way from the middle to the edge", percent(nearest.edge)),
+    let name = |n: &Nearness| format!("between {}", joint_name(scene, frame_analysis, n.contact));
+    let pair = name(first);
+    let by_friction = if first.reached() { first.friction >= FULL_UTILISATION } else { first.friction >= first.edge };
+    let how = match by_friction {
+        true => format!("{} of its friction is used", percent(first.friction)),
+        false if first.reached() => "its resultant acts at the edge".to_owned(),
+        false => format!("its resultant is {} of the way from the middle to the edge", percent(first.edge)),
     };
-    let named = |n: &Nearness| {
-        let pair = joint_name(scene, frame_analysis, n.contact);
-        format!("between {pair}")
-    };
-    match at_limit {
-        0 => format!("nearest to its limit (open diamond): the joint between {pair}; {how}"),
-        1 => format!("at its limit, within 1 %, in the forces shown: the joint between {pair}; {how}"),
+    match shown.len() {
+        1 if !first.reached() => format!("nearest to its limit (open diamond): the joint {pair}; {how}"),
+        1 => format!("at its limit, within 1 %, in the forces shown: the joint {pair}; {how}"),
         n if n <= MAX_NAMED => {
-            let joints: Vec<String> = all.iter().filter(|n| n.reached()).map(named).collect();
-            let joints = listed(&joints);
+            let joints = listed(&shown.iter().map(name).collect::<Vec<String>>());
             format!("at their limit, within 1 %, in the forces shown: the joints {joints}")
         }
         n => format!("{n} joints are at their limit, within 1 %, in the forces shown"),

@@ -102,7 +102,9 @@ fn compared(number: u64, directions: &[[f64; 2]]) -> Result<Compared, String> {
     let exact = if stand { own.farthest_forces(block, [at.x, at.y], directions) } else { None };
     let found = match of(&scene, request) {
         Ok(found) => found,
-        Err(CapacityError::Undecided) => return Ok(Err(Skipped::Withheld(number))),
+        Err(CapacityError::Undecided | CapacityError::Inexact(_) | CapacityError::GaveUp(_)) => {
+            return Ok(Err(Skipped::Withheld(number)));
+        }
         Err(why) => return Err(format!("{number}: {why}\n{file}")),
     };
     let Some(exact) = exact else {

@@ -159,7 +159,8 @@ fn capacity_of_assembly(assembly: &Assembly, block: BlockId, points: &[Point]) -
         match decide_verdict(&component, LimitDistance::Unknown, &mut ProofCache::default()) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => falls = Some(motion),
-            (Verdict::Undecided, _) => return Err(undecided()),
+            (Verdict::Undecided, _) if is_late() => return Err(CapacityError::Late),
+            (Verdict::Undecided, _) => return Err(CapacityError::Undecided),
         }
     }
     let (component, body) = own.ok_or(CapacityError::NotPlaced)?;
@@ -169,27 +170,25 @@ fn capacity_of_assembly(assembly: &Assembly, block: BlockId, points: &[Point]) -
     let probe = Probe::new(&component, body, points);
     let exact = |found| {
         let capacity = region::capacity(found, &probe, block, points);
-        (!is_inexact(&capacity)).then_some(capacity)
+        if is_inexact(&capacity) { Err(CapacityError::Inexact(capacity.gap)) } else { Ok(capacity) }
+    };
+    let undecided = |why: CapacityError| match probe.given_up_after() {
+        _ if is_late() => CapacityError::Late,
+        Some(checks) => CapacityError::GaveUp(checks),
+        None => why,
     };
     // The simplex method solves one program for the whole polygon. If it fails, each corner and each edge needs a
     // separate program.
-    if let Some(capacity) = cone::from_polygon(&probe).and_then(exact) {
+    if let Some(Ok(capacity)) = cone::from_polygon(&probe).map(exact) {
         return Ok(capacity);
     }
     match cone::sample_set(&probe) {
-        Some(found) => exact(found).ok_or_else(undecided),
+        Some(found) => exact(found).map_err(undecided),
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
         // Decide the component with an unlimited grip at the point: if it falls even then, the set is empty.
         None => match decide_verdict(&probe.held, LimitDistance::Unknown, &mut ProofCache::default()) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
-            _ => Err(undecided()),
+            _ => Err(undecided(CapacityError::Undecided)),
         },
-    }
-}
-
-fn undecided() -> CapacityError {
-    match is_late() {
-        true => CapacityError::Late,
-        false => CapacityError::Undecided,
     }
 }

@@ -68,6 +68,12 @@ pub enum CapacityError {
     /// No proof was found of which forces are carried.
     #[error("no proof was found of which forces are carried")]
     Undecided,
+    /// Forces and motions are proved, but they leave a gap between the forces that are carried and those that are not, N.
+    #[error("no proof was found of which forces are carried: the proofs leave a gap of {0:.1e} N")]
+    Inexact(f64),
+    /// The search stopped after this number of checks without a proof.
+    #[error("no proof was found of which forces are carried: the search stopped after {0} checks without a proof")]
+    GaveUp(usize),
     /// The deadline passed before a result was found.
     #[error("the deadline passed before the forces that are carried were found")]
     Late,

@@ -2,11 +2,11 @@
 //! its failures and its mechanism if it falls.
 
 use super::forces::ProvedForces;
-use super::rebalance::Rebalanced;
+use super::rebalance::{MAX_ROUNDS, Rebalanced};
 use super::{Component, Method, Outcome};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::Program;
-use crate::mechanics::solve::{Choice, balance_in, is_late, least_adhesion_in, rebalance_absolute};
+use crate::mechanics::solve::{Amounts, Choice, balance_in, is_late, least_adhesion_in, rebalance_absolute};
 
 impl Component<'_> {
     /// Adds forces of least sum (stable) or failures (unstable) to an outcome. Returns the outcome unchanged if only
@@ -146,7 +146,42 @@ impl Component<'_> {
             }
             let is_large = program.has_many_blocks();
             if holds || least_adhesion.balanced == Some(false) || (has_adhesion && is_large) {
+                return outcome;
+            }
+        }
+        self.with_failures_of_light_bodies(program, outcome)
+    }
+
+    /// Adds the adhesion that light bodies lack, if the adhesion of a program leaves them unbalanced: its error is a
+    /// small fraction of the heaviest load, which may be more than the load of a light body. Holds all other bodies
+    /// still and decides the light bodies in their own scale (route 3a). Returns the outcome unchanged if this does not
+    /// balance every body.
+    fn with_failures_of_light_bodies(&self, program: &Program, outcome: Outcome) -> Outcome {
+        let Some(mut adhesion) = outcome.adhesion.clone() else {
+            return outcome;
+        };
+        let (mut amounts, mut effort) = (outcome.amounts.clone(), outcome.effort);
+        // Each round balances lighter bodies.
+        for _ in 0..MAX_ROUNDS {
+            let held = self.with_adhesion(&adhesion);
+            let component = Component { assembly: &held, settings: self.settings.clone(), ..*self };
+            let proved = component.prove_forces(amounts.clone());
+            if component.accepts(&proved.proof) {
+                return Outcome { adhesion: Some(adhesion), amounts, effort, ..outcome };
+            }
+            let sets = held.connected(&component.unbalanced(&proved.forces));
+            let (falling, has_changed) = component.rebalance_sets(sets, &mut amounts, &mut effort);
+            if is_late() || (falling.is_empty() && !has_changed) {
                 break;
+            }
+            for (part, fall) in &falling {
+                let mut missing = Amounts::zero(program);
+                self.insert_part(&mut amounts, part, &fall.amounts);
+                let Some(found) = &fall.adhesion else {
+                    return outcome;
+                };
+                self.insert_part(&mut missing, part, found);
+                adhesion.add_all(&missing);
             }
         }
         outcome

@@ -26,7 +26,7 @@ use crate::mechanics::statics::assembly::Substructure;
 
 /// The largest number of rounds of correction. Each round gains as many accurate digits as one solution has; eight
 /// rounds cover weights from 1e-30 to 1e30.
-const MAX_ROUNDS: usize = 8;
+pub(super) const MAX_ROUNDS: usize = 8;
 
 /// Sets of at most this many bodies are decided separately, even if they contain more than half of all bodies. A set of
 /// all bodies is never decided separately.
@@ -93,7 +93,7 @@ impl Component<'_> {
 
     /// Corrects the forces on each set of bodies, while all other bodies are fixed. Returns the sets that fall, and
     /// whether any force changed.
-    fn rebalance_sets(
+    pub(super) fn rebalance_sets(
         &self,
         sets: Vec<Vec<usize>>,
         amounts: &mut Amounts,
@@ -211,7 +211,7 @@ impl Component<'_> {
     }
 
     /// Replaces the forces on a part by `part_amounts`. All forces are in the units of the whole component.
-    fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, part_amounts: &Amounts) {
+    pub(super) fn insert_part(&self, amounts: &mut Amounts, part: &Substructure, part_amounts: &Amounts) {
         for (position, number) in part.contacts.iter().enumerate() {
             amounts.normal[*number] = part_amounts.normal[position];
             amounts.friction[*number] = part_amounts.friction[position];

@@ -79,10 +79,7 @@ impl Search<'_> {
             };
             let case = Case { component: part.component, kind: self.kind, value, outward, mechanism };
             let state = EndState::new(&case).ok_or(NoSensitivity::Unsolved)?;
-            let rates = state.states.iter().map(|one| {
-                let count = self.context.interfaces.len();
-                Rates::new(self.context.scene, self.corners, &state.changed, one, count)
-            });
+            let rates = state.states.iter().map(|one| Rates::new(self.context, self.corners, &state.changed, one));
             let rates: Option<Vec<Rates>> = rates.collect();
             exact = state.value;
             branches.push(Branch { rates: rates.ok_or(NoSensitivity::Unsolved)?, freedom: state.freedom, outward });

@@ -184,7 +184,7 @@ pub struct EndSensitivity {
 ///
 /// Corners at the same end of a joint move together. A corner on an edge of another body moves along this edge, and
 /// follows the edge if the edge moves. A weight that is computed from a density changes with the area. The points of
-/// loads and grips stay; only a load without `at` moves with the centroid.
+/// loads and grips stay; a load or a grip without `at` moves with the centroid.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CornerSlope {

@@ -29,6 +29,16 @@ pub(super) struct State {
     pub motions: Vec<RigidMotion>,
     /// The forces of each contact in newtons; 0 for contacts inside a group of bodies that move as one rigid body.
     pub forces: Vec<ContactForces>,
+    /// The force of each grip in newtons; 0 for robots that hold their body at rest.
+    pub grips: Vec<Vector>,
     /// The derivative, with respect to the parameter, of the power of all forces along the motions.
     pub work: f64,
+}
+
+impl State {
+    /// Returns the change of the power of a force on a body, per metre that the point of the force moves along x and
+    /// along y. If the point moves by d, the power changes by spin · (d × force).
+    pub fn power_per_shift(&self, body: usize, force: Vector) -> Vector {
+        -quarter_turn(force) * self.motions[body].spin
+    }
 }

@@ -10,6 +10,7 @@ use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::proof::ContactForces;
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
+use crate::mechanics::statics::effect::FrameContext;
 
 /// The derivatives of the value at an end, for one state.
 pub(super) struct Rates {
@@ -25,15 +26,10 @@ pub(super) struct Rates {
 
 impl Rates {
     /// Computes the derivatives of the limit with respect to all corners, weights, friction coefficients and load
-    /// points of a frame. `interfaces` is the number of interfaces of the frame. `None` if the power along the
+    /// points of a frame. `None` if the power along the
     /// mechanism does not depend on the margin's parameter.
-    pub fn new(
-        scene: &Scene,
-        corners: &Corners,
-        changed: &Assembly,
-        state: &State,
-        interfaces: usize,
-    ) -> Option<Rates> {
+    pub fn new(context: &FrameContext, corners: &Corners, changed: &Assembly, state: &State) -> Option<Rates> {
+        let scene = context.scene;
         let value_per_power = -1.0 / state.work;
         if !value_per_power.is_finite() {
             return None;
@@ -41,7 +37,7 @@ impl Rates {
         let mut rates = Rates {
             corners: vec![Vector::zeros(); corners.count],
             weights: vec![0.0; scene.blocks().len()],
-            friction: vec![0.0; interfaces],
+            friction: vec![0.0; context.interfaces.len()],
             loads: vec![Vector::zeros(); scene.loads().len()],
         };
         for (contact, forces) in changed.contacts.iter().zip(&state.forces) {
@@ -53,17 +49,21 @@ impl Rates {
             let motion = &state.motions[number];
             rates.weights[body.block.0] = changed.pull.dot(&motion.at(body.centroid));
         }
-        // For each body: the change of the power of the loads at its centroid, per metre that the centroid moves.
+        // For each body: the change of the power of the loads and grip forces at its centroid, per metre that the
+        // centroid moves.
         let mut follows = vec![Vector::zeros(); changed.bodies.len()];
         for (rate, load) in rates.loads.iter_mut().zip(scene.loads()) {
             let Some(body) = body_of_block[load.block.0] else {
                 continue;
             };
-            // If the point of the force moves by d, the power of the force changes by spin · (d × force).
-            let force = load.force * changed.load_factor;
-            *rate = -quarter_turn(force) * state.motions[body].spin;
+            *rate = state.power_per_shift(body, load.force * changed.load_factor);
             if load.at_centroid {
                 follows[body] += *rate;
+            }
+        }
+        for (grip, force) in changed.grips.iter().zip(&state.grips) {
+            if context.frame.holds[grip.hold].at_centroid {
+                follows[grip.body] += state.power_per_shift(grip.body, *force);
             }
         }
         for (place, corner) in corners.all.iter().enumerate() {
@@ -72,9 +72,8 @@ impl Rates {
             };
             if let Some(body) = body_of_block[block.0] {
                 let shift = CornerShift::new(corners, place, changed.bodies[body].centroid, scene);
-                let spin = state.motions[body].spin;
                 let weight = changed.bodies[body].weight;
-                let with_centroid = follows[body] - quarter_turn(changed.pull * weight) * spin;
+                let with_centroid = follows[body] + state.power_per_shift(body, changed.pull * weight);
                 let mut rate = shift.of_centroid(with_centroid);
                 if scene.blocks()[block.0].weighs_by_area {
                     let density = weight / shift.area;

@@ -156,17 +156,21 @@ impl Reduced {
         entries.map(|(row, value)| value * motion[row]).sum()
     }
 
+    /// Returns the amount of every force between groups, and of every grip force at its limit.
+    fn amounts<'s>(&'s self, amounts: &'s [f64]) -> impl Iterator<Item = (Source, f64)> + 's {
+        let limits = self.limits.iter().map(|(grip, component, amount)| {
+            let source = Source::Grip { grip: *grip, component: *component };
+            (source, *amount)
+        });
+        self.unknowns.iter().zip(amounts).map(|(unknown, amount)| (unknown.source, *amount)).chain(limits)
+    }
+
     /// Returns the unbalanced force of each group (force x, force y, moment/L), in units of the program.
     pub fn residual(&self, changed: &Assembly, amounts: &[f64]) -> Vec<f64> {
         let loads: Vec<LoadVector> = changed.bodies.iter().map(|body| body.load).collect();
         let mut sum = self.grouped(changed, &loads);
         sum.iter_mut().for_each(|v| *v /= self.force);
-        let limits = self.limits.iter().map(|(grip, component, amount)| {
-            let source = Source::Grip { grip: *grip, component: *component };
-            (source, *amount)
-        });
-        let all = self.unknowns.iter().zip(amounts);
-        for (source, amount) in all.map(|(u, a)| (u.source, *a)).chain(limits) {
+        for (source, amount) in self.amounts(amounts) {
             for (row, value) in self.entries(changed, source) {
                 sum[row] += amount * value;
             }
@@ -222,15 +226,20 @@ impl Reduced {
         });
         let none = ContactForces { normal: [0.0; 2], friction: 0.0 };
         let mut forces = vec![none; changed.contacts.len()];
-        for (unknown, amount) in self.unknowns.iter().zip(amounts) {
-            if let Source::Contact { contact, point, side } = unknown.source {
-                let normal = amount * self.force;
-                forces[contact].normal[point] += normal;
-                forces[contact].friction += side * changed.contacts[contact].friction * normal;
+        let mut grips = vec![Vector::zeros(); changed.grips.len()];
+        for (source, amount) in self.amounts(amounts) {
+            let amount = amount * self.force;
+            match source {
+                Source::Contact { contact, point, side } => {
+                    forces[contact].normal[point] += amount;
+                    forces[contact].friction += side * changed.contacts[contact].friction * amount;
+                }
+                Source::Grip { grip, component } if component < 2 => grips[grip][component] += amount,
+                Source::Grip { .. } => {}
             }
         }
         let growth = self.growth(case, changed, amounts, value);
         let work = growth.iter().zip(motion).map(|(g, v)| g * v).sum::<f64>();
-        State { motions: motions.collect(), forces, work: work * self.force }
+        State { motions: motions.collect(), forces, grips, work: work * self.force }
     }
 }

@@ -128,11 +128,11 @@ impl Resolution<'_> {
             if let Some(point) = entry.at {
                 is_sane(findings, &at.key("at"), &point);
             }
-            let grip = |block: BlockId| entry.at.map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
+            let given = entry.at.map(|p| Point::new(p[0], p[1]));
             robots.push(Robot {
                 id: self.robot_ids[i].clone(),
                 limits: limits(findings, &at.key("limits"), entry.limits.as_ref()),
-                holds: block.map(|block| Grip { block, at: grip(block) }),
+                holds: block.map(|block| Grip::new(block, given, centroids[block.0])),
             });
         }
         robots
