@@ -81,7 +81,7 @@ fn visible(c: char) -> char {
 /// 2.4).
 ///
 /// [UAX9]: https://www.unicode.org/reports/tr9/
-fn is_hidden(c: char) -> bool {
+pub fn is_hidden(c: char) -> bool {
     c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 

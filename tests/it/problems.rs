@@ -74,6 +74,7 @@ fn every_code_of_a_problem_occurs() {
         Code::NoSuchFrame,
         Code::NotUtf8,
         Code::NotFinite,
+        Code::TooManyCorners,
         Code::TooManySteps,
         Code::TooManyTips,
         Code::MoreProblems,
@@ -86,7 +87,27 @@ fn every_code_of_a_problem_occurs() {
     let block = r#"{ "polygon": [[0, 0], [1, 0], [0, 1]] }"#;
     let text = format!(r#"{{ "drystone": 1, "blocks": [{}] }}"#, vec![block; 1000].join(","));
     assert!(refused(&text).list.iter().any(|p| p.code == Code::MoreProblems));
-    // A block that is placed once and shown in 8 000 001 frames.
+    let only_too_many = |text: &str, code: Code| {
+        let found = refused(text).list;
+        assert!(found.len() == 1 && found[0].code == code, "{found:?}");
+    };
+    // More than 50 000 frames of one block.
+    let text = format!(r#"{{ "drystone": 1, "blocks": [{block}], "steps": [{{}}{}] }}"#, ",{}".repeat(50_000));
+    only_too_many(&text, Code::TooManySteps);
+    // A shape of 8 000 corners in 700 bodies.
+    let corners: Vec<String> = (0..8000)
+        .map(|k| {
+            let (sin, cos) = libm::sincos(f64::from(k) * std::f64::consts::TAU / 8000.0);
+            format!("[{}, {}]", 100.0 * cos, 100.0 * sin)
+        })
+        .collect();
+    let text = format!(
+        r#"{{ "drystone": 1, "shapes": {{ "round": [{}] }}, "blocks": [{}] }}"#,
+        corners.join(","),
+        vec![r#"{ "shape": "round" }"#; 700].join(",")
+    );
+    assert!(refused(&text).list.iter().any(|problem| problem.code == Code::TooManyCorners));
+    // 4000 blocks in 2001 frames.
     let text = format!(
         r#"{{ "drystone": 1, "blocks": [{}], "steps": [{{ "place": [{}] }}{}] }}"#,
         (0..4000)

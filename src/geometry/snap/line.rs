@@ -81,22 +81,40 @@ impl Lines {
                 by_node.entry(*node).or_default().push(i);
             }
         }
-        // Count the nodes that each pair of sides shares. Join two sides into one group (union-find) if they share at
-        // least two nodes.
+        // Join two sides into one group (union-find) if they share at least two nodes. Most of them share two nodes that
+        // are neighbours on both sides, and this is found without looking at each pair of sides.
+        let mut group: Vec<usize> = (0..sets.len()).collect();
+        let join = |group: &mut Vec<usize>, i: usize, j: usize| {
+            let (a, b) = (root(group, i), root(group, j));
+            group[a.max(b)] = a.min(b);
+        };
+        let mut first_with: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        for (i, (side, set)) in sides.iter().zip(&sets).enumerate() {
+            let [from, to] = side.map(|node| nodes.all[node].at);
+            let mut along: Vec<usize> = set.iter().copied().collect();
+            let place = |node: &usize| (nodes.all[*node].at - from).dot(&(to - from));
+            along.sort_by(|p, q| place(p).total_cmp(&place(q)));
+            for pair in along.windows(2) {
+                let key = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                let first = *first_with.entry(key).or_insert(i);
+                join(&mut group, first, i);
+            }
+        }
+        // Count the nodes that each pair of sides of different groups shares.
         let mut shared: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for list in by_node.values() {
+            let roots: Vec<usize> = list.iter().map(|i| root(&group, *i)).collect();
+            if roots.iter().all(|root| *root == roots[0]) {
+                continue;
+            }
             for (k, i) in list.iter().enumerate() {
-                for j in &list[k + 1..] {
+                for (j, _) in list[k + 1..].iter().zip(&roots[k + 1..]).filter(|(_, root)| **root != roots[k]) {
                     *shared.entry((*i, *j)).or_default() += 1;
                 }
             }
         }
-        let mut group: Vec<usize> = (0..sets.len()).collect();
-        for ((i, j), count) in shared {
-            if count > 1 {
-                let (a, b) = (root(&group, i), root(&group, j));
-                group[a.max(b)] = a.min(b);
-            }
+        for ((i, j), _) in shared.into_iter().filter(|(_, count)| *count > 1) {
+            join(&mut group, i, j);
         }
         let mut joined: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for i in 0..sets.len() {

@@ -48,6 +48,9 @@ pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Ve
     }
 }
 
+/// The largest number of corners of all bodies that use a shape.
+const MAX_CORNERS: usize = 5_000_000;
+
 /// A scene file, with the values of the whole file that its bodies use: units, gravity, defaults, materials and shapes.
 struct Resolution<'f> {
     file: &'f SceneFile,
@@ -116,6 +119,11 @@ impl<'f> Resolution<'f> {
     /// Returns the scene; `None` if one of its bodies is not valid. Problems are reported in the order of the calls in
     /// this function.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
+        let corners = self.corners_of_shapes();
+        if corners > MAX_CORNERS {
+            findings.add(&Trail::Top.key("shapes"), problem::message::too_many_corners(corners, MAX_CORNERS));
+            return None;
+        }
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let names = self.body_names(findings);
         let mut contacts = self.contacts(findings, &names.blocks);
@@ -164,6 +172,18 @@ impl<'f> Resolution<'f> {
             silenced: silenced(findings, self.file),
             lines: Lines::default(),
         })
+    }
+
+    /// Returns the sum of the corners of all bodies that use a shape.
+    fn corners_of_shapes(&self) -> usize {
+        let used = self.file.ground.iter().map(|entry| &entry.shape);
+        let used = used.chain(self.file.blocks.iter().map(|entry| &entry.shape)).flatten();
+        let corners = |name: &String| match self.shapes.get(name).and_then(|number| self.outlines[number].as_ref()) {
+            Some(Outline::Polygon(polygon)) => polygon.rings().iter().map(Vec::len).sum(),
+            Some(Outline::Cells(cells)) => cells.len(),
+            None => 0,
+        };
+        used.map(corners).sum()
     }
 
     /// Returns the names of all blocks and robots. Contacts, robots, loads and steps refer to these names.

@@ -16,9 +16,12 @@ use super::{Frame, Grip, Hold, Plan};
 use crate::geometry::Point;
 use crate::read::Trail;
 
-/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of almost 4 000 blocks that are
-/// placed in one step each.
-const MAX_PLACED_BLOCKS: usize = 8_000_000;
+/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of 1 400 blocks that are placed in
+/// one step each. The result has about 600 bytes for each of them.
+const MAX_PLACED_BLOCKS: usize = 1_000_000;
+
+/// The largest number of frames.
+const MAX_FRAMES: usize = 50_000;
 
 /// The parts of the scene that the steps refer to.
 pub(super) struct StepContext<'s> {
@@ -49,7 +52,7 @@ pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
 }
 
 /// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Reports an error and
-/// stops if the frames contain more than [`MAX_PLACED_BLOCKS`] blocks in total.
+/// stops if there are more than [`MAX_FRAMES`] frames, or if they contain more than [`MAX_PLACED_BLOCKS`] blocks in total.
 pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &StepContext<'_>) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
@@ -59,6 +62,10 @@ pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &Ste
         next: 0,
         holds: BTreeMap::new(),
     };
+    if steps.len() > MAX_FRAMES {
+        findings.add(&list, problem::message::too_many_steps(steps.len(), MAX_FRAMES));
+        return Vec::new();
+    }
     let mut frames = Vec::with_capacity(steps.len());
     let mut placed_total = 0;
     for (k, step) in steps.iter().enumerate() {
@@ -66,7 +73,7 @@ pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &Ste
         placed_total += frame.placed.len();
         frames.push(frame);
         if placed_total > MAX_PLACED_BLOCKS {
-            findings.add(&list.index(k), problem::message::too_many(steps.len(), MAX_PLACED_BLOCKS));
+            findings.add(&list.index(k), problem::message::too_many_placed(steps.len(), MAX_PLACED_BLOCKS));
             break;
         }
     }

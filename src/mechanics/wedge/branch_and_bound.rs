@@ -19,7 +19,7 @@ use super::node::{Node, RuledOut};
 use super::relaxation::VariableLayout;
 use super::spring::Springs;
 use crate::mechanics::program::Program;
-use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
+use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, is_late, solve};
 
 /// The largest number of explored nodes. After that, the search ends undecided.
 const MAX_NODES: usize = 1500;
@@ -49,7 +49,7 @@ pub(super) fn search(program: &Program) -> SearchOutcome {
     while let Some(node) = open_nodes.pop() {
         let relaxation = layout.relaxation(&springs, &node);
         (explored, rows) = (explored + 1, rows + relaxation.bound.len());
-        if explored > MAX_NODES || rows > MAX_ROWS {
+        if explored > MAX_NODES || rows > MAX_ROWS || is_late() {
             return SearchOutcome::Undecided;
         }
         // Step 1: solve the relaxation.

@@ -18,7 +18,7 @@ mod rest;
 mod spring;
 
 use crate::mechanics::program::{Column, Force, Program, columns};
-use crate::mechanics::solve::{Conditioning, Effort, Status, dual};
+use crate::mechanics::solve::{Conditioning, Effort, Status, dual, is_late};
 use branch_and_bound::{SearchOutcome, search};
 use spring::Springs;
 
@@ -74,6 +74,7 @@ impl std::fmt::Display for WedgingUndecided {
             WedgingUndecided::Stiffness => {
                 "whether the springs come to rest depends on their stiffness along the faces"
             }
+            WedgingUndecided::Late => "the time limit was reached",
         })
     }
 }
@@ -85,6 +86,8 @@ pub enum WedgingUndecided {
     NotFound,
     /// The answer depends on the stiffness of the springs along the faces.
     Stiffness,
+    /// The search reached the deadline.
+    Late,
 }
 
 /// Stiffnesses of the spring along a face, relative to the spring of an application point. They are tried if no state
@@ -140,6 +143,7 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     }
     match found {
         SearchOutcome::NoRest(ruled_out) => SelfStressCheck::OnlyWedged(self_stress(program, motion, ruled_out)),
+        _ if is_late() => SelfStressCheck::Undecided(WedgingUndecided::Late),
         _ => SelfStressCheck::Undecided(WedgingUndecided::NotFound),
     }
 }

@@ -8,6 +8,7 @@
 
 use super::band::Band;
 use super::spring::{Pattern, Rest, Springs};
+use crate::mechanics::solve::is_late;
 
 /// The largest number of Newton steps at one stiffness of the ground.
 const MAX_STEPS: usize = 60;
@@ -75,6 +76,9 @@ impl Springs<'_> {
     /// After [`FULL_STEPS`] steps a line search shortens the steps, because full steps may cycle.
     pub(super) fn balance_with_ground(&self, ground: f64, u: &mut Vec<f64>, pattern: &mut Pattern) -> bool {
         for step in 0..MAX_STEPS {
+            if is_late() {
+                return false;
+            }
             // Newton step: solve the linear system of this pattern.
             let stiffness = self.stiffness(pattern, ground);
             let target = self.displacements(&stiffness, &self.spring_loads(pattern));

@@ -6,6 +6,7 @@
 
 use super::spring::{Pattern, Rest, Slide, Springs};
 use crate::mechanics::program::Column;
+use crate::mechanics::solve::is_late;
 
 /// The largest residual of a block as a fraction of its own load: the tolerance of a verdict (τ in `doc::numerics`).
 const BALANCE_TOL: f64 = 1e-7;
@@ -45,6 +46,9 @@ impl Springs<'_> {
         let mut slip: Vec<f64> = self.tangents.iter().map(|t| t.dot(u)).collect();
         let mut yielded: Vec<f64> = self.grips.iter().map(|g| g.column.dot(u)).collect();
         for _ in 0..MAX_REFINEMENTS {
+            if is_late() {
+                return None;
+            }
             let rest = self.forces(pattern, &gap, &slip, &yielded);
             let residual = self.unbalanced(&rest);
             if self.balances(&rest, &residual) {

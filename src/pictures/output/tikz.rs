@@ -9,6 +9,7 @@ use super::{MM_PER_INCH, PIXELS_PER_INCH};
 use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Join, Outline, PagePoint, Path, Segment, Stroke, Text,
 };
+use crate::text::is_hidden;
 
 /// PostScript points per inch; TeX calls them big points (`bp`).
 const BIG_POINTS_PER_INCH: f64 = 72.0;
@@ -176,15 +177,16 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// Replaces control characters, such as line breaks, by spaces, so that the text fits in a one-line comment.
+/// Replaces control characters, such as line breaks and changes of the writing direction, by spaces, so that the text
+/// fits in a one-line comment.
 fn comment(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    text.chars().map(|c| if is_hidden(c) { ' ' } else { c }).collect()
 }
 
 /// Escapes text for LaTeX. Letters of other scripts are not changed, except μ, which becomes `$\mu$`.
 fn escaped(words: &str) -> String {
     let mut out = String::with_capacity(words.len());
-    for c in words.chars() {
+    for c in comment(words).chars() {
         match c {
             '\\' => out.push_str("\\textbackslash{}"),
             '{' | '}' | '$' | '&' | '#' | '%' | '_' => {

@@ -156,7 +156,23 @@ pub(in crate::mechanics::scene) fn contact_of_one() -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn too_many(steps: usize, most: usize) -> Wording {
+pub(in crate::mechanics::scene) fn too_many_steps(steps: usize, most: usize) -> Wording {
+    new_wording(
+        Code::TooManySteps,
+        format!("there are {steps} steps, and at most {most} are allowed"),
+        "use fewer steps, or split the scene into several scenes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_many_corners(corners: usize, most: usize) -> Wording {
+    new_wording(
+        Code::TooManyCorners,
+        format!("the shapes of all bodies have {corners} corners in total, and at most {most} are allowed"),
+        "use shapes with fewer corners, or split the scene into several scenes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_many_placed(steps: usize, most: usize) -> Wording {
     new_wording(
         Code::TooManySteps,
         format!("the frames of {steps} steps contain more than {most} blocks in total"),
