@@ -7,7 +7,7 @@
 //! about k·log₂(n/k) verdicts, and k searches.
 
 use super::interval::{End, Interval, RobotIntervals};
-use super::line::Line;
+use super::search::{Path, Predictor};
 use super::trial::{LimitChange, Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::Scale;
@@ -73,9 +73,11 @@ fn limit(trial: &mut Trial, grip: usize, component: usize, stands: bool) -> Inte
     if component == 2 {
         unit *= program.scale.length;
     }
-    let line = Line {
+    let line = Path {
+        predictor: Predictor::Plane,
         setting: &setting,
         min_value: 0.0,
+        max_value: f64::INFINITY,
         typical_small: unit * Scale::HEAVIEST,
         typical_large: unit * Scale::HEAVIEST,
         load_ratio: 0.0,

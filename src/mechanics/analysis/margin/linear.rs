@@ -5,7 +5,7 @@
 //!    verdicts.
 
 use super::interval::{End, Interval};
-use super::line::Line;
+use super::search::Path;
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::solve::{Limit, largest_factor, nearest_factor};
@@ -26,7 +26,7 @@ struct Start {
 /// stands with these loads alone.
 pub(super) fn linear(
     trial: &mut Trial,
-    line: &Line,
+    line: &Path,
     present: f64,
     stands: bool,
     alone: &dyn Fn(f64) -> Setting,
@@ -63,7 +63,7 @@ pub(super) fn linear(
 
 /// Finds the value nearest to `present` at which the component stands. If no such value is found, the `Err` contains
 /// the interval: empty or undecided.
-fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, Interval> {
+fn nearest_start(trial: &mut Trial, line: &Path, present: f64) -> Result<Start, Interval> {
     // A linear program predicts the nearest value.
     let (program, toward) = trial.direction(&(line.setting)(present), &(line.setting)(present + line.typical_large));
     let found = nearest_factor(&program, &toward);
@@ -88,7 +88,7 @@ fn nearest_start(trial: &mut Trial, line: &Line, present: f64) -> Result<Start, 
 /// is the current value if the component stands there, otherwise `None`.
 fn end(
     trial: &mut Trial,
-    line: &Line,
+    line: &Path,
     start: f64,
     outward: f64,
     base: Option<f64>,

@@ -6,22 +6,22 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`mod@line`] finds both ends if a parameter enters linearly: one linear program for each end, confirmed by verdicts.
-//! [`edge`] and [`newton`] find the ends for friction and kernel, [`tilt`] and [`nearest_tilt`] the ends for the
-//! rotation of gravity, and [`grip_limit`] the ends for the limits of robots. An end is accepted only if it is proved
+//! [`search`] finds an end from a prediction and confirms it by verdicts. The prediction is one linear program if a
+//! parameter enters linearly ([`mod@linear`], and [`grip_limit`] for the limits of robots), or Newton's method for
+//! friction and kernel ([`mod@threshold`]). [`tilt`] and [`nearest_tilt`] find the ends for the rotation of gravity. An end is accepted only if it is proved
 //! that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
 //! mechanism just beyond it. [`Margins`] are derived from the intervals.
 
-mod edge;
 mod exclusion;
 mod grip_limit;
 mod interval;
 mod kind;
-mod line;
 mod linear;
 mod margins;
 mod nearest_tilt;
 mod newton;
+mod search;
+mod threshold;
 mod parameter;
 mod tilt;
 mod trial;

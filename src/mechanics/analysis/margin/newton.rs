@@ -1,16 +1,13 @@
-//! Newton's method for a [`Threshold`]: searches for the parameter value at which the least residual, the smallest sum
+//! Newton's method for a threshold: searches for the parameter value at which the least residual, the smallest sum
 //! of unbalanced forces, becomes 0. The search starts where the component falls.
 
-use super::edge::{Side, Threshold};
+use super::search::{CONFIRMATION_TOL, END_TOL, Path};
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::solve::Tangent;
 
 /// The largest number of steps for one threshold, including steps that do not go to a root.
 const MAX_STEPS: usize = 24;
-
-/// Newton's method has converged if a stable and an unstable value are this close, relative to their size.
-const BRACKET_TOL: f64 = 1e-6;
 
 /// Newton's method has also converged if the roots of two tangents, one of them much closer to the threshold, differ
 /// by at most this, relative to their size.
@@ -76,18 +73,14 @@ impl NewtonBracket {
     }
 }
 
-impl Threshold {
+impl Path<'_> {
     /// Finds the threshold with Newton's method: the value at which the least residual becomes 0. The search starts at
     /// `outside`, where the component falls; it stands at `inside`. `None` if the method does not converge.
     ///
     /// If the component stands at the root of a tangent, the root of another tangent, closer to the threshold, must
     /// agree with this root. Adds the forces and the motion that confirm the threshold to the cache of `trial`.
-    pub(super) fn newton_root(
-        &self,
-        trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
-        [inside, outside]: [f64; 2],
-    ) -> Option<f64> {
+    pub(super) fn newton_root(&self, trial: &mut Trial, [inside, outside]: [f64; 2]) -> Option<f64> {
+        let setting = self.setting;
         let mut bracket = NewtonBracket { inside, outside, tangent: trial.tangent(&setting(outside))?, standing: None };
         let mut falling = Vec::new();
         // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
@@ -112,11 +105,11 @@ impl Threshold {
             falling.push((outside, bracket.tangent.clone()));
             // The method has converged in two cases: the bracket is narrow, or the root of the tangent agrees with the
             // falling end of the bracket or with the root of another tangent.
-            let is_bracketed = (inside - outside).abs() <= BRACKET_TOL * size;
-            let is_root = (root - outside).abs() <= BRACKET_TOL * size || reached.is_some_and(agrees);
+            let is_bracketed = (inside - outside).abs() <= END_TOL * size;
+            let is_root = (root - outside).abs() <= END_TOL * size || reached.is_some_and(agrees);
             if is_bracketed || (is_near && is_root) {
                 let edge = if is_near { root } else { inside };
-                self.cache_both_sides(trial, setting, edge, falling, bracket.standing);
+                self.cache_both_sides(trial, edge, (outside - inside).signum(), falling, bracket.standing);
                 return Some(edge);
             }
             // Go to the root of the tangent (Newton's step). If the root lies outside the bracket, go to a value inside
@@ -127,7 +120,7 @@ impl Threshold {
             } else if !bracket.test(trial, setting, root)? {
                 (reached, share) = (Some([root, outside]), APPROACH_SHARE);
                 // The component stands at the root. Test whether it falls just beyond the root.
-                let just_beyond = root + 0.4 * BRACKET_TOL * size * (outside - root).signum();
+                let just_beyond = root + 0.4 * END_TOL * size * (outside - root).signum();
                 bracket.test_within(trial, setting, just_beyond)?;
             }
         }
@@ -139,27 +132,23 @@ impl Threshold {
     fn cache_both_sides(
         &self,
         trial: &mut Trial,
-        setting: &dyn Fn(f64) -> Setting,
         edge: f64,
+        outward: f64,
         falling: Vec<(f64, Tangent)>,
         standing: Option<(f64, Tangent)>,
     ) {
-        let distance = |value: f64| (value - edge).abs() / edge.max(f64::MIN_POSITIVE);
+        let setting = self.setting;
+        let distance = |value: f64| (value - edge).abs() / self.size(edge);
+        let mut at = |distance: f64| {
+            let value = (edge + outward * distance * self.size(edge)).clamp(self.min_value, self.max_value);
+            Some((value, trial.tangent(&setting(value))?))
+        };
         // Choose a falling value that is close enough to confirm the threshold, but far enough from it for a strong
         // proof.
-        let near = falling
-            .into_iter()
-            .rev()
-            .find(|(value, _)| (2.0 * Self::MIN_OFFSET..0.45 * Self::BRACKET_TOL).contains(&distance(*value)));
-        let falls = near.or_else(|| {
-            let value = self.test_values(edge, Side::Beyond).nth(1)?;
-            Some((value, trial.tangent(&setting(value))?))
-        });
-        let standing = standing.filter(|(value, _)| distance(*value) <= Self::MIN_OFFSET);
-        let stands = standing.or_else(|| {
-            let value = self.test_values(edge, Side::Inside).next()?;
-            Some((value, trial.tangent(&setting(value))?))
-        });
+        let is_near = |(value, _): &(f64, Tangent)| (2.0 * END_TOL..CONFIRMATION_TOL).contains(&distance(*value));
+        let falls = falling.into_iter().rev().find(is_near).or_else(|| at(16.0 * END_TOL));
+        let standing = standing.filter(|(value, _)| distance(*value) <= END_TOL);
+        let stands = standing.or_else(|| at(-END_TOL));
         for (tangent, verdict) in [(falls, Verdict::Unstable), (stands, Verdict::Stable)] {
             if let Some((value, tangent)) = tangent {
                 trial.cache_tangent(&tangent, &setting(value), verdict);

@@ -1,13 +1,13 @@
 //! Computes the interval of values at which a component stands, for each parameter: friction, tilt, loads, kernel,
 //! robot limits.
 
-use super::edge::Threshold;
 use super::grip_limit;
 use super::interval::Interval;
 use super::kind::{MarginKind, MarginKinds};
-use super::line::Line;
 use super::linear::linear;
 use super::margins::Margins;
+use super::search::{Path, Predictor};
+use super::threshold::threshold;
 use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
 
@@ -37,18 +37,20 @@ pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, wit
 
 fn friction(trial: &mut Trial) -> Interval {
     let setting = |mu: f64| Setting { friction: Some(mu), ..Setting::default() };
-    Threshold::smallest_stable(Margins::MAX_FRICTION).search(trial, &setting)
+    threshold(trial, &setting, Margins::MAX_FRICTION, -1.0)
 }
 
 fn kernel(trial: &mut Trial) -> Interval {
     let setting = |kernel: f64| Setting { kernel: Some(kernel), ..Setting::default() };
-    Threshold::largest_stable(1.0).search(trial, &setting)
+    threshold(trial, &setting, 1.0, 1.0)
 }
 
 fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
-    let line = Line {
+    let line = Path {
+        predictor: Predictor::Plane,
         setting: &|share| Setting { across: share, ..Setting::default() },
         min_value: f64::NEG_INFINITY,
+        max_value: f64::INFINITY,
         typical_small: 1.0,
         typical_large: (1.0 / trial.weights_to_loads()).max(1.0),
         load_ratio: 1.0 / trial.weights_to_loads(),
@@ -64,9 +66,11 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
 }
 
 fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
-    let line = Line {
+    let line = Path {
+        predictor: Predictor::Plane,
         setting: &|factor| Setting { loads: factor, ..Setting::default() },
         min_value: 0.0,
+        max_value: f64::INFINITY,
         typical_small: trial.weights_to_loads().min(1.0),
         typical_large: trial.weights_to_loads().max(1.0),
         load_ratio: trial.weights_to_loads(),

@@ -7,8 +7,8 @@
 //! C, so it excludes a whole arc of tilts. The ends of these arcs are tried next.
 
 use super::interval::{End, Interval};
-use super::line::Line;
 use super::linear::linear;
+use super::search::{Path, Predictor};
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::LimitDistance;
@@ -298,9 +298,11 @@ fn limit_of_weights(trial: &mut Trial, side: f64, horizontal: &End) -> End {
         End::At { value, mechanism } => End::At { value: tilt(*value), mechanism: mechanism.clone() },
         End::Unconfirmed { stands, beyond } => End::Unconfirmed { stands: tilt(*stands), beyond: tilt(*beyond) },
         End::Unbounded => {
-            let line = Line {
+            let line = Path {
+                predictor: Predictor::Plane,
                 setting: &|share| Setting { along: -share, across: side, ..Setting::default() },
                 min_value: 0.0,
+                max_value: f64::INFINITY,
                 typical_small: 1.0,
                 typical_large: 1.0,
                 load_ratio: 0.0,

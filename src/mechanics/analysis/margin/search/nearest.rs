@@ -1,13 +1,13 @@
 //! Finds the value of a parameter nearest to its present value at which a component stands.
 
-use super::{CONFIRMATION_TOL, END_TOL, ExcludedRange, Line, MAX_STEPS, MAX_VANISHING_VALUE, OFFSET_GROWTH};
+use super::{CONFIRMATION_TOL, END_TOL, ExcludedRange, MAX_STEPS, MAX_VALUE, OFFSET_GROWTH, Path};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::margin::exclusion::Exclusion;
 use crate::mechanics::analysis::margin::interval::Interval;
 use crate::mechanics::analysis::margin::trial::Trial;
 use crate::mechanics::proof::Motion;
 
-impl Line<'_> {
+impl Path<'_> {
     /// Finds the value nearest to `present` at which the component stands, although it falls at `present`. `hint` is
     /// this value according to a linear program. If no value is found, the `Err` contains the interval: empty if
     /// mechanisms exclude all values, otherwise undecided.
@@ -15,7 +15,7 @@ impl Line<'_> {
         let (mut low, mut high) = (self.min_value, f64::INFINITY);
         // `below` excludes all values below `low`, and `above` excludes all values above `high`.
         let [mut below, mut above] = [None, None];
-        let limit = MAX_VANISHING_VALUE * self.typical_large;
+        let limit = MAX_VALUE * self.typical_large;
         let mut next = Some(present);
         let mut hinted = hint;
         for _ in 0..MAX_STEPS {
