@@ -9,9 +9,9 @@ use crate::clock::Instant;
 use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
 #[cfg(feature = "certificate")]
 use crate::mechanics::certificate::Certificate;
-use crate::mechanics::scene::{BlockId, Scene, SceneError};
+use crate::mechanics::scene::{Scene, SceneError};
 use crate::pictures::drawing::{Colour, Drawing, Theme};
-use crate::products::figure::{self, FREEBODY, FREEBODY_HELP, Kind};
+use crate::products::figure::{self, Kind};
 use crate::read::{Dialect, Given, requested};
 use crate::text::Word;
 
@@ -84,16 +84,13 @@ request! {
     }
 }
 
-/// A frame, counted from 0, and the block in it that a free-body diagram shows.
-pub(crate) type FreeBody = (usize, BlockId);
-
 request! {
     /// What a figure shows.
     #[derive(Clone, Debug)]
     pub(crate) struct FigureArgs(given) {
         /// What the figure shows
-        kind: KindChoice = given.word("kind").unwrap_or_default(),
-            arg(long, default_value = "forces", value_parser = crate::text::typed_word::<KindChoice>());
+        kind: Kind = given.word("kind").unwrap_or_default(),
+            arg(long, default_value = "forces", value_parser = crate::text::typed_word::<Kind>());
         /// The id of the block of a free-body diagram
         block: Option<String> = given.text("block"), arg(long, value_name = "ID");
         capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
@@ -248,7 +245,7 @@ impl CheckArgs {
 impl FigureArgs {
     /// Refuses options that do not fit the kind of figure.
     pub(crate) fn check(&self) -> Result<(), String> {
-        let is_freebody = self.kind == KindChoice::Freebody;
+        let is_freebody = self.kind == Kind::Freebody;
         if self.block.is_some() && !is_freebody {
             return Err("--block names the block of a free-body diagram; add --kind freebody".into());
         }
@@ -262,7 +259,7 @@ impl FigureArgs {
     /// the options also name this margin.
     pub(crate) fn add_to(&self, base: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
         let mut options = self.capacity.add_to(base, scene)?;
-        if self.kind.needs(Kind::needs_sensitivity) {
+        if self.kind.needs_sensitivity() {
             options.sensitivity = self.margin.map(|margin| margin.0);
         }
         Ok(options)
@@ -270,10 +267,7 @@ impl FigureArgs {
 
     /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that the figure shows.
     pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options, look: &figure::Options) -> Analysis {
-        match self.kind {
-            KindChoice::Panels(kind) => kind.analysed(scene, options, look),
-            KindChoice::Freebody => Analysis::with(scene, options),
-        }
+        self.kind.analysed(scene, options, look)
     }
 
     /// Returns an analysis with all results that the figure shows: the given one, or a new one of the same scene if it
@@ -281,18 +275,17 @@ impl FigureArgs {
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
         let options = self.add_to(analysis::Options::default(), &analysis.scene)?;
-        Ok(match self.kind {
-            KindChoice::Panels(kind) if kind.lacks(analysis, &options) => {
-                kind.analysed(&analysis.scene, &options, &self.options)
-            }
-            _ => analysis.clone(),
+        Ok(if self.kind.lacks(analysis, &options) {
+            self.kind.analysed(&analysis.scene, &options, &self.options)
+        } else {
+            analysis.clone()
         })
     }
 
     /// Returns the options of the figure of a scene, in a theme and on a page of this width in pixels.
     pub(crate) fn options(&self, theme: Theme, width: Option<f64>) -> Result<figure::Options, String> {
         let toward = match self.margin.map(|margin| Toward::from_margin(margin.0)) {
-            Some(None) if self.kind.needs(Kind::needs_margins) => {
+            Some(None) if self.kind.needs_margins() => {
                 return Err("--kind margin cannot show the margins friction and kernel; use --kind sensitivity".into());
             }
             toward => toward.flatten().unwrap_or_default(),
@@ -300,71 +293,26 @@ impl FigureArgs {
         Ok(figure::Options { toward, theme, width, ..self.options.clone() })
     }
 
-    /// Returns the options with the block that the option `zoom` names.
-    pub(crate) fn zoomed(&self, options: &figure::Options, scene: &Scene) -> Result<figure::Options, String> {
+    /// Returns the options with the blocks that the options `zoom` and `block` name.
+    pub(crate) fn for_scene(&self, options: &figure::Options, scene: &Scene) -> Result<figure::Options, String> {
         let zoom = self.zoom.as_deref().map(|name| figure::named_block(scene, name)).transpose()?;
-        Ok(figure::Options { zoom, ..options.clone() })
-    }
-
-    /// Finds the block of a free-body diagram, and the frame that shows it; `None` for a figure with panels.
-    pub(crate) fn free(&self, scene: &Scene) -> Result<Option<FreeBody>, String> {
-        let is_free = self.kind == KindChoice::Freebody;
-        is_free.then(|| figure::free_block(scene, self.block.as_deref())).transpose()
-    }
-
-    /// Draws an analysis that has all results for the figure. `free` is the block of a free-body diagram.
-    pub(crate) fn drawing(&self, analysis: &Analysis, free: Option<FreeBody>, options: &figure::Options) -> Drawing {
-        match free {
-            Some((frame, block)) => {
-                let drawing = figure::freebody(analysis, frame, block, options);
-                drawing.expect("the block was found in this frame")
-            }
-            None => figure::draw(analysis, self.kind.panels().unwrap_or_default(), options),
-        }
+        let shows_one = self.kind.shows_one_block();
+        let block = shows_one.then(|| figure::free_block(scene, self.block.as_deref())).transpose()?;
+        Ok(figure::Options { zoom, block, ..options.clone() })
     }
 }
 
-/// A kind of figure with panels, or the free-body diagram of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum KindChoice {
-    /// A figure with a panel for each frame.
-    Panels(Kind),
-    /// A free-body diagram, which has no panels.
-    Freebody,
-}
-
-impl KindChoice {
-    /// Returns the kind of the panels; `None` for a free-body diagram.
-    pub(crate) fn panels(self) -> Option<Kind> {
-        match self {
-            KindChoice::Panels(kind) => Some(kind),
-            KindChoice::Freebody => None,
-        }
-    }
-
-    /// True if the figure has panels, and `needs` is true for their kind.
-    pub(crate) fn needs(self, needs: fn(Kind) -> bool) -> bool {
-        self.panels().is_some_and(needs)
-    }
-}
-
-impl Default for KindChoice {
-    fn default() -> KindChoice {
-        KindChoice::Panels(Kind::default())
-    }
-}
-
-impl Word for KindChoice {
-    fn all() -> Vec<KindChoice> {
-        Kind::ALL.into_iter().map(KindChoice::Panels).chain([KindChoice::Freebody]).collect()
+impl Word for Kind {
+    fn all() -> Vec<Kind> {
+        Kind::ALL.to_vec()
     }
 
     fn word(self) -> &'static str {
-        self.panels().map_or(FREEBODY, Kind::name)
+        self.name()
     }
 
     fn help(self) -> &'static str {
-        self.panels().map_or(FREEBODY_HELP, Kind::help)
+        Kind::help(self)
     }
 }
 
@@ -577,12 +525,12 @@ mod tests {
     #[test]
     fn a_json_request_has_the_defaults_and_the_values_of_the_command_line() {
         let empty = read_json(Some("{}"), FigureArgs::read).expect("defaults");
-        assert_eq!((empty.options, empty.kind), (figure::Options::default(), KindChoice::default()));
+        assert_eq!((empty.options, empty.kind), (figure::Options::default(), Kind::default()));
         let text = r#"{ "no_title": true, "width": null, "margin": "load_factor", "kind": "freebody" }"#;
         let wrong = read_json(Some(text), FigureArgs::read).expect_err("a figure has no key width of its own");
         assert!(wrong.starts_with("width: unknown key"), "{wrong}");
         let made = read_json(Some(&text.replace("\"width\": null, ", "")), FigureArgs::read).expect("a request");
-        assert!(!made.options.titles && made.options.captions && made.kind == KindChoice::Freebody);
+        assert!(!made.options.titles && made.options.captions && made.kind == Kind::Freebody);
         assert_eq!(made.margin.map(|margin| margin.0), Some(MarginKind::LoadFactor));
     }
 

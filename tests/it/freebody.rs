@@ -52,7 +52,7 @@ fn assert_balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
         let options = Options::default().corners(corners);
-        let drawing = figure::freebody(analysis, frame, id, &options).expect("it is placed");
+        let drawing = crate::pictures::free_body(analysis, frame, id, &options).expect("it is placed");
         let what = format!("{name}, frame {frame}, block {}", scene.blocks()[id.0].id);
         let rows = rows(&drawing.description);
         let (sum, forces) = rows.split_last().expect("a list");
@@ -107,16 +107,16 @@ fn loads_missing_forces_and_the_step_are_listed() {
     let loaded = crate::pictures::scene("tests/scenes/loaded.json");
     let beam = BlockId(2);
     let options = Options::default();
-    let drawing = figure::freebody(&Analysis::new(&loaded), 0, beam, &options).expect("placed");
+    let drawing = crate::pictures::free_body(&Analysis::new(&loaded), 0, beam, &options).expect("placed");
     let description = &drawing.description;
     assert!(description.contains("Load Q_1 on block beam: 4 kN at 270°"), "{description}");
     assert!(description.contains("Q_2 = 0.800 kN: (0.800; 0.000) kN"), "{description}");
     let slide = crate::pictures::scene("tests/scenes/slide.json");
-    let drawing = figure::freebody(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
+    let drawing = crate::pictures::free_body(&Analysis::new(&slide), 0, BlockId(0), &options).expect("placed");
     assert!(drawing.description.contains("missing, ground"), "{}", drawing.description);
     let steps = crate::pictures::scene("assets/thesis/figure-4.json");
     let analysis = Analysis::new(&steps);
-    let drawing = figure::freebody(&analysis, 1, BlockId(0), &options).expect("placed");
+    let drawing = crate::pictures::free_body(&analysis, 1, BlockId(0), &options).expect("placed");
     let svg = drystone::output::svg::write(&drawing);
     assert!(svg.contains("step (b) of 6"), "{svg}");
 }
@@ -131,7 +131,8 @@ fn every_name_of_a_free_body_is_legible() {
         for (frame, found) in scene.frames().iter().enumerate().take(3) {
             for block in &found.placed {
                 for options in [&Options::default(), &column, &corners] {
-                    let drawing = figure::freebody(&analysis, frame, *block, options).expect("the block is placed");
+                    let drawing =
+                        crate::pictures::free_body(&analysis, frame, *block, options).expect("the block is placed");
                     let (labels, complaints) =
                         hidden(&drawing.items, &["name"], &["force", "block", "guides", "values", "axes"]);
                     count += labels;
@@ -154,7 +155,7 @@ fn the_free_body_of_the_slope_names_and_lists_every_force() {
     let scene = scene("assets/thesis/figure-1.json");
     let analysis = Analysis::new(&scene);
     let all = Options::default().corners(figure::Corners::All);
-    let drawing = figure::freebody(&analysis, 0, BlockId(0), &all).expect("placed");
+    let drawing = crate::pictures::free_body(&analysis, 0, BlockId(0), &all).expect("placed");
     for name in ["F_s1", "F_fl1", "F_fr1", "F_s2", "F_fl2", "F_fr2"] {
         assert!(drawing.description.contains(&format!("force {name} on block a")), "{name}");
     }
@@ -167,6 +168,6 @@ fn the_free_body_of_the_slope_names_and_lists_every_force() {
     ] {
         assert!(drawing.description.contains(part), "{part}: {}", drawing.description);
     }
-    assert_eq!(figure::freebody(&analysis, 1, BlockId(0), &Options::default()), None);
-    assert_eq!(figure::freebody(&analysis, 0, BlockId(1), &Options::default()), None);
+    assert_eq!(crate::pictures::free_body(&analysis, 1, BlockId(0), &Options::default()), None);
+    assert_eq!(crate::pictures::free_body(&analysis, 0, BlockId(1), &Options::default()), None);
 }

@@ -192,6 +192,15 @@ fn names(text: &str, name: &str) -> bool {
     })
 }
 
+/// Kinds that write a name only where it has room, and name no block below the picture.
+const ON_CANVAS: [figure::Kind; 5] = [
+    figure::Kind::Structure,
+    figure::Kind::Freebody,
+    figure::Kind::Kernel,
+    figure::Kind::Utilisation,
+    figure::Kind::Polygon,
+];
+
 #[test]
 fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
     let (mut named, mut counted) = (0, 0);
@@ -200,7 +209,8 @@ fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
         for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
             let mut options = Options::default();
             options.width = width;
-            for kind in figure::Kind::ALL {
+            let names_all = |kind: &figure::Kind| !ON_CANVAS.contains(kind);
+            for kind in figure::Kind::ALL.into_iter().filter(names_all) {
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:?}", kind.name());
                 let frames = classes(&drawing.items, &["frame"]);

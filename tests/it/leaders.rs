@@ -37,7 +37,7 @@ fn leader(label: &Group) -> Option<[PagePoint; 2]> {
 fn leaders_cross_neither_each_other_nor_a_label() {
     let (mut count, mut complaints) = (0, Vec::new());
     for (name, scene) in gallery().into_iter().chain(contributed()) {
-        for (kind, width) in [(Kind::Forces, COLUMN), (Kind::Forces, 658.0), (Kind::Kernel, COLUMN)] {
+        for (kind, width) in [(Kind::Forces, COLUMN), (Kind::Forces, 658.0), (Kind::Thrust, COLUMN)] {
             let drawing = drawn(&scene, kind, width);
             for panel in classes(&drawing.items, &["picture"]) {
                 let labels = classes(&panel.items, &NAMES);
@@ -106,7 +106,7 @@ fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
 fn a_name_that_another_block_could_have_has_a_leader() {
     let (mut outside, mut with_leader) = (0, 0);
     for (name, scene) in contributed() {
-        let drawing = drawn(&scene, Kind::Kernel, COLUMN);
+        let drawing = drawn(&scene, Kind::Thrust, COLUMN);
         for (panel, frame) in classes(&drawing.items, &["picture"]).iter().zip(scene.frames()) {
             let camera = panel.camera.expect("a picture has one");
             for label in classes(&panel.items, &["name"]) {
@@ -166,7 +166,7 @@ fn lines_of(drawing: &Drawing, wanted: &str) -> Vec<String> {
 
 #[test]
 fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
-    let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Kernel, COLUMN);
+    let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Thrust, COLUMN);
     assert_eq!(lines_of(&posts, "left post"), ["left", "post"]);
     let spelled = "U+4E2D\u{a0}6587\u{a0}77F3\u{a0}5934";
     let text = format!(
@@ -175,7 +175,7 @@ fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
                         {{ "id": "one\u00a0name", "polygon": [[5,0],[5.6,0],[5.6,2],[5,2]] }}] }}"#
     );
     let scene = Scene::from_json(&text).expect("sound");
-    let drawing = drawn(&scene, Kind::Kernel, COLUMN);
+    let drawing = drawn(&scene, Kind::Thrust, COLUMN);
     // The code points stand for characters that no font has, and lines break between them. Lines do not break at a
     // no-break space of the author.
     let lines = lines_of(&drawing, &spelled.replace('\u{a0}', ""));
@@ -188,7 +188,7 @@ fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
 fn both_points_at_equal_height_have_a_name_in_a_free_body() {
     let found = Analysis::new(scene("tests/scenes/one.json"));
     for width in [COLUMN, 658.0] {
-        let drawing = figure::freebody(&found, 0, BlockId(0), &Options::default().width(width));
+        let drawing = crate::pictures::free_body(&found, 0, BlockId(0), &Options::default().width(width));
         let drawing = drawing.expect("placed");
         let page = Group { items: drawing.items, ..Group::default() };
         let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
@@ -205,7 +205,7 @@ fn the_list_of_a_free_body_breaks_long_names_and_cuts_none() {
                         {{ "id": "b", "polygon": [[0,1],[3,1],[3,2],[0,2]] }}] }}"#
     );
     let found = Analysis::new(Scene::from_json(&text).expect("sound"));
-    let drawing = figure::freebody(&found, 0, BlockId(1), &Options::default().width(COLUMN));
+    let drawing = crate::pictures::free_body(&found, 0, BlockId(1), &Options::default().width(COLUMN));
     let drawing = drawing.expect("placed");
     let list = classes(&drawing.items, &["list"]);
     let texts: Vec<_> = list.iter().flat_map(|group| texts(group)).collect();

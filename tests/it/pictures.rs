@@ -4,6 +4,7 @@ use drystone::drawing::{Colour, Drawing, Group, Item, Outline, Theme};
 use drystone::figure::{self, ArrowKind, Fill, ForceStyle, Normalisation, Options};
 use drystone::internals::geometry::{Point, Vector};
 use drystone::output::{png, svg};
+use drystone::scene::BlockId;
 use drystone::{Analysis, Scene};
 use serde_json::Value;
 
@@ -11,6 +12,12 @@ pub(crate) fn scene(path: &str) -> Scene {
     let full = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&full).expect("the scene is there");
     Scene::from_json(&text).unwrap_or_else(|problems| panic!("{path}:\n{problems}"))
+}
+
+/// The figure of a block as a free body, in a frame; `None` if the frame does not place the block.
+pub(crate) fn free_body(analysis: &Analysis, frame: usize, block: BlockId, options: &Options) -> Option<Drawing> {
+    let options = options.clone().block(block);
+    figure::panels_of(analysis, figure::Kind::Freebody, &options, &[frame]).pop()
 }
 
 pub(crate) fn gallery() -> Vec<(String, Scene)> {

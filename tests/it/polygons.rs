@@ -28,9 +28,8 @@ fn block(left: f64, push: f64) -> Scene {
 fn words_and_dashes(drawing: &Drawing) -> (String, bool) {
     let page = Group { items: drawing.items.clone(), ..Group::default() };
     let words: Vec<String> = texts(&page).into_iter().map(|t| t.words).collect();
-    let sides = classes(&drawing.items, &["polygon"]);
-    let forces = sides.iter().flat_map(|p| classes(&p.items, &["force"]));
-    let dashed = forces.flat_map(|f| &f.items).any(|item| match item {
+    let sides = classes(&drawing.items, &["side"]);
+    let dashed = sides.iter().flat_map(|f| &f.items).any(|item| match item {
         Item::Path(path) => path.stroke.as_ref().is_some_and(|s| !s.dash.is_empty()),
         _ => false,
     });

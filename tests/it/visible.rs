@@ -152,7 +152,7 @@ fn small_and_missing_forces_of_a_free_body_are_visible() {
         "blocks": [{ "id": "a", "polygon": [[-3,0],[1,0],[1,2],[-3,2]], "weight": 6 }],
         "loads": [{ "block": "a", "force": [0.006, 0], "at": [-3, 1] }] }"#;
     let analysis = analysed(falls);
-    let drawing = figure::freebody(&analysis, 0, BlockId(0), &Options::default());
+    let drawing = crate::pictures::free_body(&analysis, 0, BlockId(0), &Options::default());
     let drawing = drawing.expect("block a is placed");
     let forces = classes(&drawing.items, &["force"]);
     let length = |group: &Group| {

@@ -3,7 +3,7 @@
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::picture::{Format, Picture, or_split};
 use crate::entry::cli::style_args::StyleArgs;
-use crate::entry::request::{FigureArgs, FreeBody, between};
+use crate::entry::request::{FigureArgs, between};
 use crate::mechanics::analysis::Analysis;
 use crate::pictures::drawing::Drawing;
 use crate::pictures::output::animation;
@@ -36,7 +36,7 @@ impl DrawArgs {
     pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         self.picture.check(format)?;
         self.figure.check()?;
-        if self.animate.is_some() && (format.animate().is_none() || self.figure.kind.panels().is_none()) {
+        if self.animate.is_some() && (format.animate().is_none() || self.figure.kind.shows_one_block()) {
             return Err(
                 "--animate makes a GIF or PNG of the frames of a figure; write a .gif or .png, of any kind but freebody"
                     .into(),
@@ -51,32 +51,28 @@ impl DrawArgs {
     }
 
     /// Draws a figure, or an animation, of an analysis that has all results for it, and returns the bytes of the file.
-    /// `free` is the block of a free-body diagram. The second value is true if a figure of several frames is higher than
-    /// a page.
+    /// The second value is true if a figure of several frames is higher than a page.
     pub(crate) fn bytes(
         &self,
         analysis: &Analysis,
-        free: Option<FreeBody>,
         options: &figure::Options,
         format: Format,
         fonts: &Fonts,
     ) -> Result<(Vec<u8>, bool), CliError> {
-        let kind = self.figure.kind.panels();
-        let steps = if kind.is_some() { analysis.frames.len() } else { 1 };
+        let kind = self.figure.kind;
+        let steps = if kind.shows_one_block() { 1 } else { analysis.frames.len() };
         let split = |error| or_split(error, steps);
         if let Some(seconds) = self.animate {
-            let film = figure::film(analysis, kind.unwrap_or_default(), options, seconds);
+            let film = figure::film(analysis, kind, options, seconds);
             let animate = format.animate().unwrap_or(animation::gif);
             let picture = self.picture.clone().or_width(ANIMATION_WIDTH, format);
             return Ok((picture.animated(film, animate, fonts)?, false));
         }
-        if let (Some(kind), Format::Png) = (kind, format)
-            && steps > MAX_PNG_FRAMES
-        {
+        if format == Format::Png && steps > MAX_PNG_FRAMES {
             // Check the size before the layout, which takes a long time for a figure with many frames.
             self.picture.check_png(figure::least_size(analysis, kind, options)).map_err(split)?;
         }
-        let drawing = self.figure.drawing(analysis, free, options);
+        let drawing = figure::draw(analysis, kind, options);
         let is_high = steps > 1 && drawing.height > MAX_PAGE_HEIGHTS * self.picture.page_ratio() * drawing.width;
         Ok((self.picture.bytes(drawing, format, fonts).map_err(split)?, is_high))
     }

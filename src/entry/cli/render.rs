@@ -25,7 +25,7 @@ use crate::entry::request::FrameChoice;
 use crate::mechanics::analysis::{self, Analysis};
 use crate::mechanics::scene::Scene;
 use crate::pictures::output::fonts::Fonts;
-use crate::products::figure::{self, Kind};
+use crate::products::figure;
 
 /// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
 #[derive(Debug, Args)]
@@ -128,17 +128,16 @@ impl Render {
     }
 
     /// Refuses `--margin` and `--capacity` for figures that cannot show the requested margin or the capacity. Refuses
-    /// `--panels` and `--pages` for free-body diagrams and for standard output.
+    /// `--panels` and `--pages` for figures of one block and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let figure = &self.draw.figure;
-        let (shows_margin, varies) =
-            (figure.kind.needs(Kind::needs_margins), figure.kind.needs(Kind::needs_sensitivity));
+        let (shows_margin, varies) = (figure.kind.needs_margins(), figure.kind.needs_sensitivity());
         let why = if figure.margin.is_some() && !shows_margin && !varies {
             "--margin selects the margin of a figure; add --kind margin or --kind sensitivity"
-        } else if figure.capacity.capacity.is_some() && !figure.kind.needs(Kind::needs_capacity) {
+        } else if figure.capacity.capacity.is_some() && !figure.kind.needs_capacity() {
             "--capacity selects the block of a capacity figure; add --kind capacity"
-        } else if self.writes_parts() && (figure.kind.panels().is_none() || is_stdout) {
+        } else if self.writes_parts() && (figure.kind.shows_one_block() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
             return Ok(());
@@ -164,7 +163,7 @@ impl Render {
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(2 * sources.len(), shown);
         let mut analysis_options = self.draw.figure.level.options();
-        analysis_options.margins = self.draw.figure.kind.needs(Kind::needs_margins);
+        analysis_options.margins = self.draw.figure.kind.needs_margins();
         match sources {
             [before, after] if joins => {
                 let work = || self.compared([before, after], &analysis_options, options, format, fonts);
@@ -217,25 +216,21 @@ impl Render {
         progress.doing(&source.name());
         let figure = &self.draw.figure;
         let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
-        let options = &figure.zoomed(options, &source.scene).map_err(wrong)?;
-        let free = figure.free(&source.scene).map_err(wrong)?;
+        let options = &figure.for_scene(options, &source.scene).map_err(wrong)?;
         let scene = self.shown(source, format, fonts);
         let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?, options);
         progress.step();
         let mut summary = summary(&analysis);
-        let bytes = match figure.kind.panels() {
-            Some(kind) if self.writes_parts() => {
-                let parts = self.draw.parts(&analysis, kind, options, self.pages);
-                let one = |part| self.draw.picture.bytes(part, format, fonts);
-                parts.into_iter().map(one).collect::<Result<_, _>>()?
+        let bytes = if self.writes_parts() {
+            let parts = self.draw.parts(&analysis, figure.kind, options, self.pages);
+            let one = |part| self.draw.picture.bytes(part, format, fonts);
+            parts.into_iter().map(one).collect::<Result<_, _>>()?
+        } else {
+            let (bytes, is_high) = self.draw.bytes(&analysis, options, format, fonts)?;
+            if is_high {
+                summary.push_str("; taller than an A4 page, --pages splits it");
             }
-            _ => {
-                let (bytes, is_high) = self.draw.bytes(&analysis, free, options, format, fonts)?;
-                if is_high {
-                    summary.push_str("; taller than an A4 page, --pages splits it");
-                }
-                vec![bytes]
-            }
+            vec![bytes]
         };
         progress.step();
         Ok(Rendered { bytes, ending: ExitStatus::from_analysis(&analysis), summary })
@@ -253,9 +248,7 @@ impl Render {
 
     /// True if the command draws one figure that compares two scenes, instead of one figure for each scene.
     fn joins(&self, scenes: usize, destination: &Destination) -> bool {
-        self.draw.figure.kind.panels() == Some(figure::Kind::Compare)
-            && scenes == 2
-            && !matches!(destination, Destination::Folder(_))
+        self.draw.figure.kind == figure::Kind::Compare && scenes == 2 && !matches!(destination, Destination::Folder(_))
     }
 
     /// Draws the last frames of two scenes next to each other, with the changes between them.

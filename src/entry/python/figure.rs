@@ -29,12 +29,11 @@ pub(super) fn drawn(analysis: &Analysis, request: &str, ending: &str, frame: Opt
     let mut analysis = args.figure.completed(one.as_ref().unwrap_or(analysis)).map_err(|why| in_json(&why))?;
     let mut drawn = || -> Result<Vec<u8>, CliError> {
         let fonts = args.picture.fonts()?;
-        let options = args.figure.zoomed(&args.options()?, &analysis.scene)?;
-        let free = args.figure.free(&analysis.scene)?;
+        let options = args.figure.for_scene(&args.options()?, &analysis.scene)?;
         if args.picture.draws_words(format) && missing_glyphs::lacks(&analysis.scene, &fonts) {
             analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
         }
-        Ok(args.bytes(&analysis, free, &options, format, &fonts)?.0)
+        Ok(args.bytes(&analysis, &options, format, &fonts)?.0)
     };
     drawn().map_err(message)
 }

@@ -287,12 +287,12 @@ fn schema() -> String {
     crate::mechanics::scene::schema()
 }
 
-/// Returns the names of the kinds of figures with panels, each with a line of help. The free-body diagram is not in
-/// this list.
+/// Returns the names of the kinds of figures of a whole structure, each with a line of help. The figure of one block is
+/// not in this list.
 #[pyfunction]
 fn kinds() -> Vec<(&'static str, &'static str)> {
     let all = crate::products::figure::Kind::ALL.into_iter();
-    all.map(|kind| (kind.name(), kind.help())).collect()
+    all.filter(|kind| !kind.shows_one_block()).map(|kind| (kind.name(), kind.help())).collect()
 }
 
 /// Returns the names of the themes.

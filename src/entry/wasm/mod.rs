@@ -17,8 +17,9 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 pub use session::Session;
 
-use crate::entry::request::{KindChoice, Refused, read_json};
+use crate::entry::request::{Refused, read_json};
 use crate::mechanics::scene::{Scene, SceneError};
+use crate::products::figure::Kind;
 use crate::products::result::{problem_list, quoted, remark_list};
 use crate::sources::import::DrawingProblems;
 use crate::text::Word;
@@ -90,12 +91,12 @@ pub fn version() -> String {
 /// Returns the kinds of figures as a JSON list of objects `{ "kind", "label", "help" }`.
 #[wasm_bindgen]
 pub fn kinds() -> String {
-    let entry = |kind: KindChoice| {
-        let mut label = kind.word().to_owned();
+    let entry = |kind: Kind| {
+        let mut label = kind.name().to_owned();
         label[..1].make_ascii_uppercase();
-        format!("{{\"kind\":{},\"label\":{},\"help\":{}}}", quoted(kind.word()), quoted(&label), quoted(kind.help()))
+        format!("{{\"kind\":{},\"label\":{},\"help\":{}}}", quoted(kind.name()), quoted(&label), quoted(kind.help()))
     };
-    let entries: Vec<String> = KindChoice::all().into_iter().map(entry).collect();
+    let entries: Vec<String> = Kind::ALL.into_iter().map(entry).collect();
     format!("[{}]", entries.join(","))
 }
 

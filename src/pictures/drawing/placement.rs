@@ -89,12 +89,8 @@ impl Placed {
 
 /// Finds a position for each label. Returns the positions in the order of the requests, with `None` for a label without
 /// a free position. Adds the placed labels and their leader lines to the ink.
-pub fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
-    place_avoiding(ink, page, requests, &|_, _| false)
-}
-
-/// Like [`place`], with a function `avoid` that gets the index of a request and a rectangle for its label. A rectangle
-/// for which `avoid` is true has a high cost: it is used only if all other free positions on the rings cost more, and
+///
+/// The function `avoid` gets the index of a request and a rectangle for its label. A rectangle for which `avoid` is true has a high cost: it is used only if all other free positions on the rings cost more, and
 /// then with a leader line. `avoid` does not apply to the positions that a request lists. After many labels without a
 /// free position, the rings are no longer searched.
 pub fn place_avoiding(
@@ -238,6 +234,10 @@ fn corners(rect: PageRect) -> [PagePoint; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn place(ink: &mut Ink, page: PageRect, requests: &[LabelRequest]) -> Vec<Option<Placed>> {
+        place_avoiding(ink, page, requests, &|_, _| false)
+    }
 
     const PAGE: PageRect = PageRect { at: PagePoint { x: 0.0, y: 0.0 }, width: 200.0, height: 100.0 };
 

@@ -19,10 +19,4 @@ impl ByColour {
         let path = move |(fill, outline)| Path { stroke: stroke.clone(), ..Path::filled(outline, fill) };
         self.0.into_iter().map(path).map(Item::from)
     }
-
-    /// Returns one path for each colour, which draws the outlines as lines of `width` pixels.
-    pub fn lines(self, width: f64) -> impl Iterator<Item = Item> {
-        let path = move |(colour, outline)| Path::stroked(outline, Stroke::new(colour, width));
-        self.0.into_iter().map(path).map(Item::from)
-    }
 }

@@ -16,6 +16,8 @@ use crate::pictures::drawing::{Camera, Group, Item, PagePoint, PageRect, Path, T
 /// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
 /// elements would make a file slow to open.
 const MANY_BLOCKS: usize = 1000;
+/// A shape is only joined to one of this many paths before it, so that a picture of many colours takes linear time.
+const JOINED_PATHS: usize = 64;
 
 /// The picture of one frame while a kind of figure draws it.
 pub(crate) struct Canvas<'a> {
@@ -27,8 +29,10 @@ pub(crate) struct Canvas<'a> {
     pub look: Look,
     /// The length of a force in the one scale of the figure, pixels per newton.
     pub scale: f64,
-    /// The blocks of all frames, pixels.
+    /// The blocks of all frames, or the part of the scene that is shown, pixels.
     pub structure: PageRect,
+    /// The part of the canvas outside of which marks are cut off; `None` if nothing is cut off.
+    pub window: Option<PageRect>,
     marks: Vec<Mark>,
     labels: Vec<Label>,
     notes: Vec<Rc<Key>>,
@@ -41,6 +45,10 @@ pub(crate) struct Picture {
     pub extent: PageRect,
     /// The entries that the legend needs.
     pub keys: Vec<Rc<Key>>,
+    /// What a screen reader says about the picture; empty for only the verdict.
+    pub description: String,
+    /// A list below the picture, centred at x = 0 below y = 0, and its height, pixels.
+    pub list: (Group, f64),
 }
 
 impl<'a> Canvas<'a> {
@@ -56,7 +64,8 @@ impl<'a> Canvas<'a> {
         let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
         let structure = camera.rect(view);
         let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
-        Canvas { analysis, number, options, camera, look, scale, structure, marks, labels, notes }
+        let window = None;
+        Canvas { analysis, number, options, camera, look, scale, structure, window, marks, labels, notes }
     }
 
     pub fn scene(&self) -> &'a Scene {
@@ -103,6 +112,20 @@ impl<'a> Canvas<'a> {
         self.notes.push(Rc::new(key));
     }
 
+    /// Adds an entry to the legend, whether or not it explains a mark.
+    pub fn explain(&mut self, key: impl Into<Rc<Key>>) {
+        self.notes.push(key.into());
+    }
+
+    /// Returns the smallest rectangle around the structure and all marks that are already drawn, pixels.
+    pub fn extent(&self) -> PageRect {
+        if let Some(window) = self.window {
+            return window;
+        }
+        let points = self.marks.iter().flat_map(|mark| &mark.shapes).flat_map(|path| path.outline.points());
+        around(points.chain(corners(self.structure))).unwrap_or(self.structure)
+    }
+
     /// Asks for a label. Labels are placed when the picture is finished.
     pub fn label(&mut self, label: Label) {
         self.labels.push(label);
@@ -110,12 +133,23 @@ impl<'a> Canvas<'a> {
 
     /// Places the labels and returns the picture.
     pub fn finish(mut self) -> Picture {
-        let labels = core::mem::take(&mut self.labels);
+        let mut labels = core::mem::take(&mut self.labels);
+        if let Some(window) = self.window {
+            let seen = |p: &PagePoint| overlaps(window, PageRect { at: *p, width: 0.0, height: 0.0 });
+            self.marks.retain(|mark| {
+                let rect = around(mark.shapes.iter().flat_map(|path| path.outline.points()));
+                mark.layer == Layer::Around || rect.is_some_and(|rect| overlaps(window, rect))
+            });
+            labels.retain(|label| label.anchors.iter().any(seen) || label.fixed.is_some());
+        }
         let surroundings = Surroundings::new(&self.marks, self.structure);
         let placed = placing::labels(labels, &surroundings, self.look, self.options);
-        let points = self.marks.iter().flat_map(|mark| &mark.shapes).flat_map(|path| path.outline.points());
-        let corners = placed.rects.iter().flat_map(|r| [r.at, r.at.moved(r.width, r.height)]);
-        let extent = around(points.chain(corners)).unwrap_or(self.structure);
+        let shown = |mark: &&Mark| self.window.is_none() || mark.layer == Layer::Around;
+        let points = self.marks.iter().filter(shown).flat_map(|mark| &mark.shapes);
+        let points = points.flat_map(|path| path.outline.points());
+        let around_all = points.chain(placed.rects.iter().flat_map(|rect| corners(*rect)));
+        let extent = around(around_all.chain(self.window.iter().flat_map(|window| corners(*window))));
+        let extent = extent.unwrap_or(self.structure);
         let mut keys: Vec<Rc<Key>> = self.marks.iter().filter_map(|mark| mark.key.clone()).collect();
         keys.append(&mut self.notes);
         keys.sort_by_key(|key| key.rank);
@@ -137,23 +171,42 @@ impl<'a> Canvas<'a> {
         for (layer, path) in bulk {
             layers[layer].items.push(path.into());
         }
-        group.items.extend(layers.into_iter().filter(|layer| !layer.items.is_empty()).map(Item::from));
+        for (mut layer, (which, _)) in layers.into_iter().zip(Layer::ALL) {
+            layer.clip = self.window.filter(|_| which != Layer::Around);
+            if !layer.items.is_empty() {
+                group.items.push(layer.into());
+            }
+        }
         if !placed.items.is_empty() {
             group.items.push(Group { items: placed.items, ..Group::with_class("labels") }.into());
         }
-        Picture { group, extent, keys }
+        Picture { group, extent, keys, description: String::new(), list: (Group::default(), 0.0) }
     }
 }
 
-/// Adds a path to the last path of its layer if both have the same paint.
+/// Returns two opposite corners of a rectangle.
+pub(crate) fn corners(rect: PageRect) -> [PagePoint; 2] {
+    [rect.at, rect.at.moved(rect.width, rect.height)]
+}
+
+/// True if two rectangles share a point.
+fn overlaps(a: PageRect, b: PageRect) -> bool {
+    a.at.x <= b.at.x + b.width
+        && b.at.x <= a.at.x + a.width
+        && a.at.y <= b.at.y + b.height
+        && b.at.y <= a.at.y + a.height
+}
+
+/// Adds a path to a path of its layer with the same paint, if there is one among the last [`JOINED_PATHS`].
 fn merge(bulk: &mut Vec<(usize, Path)>, layer: usize, path: Path) {
     let same = |other: &Path| {
         (other.fill, other.fill_last) == (path.fill, path.fill_last)
             && other.stroke == path.stroke
             && other.opacity.to_bits() == path.opacity.to_bits()
     };
-    match bulk.iter_mut().rev().find(|(at, _)| *at == layer) {
-        Some((_, last)) if same(last) => last.outline.extend(path.outline),
-        _ => bulk.push((layer, path)),
+    let recent = bulk.iter_mut().rev().filter(|(at, _)| *at == layer).take(JOINED_PATHS);
+    match recent.map(|(_, other)| other).find(|other| same(other)) {
+        Some(other) => other.outline.extend(path.outline),
+        None => bulk.push((layer, path)),
     }
 }

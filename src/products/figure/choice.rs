@@ -6,31 +6,21 @@ use crate::text::{self, nearest};
 /// Largest number of blocks that a message lists.
 const MAX_LISTED_BLOCKS: usize = 12;
 
-/// The name of the free-body diagram, which is a kind of figure without panels.
-pub(crate) const FREEBODY: &str = "freebody";
-/// One line that describes the free-body diagram.
-pub(crate) const FREEBODY_HELP: &str =
-    "One block as a free body: all forces on it, with their names and a table of them";
-
-/// Finds the block for a free-body diagram by its name. Returns the index of the last frame in which the block is
-/// placed, and the block. The name may be left out if the scene has only one block. The error is a message for the
-/// user.
-pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<(usize, BlockId), String> {
-    let placed = |id: BlockId| scene.frames.iter().rposition(|f| f.placed.contains(&id));
+/// Finds the block for a free-body diagram by its name. The name may be left out if the scene has only one block. The
+/// error is a message for the user.
+pub(crate) fn free_block(scene: &Scene, name: Option<&str>) -> Result<BlockId, String> {
+    let is_placed = |id: BlockId| scene.frames.iter().any(|frame| frame.placed.contains(&id));
     let Some(name) = name else {
-        return match (scene.blocks.as_slice(), placed(BlockId(0))) {
-            ([_], Some(frame)) => Ok((frame, BlockId(0))),
-            _ => Err(format!(
-                "a free-body diagram shows one block; add --block with one of these names: {}",
-                first_names(scene)
-            )),
-        };
+        if scene.blocks.len() == 1 && is_placed(BlockId(0)) {
+            return Ok(BlockId(0));
+        }
+        return Err(format!(
+            "a free-body diagram shows one block; add --block with one of these names: {}",
+            first_names(scene)
+        ));
     };
     let block = named_block(scene, name)?;
-    match placed(block) {
-        Some(frame) => Ok((frame, block)),
-        None => Err(format!("block {name} is not placed in any of the frames")),
-    }
+    if is_placed(block) { Ok(block) } else { Err(format!("block {name} is not placed in any of the frames")) }
 }
 
 /// Finds the block with this name. If there is none, the error suggests a similar name or lists the blocks.
@@ -46,9 +36,10 @@ pub(crate) fn named_block(scene: &Scene, name: &str) -> Result<BlockId, String> 
 /// Lists the blocks of a scene for an error message: `; the blocks are a, b, …`. At most [`MAX_LISTED_BLOCKS`] are
 /// named.
 fn listed(scene: &Scene) -> String {
-    match scene.blocks.is_empty() {
-        true => "; the scene has no blocks".into(),
-        false => format!("; the blocks are {}", first_names(scene)),
+    if scene.blocks.is_empty() {
+        "; the scene has no blocks".into()
+    } else {
+        format!("; the blocks are {}", first_names(scene))
     }
 }
 

@@ -2,7 +2,7 @@
 //! panels of a figure share.
 //!
 //! A kind of figure is a type that implements the trait in a separate file, usually without fields;
-//! [`Kind`](super::Kind) lists all kinds. A good start for a new kind is a copy of `kernel.rs`, which is short.
+//! [`Kind`](super::Kind) lists all kinds. New kinds implement [`Figure`](super::sheet::Figure) instead.
 
 use core::cell::{Cell, OnceCell};
 
@@ -46,6 +46,10 @@ pub(crate) struct About {
     pub shares_arrow_scale: bool,
     /// Whether the figure shows no verdicts, independent of the options.
     pub hides_verdicts: bool,
+    /// Whether the line of the verdict states another margin than the headline margin.
+    pub states_own_margin: bool,
+    /// Whether the figure shows only the block that the options name, in one frame.
+    pub shows_one_block: bool,
     /// Whether the colour of a block shows the quantity that the option `fill` selects, by default its amplitude (the
     /// larger of its weight and its largest normal force). Otherwise blocks are plain.
     pub colours_show_amplitudes: bool,

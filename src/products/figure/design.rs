@@ -55,16 +55,19 @@ pub(crate) enum Layer {
     Symbol,
     Load,
     Missing,
+    /// Dimension lines around the picture.
+    Around,
 }
 
 impl Layer {
-    pub const ALL: [(Layer, &'static str); 6] = [
+    pub const ALL: [(Layer, &'static str); 7] = [
         (Layer::Ground, "ground"),
         (Layer::Stone, "blocks"),
         (Layer::Force, "forces"),
         (Layer::Symbol, "symbols"),
         (Layer::Load, "loads"),
         (Layer::Missing, "failures"),
+        (Layer::Around, "around"),
     ];
 }
 

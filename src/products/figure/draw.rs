@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::kind::Kind;
+use super::context::FigureContext;
+use super::kind::{Drawer, Kind};
 use super::layout::Layout;
 use super::option::Options;
 use super::sheet;
@@ -22,10 +23,10 @@ const MOTION_END_SECONDS: f64 = 1.0;
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let options = kind.options(options);
-    if let Some(figure) = kind.figure(&options) {
-        return sheet::page(analysis, figure, &options);
+    match kind.drawer(&options) {
+        Drawer::Canvas(figure) => sheet::page(&shown(analysis, kind), figure, &options),
+        Drawer::Panels(content) => strip(&shown(analysis, kind), content, &options),
     }
-    strip(&shown(analysis, kind), kind.content(), &options)
 }
 
 /// Draws the forces of an analysis. Each frame has a panel with its arrows, its caption and its verdict.
@@ -63,8 +64,8 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
     let (analysis, options) = (shown(analysis, kind), kind.options(options));
-    if !kind.content().about().needs_elementary_mechanisms {
-        let pages = frame_pages(&analysis, kind, &options).into_iter();
+    if !kind.about().needs_elementary_mechanisms {
+        let pages = frame_pages(&analysis, kind, &options, &all_frames(&analysis)).into_iter();
         return pages.map(|page| (page, seconds)).collect();
     }
     let mut steps: Vec<(usize, f64)> = Vec::new();
@@ -80,7 +81,10 @@ pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) ->
         times.extend((0..count).map(|_| (seconds / f64::from(count)).max(0.01)));
         times.push(MOTION_END_SECONDS);
     }
-    let pages = strip::steps_of(&analysis, kind.content(), &options, steps.into_iter());
+    let pages = match kind.drawer(&options) {
+        Drawer::Canvas(figure) => sheet::steps(&analysis, figure, &options, &steps),
+        Drawer::Panels(content) => strip::steps_of(&analysis, content, &options, steps.into_iter()),
+    };
     pages.into_iter().zip(times).collect()
 }
 
@@ -92,56 +96,54 @@ fn eased(time: f64) -> f64 {
 
 /// Draws the panels of [`draw`] as separate pages, one for each frame. All pages have the same size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    frame_pages(&shown(analysis, kind), kind, &kind.options(options))
+    frame_pages(&shown(analysis, kind), kind, &kind.options(options), &all_frames(analysis))
 }
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
     let options = kind.options(options);
     let count = analysis.frames.len();
-    let existing = frames.iter().copied().filter(|frame| *frame < count);
-    if let Some(figure) = kind.figure(&options) {
-        return sheet::pages(analysis, figure, &options, &existing.collect::<Vec<usize>>());
-    }
-    strip::pages(&shown(analysis, kind), kind.content(), &options, existing)
+    let existing: Vec<usize> = frames.iter().copied().filter(|frame| *frame < count).collect();
+    frame_pages(&shown(analysis, kind), kind, &options, &existing)
 }
 
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let options = kind.options(options);
-    if let Some(figure) = kind.figure(&options) {
-        return sheet::split(analysis, figure, &options, max_ratio);
+    match kind.drawer(&options) {
+        Drawer::Canvas(figure) => sheet::split(&shown(analysis, kind), figure, &options, max_ratio),
+        Drawer::Panels(content) => strip::split(&shown(analysis, kind), content, &options, max_ratio),
     }
-    strip::split(&shown(analysis, kind), kind.content(), &options, max_ratio)
 }
 
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
 /// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(options);
-    if let Some(figure) = kind.figure(&options) {
-        return sheet::least_size(analysis, figure, &options);
+    match kind.drawer(&options) {
+        Drawer::Canvas(figure) => sheet::least_size(analysis, figure, &options),
+        Drawer::Panels(content) => {
+            let context = FigureContext::new(analysis, &options, content);
+            Layout::new(&context, analysis.frames.len()).least(&context)
+        }
     }
-    let context = kind.context(analysis, &options);
-    Layout::new(&context, analysis.frames.len()).least(&context)
+}
+
+fn all_frames(analysis: &Analysis) -> Vec<usize> {
+    (0..analysis.frames.len()).collect()
 }
 
 /// Returns the analysis that a kind of figure shows: with elementary mechanisms if the kind needs them, otherwise
 /// unchanged.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
-    if kind.content().about().needs_elementary_mechanisms {
-        Cow::Owned(analysis.elementary())
-    } else {
-        Cow::Borrowed(analysis)
-    }
+    if kind.about().needs_elementary_mechanisms { Cow::Owned(analysis.elementary()) } else { Cow::Borrowed(analysis) }
 }
 
-/// Draws one page for each frame of the analysis.
-fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    let frames = 0..analysis.frames.len();
-    if let Some(figure) = kind.figure(options) {
-        return sheet::pages(analysis, figure, options, &frames.collect::<Vec<usize>>());
+/// Draws one page for each of these frames.
+fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
+    match kind.drawer(options) {
+        Drawer::Canvas(figure) => sheet::pages(analysis, figure, options, frames),
+        Drawer::Panels(content) => strip::pages(analysis, content, options, frames.iter().copied()),
     }
-    strip::pages(analysis, kind.content(), options, frames)
 }

@@ -1,14 +1,13 @@
 //! [`gallery`]: reproduces the figures of the thesis from scenes that are part of this crate.
 
 use super::caption::caption;
-use super::freebody::freebody;
 use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
 use super::plate::Panel;
 use super::ring::ring;
 use super::shapes::shapes;
 use super::{Kind, draw};
 use crate::mechanics::analysis::Analysis;
-use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Drawing, Theme};
 
 /// A figure of the gallery.
@@ -135,11 +134,10 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
         Subject::Freebody(text, block) => {
             let scene = read(text);
             let id = scene.blocks.iter().position(|b| b.id == *block);
-            let id = crate::mechanics::scene::BlockId(id.expect("the built-in scene has this block"));
+            let id = BlockId(id.expect("the built-in scene has this block"));
             // The figures of the thesis name every unknown.
-            let options = Options { corners: Corners::All, ..options };
-            let drawing = freebody(&Analysis::new(&scene), 0, id, &options);
-            let drawing = drawing.expect("the built-in scene places this block");
+            let options = Options { corners: Corners::All, block: Some(id), ..options };
+            let drawing = draw(&Analysis::new(&scene), Kind::Freebody, &options);
             let caption = format!("{}. Block {block} cut free.", scene.title);
             (drawing, caption)
         }

@@ -6,8 +6,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::canvas::Canvas;
+use super::content::{About, PanelContent};
 use super::description::pair;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::forces::FORCES;
 use super::option::{Fill, ForceStyle, Normalisation, Options};
 use super::placing::Label;
 use super::sheet::{Figure, View};
@@ -59,8 +61,8 @@ impl Figure for JointForces {
         stage::names(canvas);
     }
 
-    fn title(&self) -> &'static str {
-        "Forces in a dry-laid structure"
+    fn about(&self) -> About {
+        FORCES.about()
     }
 }
 
@@ -215,16 +217,9 @@ fn label(canvas: &mut Canvas<'_>, one: &Drawn<'_>, rank: u8, most: f64) {
     let size = canvas.look.text * canvas.theme().sizes.amount;
     let below = one.at.moved(0.0, canvas.mm(1.3 + 0.35 + 0.15) + 0.39 * size);
     let under = !one.both && one.u.1 < -0.5 && canvas.scene().lattice.is_none();
-    canvas.label(Label {
-        words,
-        bold: true,
-        colour: tint(canvas.theme(), if rank == 3 { 1.0 } else { one.newtons / most }),
-        anchors: [0.5, 0.1, 0.9].map(|share| along(one.at, one.u, share * half, 0.0)).to_vec(),
-        rank,
-        away: None,
-        fixed: under.then_some(below),
-        inside: None,
-    });
+    let ink = tint(canvas.theme(), if rank == 3 { 1.0 } else { one.newtons / most });
+    let anchors = [0.5, 0.1, 0.9].map(|share| along(one.at, one.u, share * half, 0.0)).to_vec();
+    canvas.label(Label { bold: true, fixed: under.then_some(below), ..Label::new(words, ink, anchors, rank) });
 }
 
 fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64) -> (Vec<Path>, f64) {

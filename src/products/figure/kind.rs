@@ -2,10 +2,10 @@
 
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
-use super::content::PanelContent;
-use super::context::FigureContext;
+use super::content::{About, PanelContent};
 use super::flow::ForceFlow;
 use super::forces::{BUILD, FORCES};
+use super::freebody::FreeBody;
 use super::joint_forces::{self, JointForces};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
@@ -27,6 +27,15 @@ use crate::mechanics::scene::Scene;
 /// same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: usize = 60;
+
+/// What draws a kind of figure.
+#[derive(Clone, Copy)]
+pub(crate) enum Drawer {
+    /// A strip of panels in the older look.
+    Panels(&'static dyn PanelContent),
+    /// A sheet of canvases.
+    Canvas(&'static dyn Figure),
+}
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,11 +73,14 @@ pub enum Kind {
     Compare,
     /// The structure and its loads, without forces and without a verdict.
     Structure,
+    /// One block as a free body: all forces on it with their names, and a table of them. The option `block` names the
+    /// block; the last frame that places it is shown.
+    Freebody,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 13] = [
+    pub const ALL: [Kind; 14] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -82,39 +94,46 @@ impl Kind {
         Kind::Sensitivity,
         Kind::Compare,
         Kind::Structure,
+        Kind::Freebody,
     ];
 
-    /// Returns the implementation of this kind of figure.
-    pub(crate) fn content(self) -> &'static dyn PanelContent {
+    /// Returns what draws a figure of this kind.
+    pub(crate) fn drawer(self, options: &Options) -> Drawer {
         match self {
-            Kind::Forces => &FORCES,
-            Kind::Flow => &ForceFlow,
-            Kind::Mechanism => &Mechanism,
-            Kind::Thrust => &ThrustLine,
-            Kind::Kernel => &Kernel,
-            Kind::Utilisation => &Utilisation,
-            Kind::Build => &BUILD,
-            Kind::Polygon => &ForcePolygon,
-            Kind::Margin => &CollapseMargin,
-            Kind::Capacity => &CarriedForces,
-            Kind::Sensitivity => &CornerEffects,
-            Kind::Compare => &Comparison,
-            Kind::Structure => &Structure,
+            Kind::Forces | Kind::Build if !joint_forces::is_source_look(options) => Drawer::Canvas(&JointForces),
+            Kind::Forces => Drawer::Panels(&FORCES),
+            Kind::Flow => Drawer::Panels(&ForceFlow),
+            Kind::Mechanism => Drawer::Panels(&Mechanism),
+            Kind::Thrust => Drawer::Panels(&ThrustLine),
+            Kind::Kernel => Drawer::Canvas(&Kernel),
+            Kind::Utilisation => Drawer::Canvas(&Utilisation),
+            Kind::Build => Drawer::Panels(&BUILD),
+            Kind::Polygon => Drawer::Canvas(&ForcePolygon),
+            Kind::Margin => Drawer::Panels(&CollapseMargin),
+            Kind::Capacity => Drawer::Panels(&CarriedForces),
+            Kind::Sensitivity => Drawer::Panels(&CornerEffects),
+            Kind::Compare => Drawer::Panels(&Comparison),
+            Kind::Structure => Drawer::Canvas(&Structure),
+            Kind::Freebody => Drawer::Canvas(&FreeBody),
         }
     }
 
-    /// Returns what draws this kind of figure on a [`Canvas`](super::canvas::Canvas). `None` for a kind that still has its
-    /// older look, and for options that only this look has.
-    pub(crate) fn figure(self, options: &Options) -> Option<&'static dyn Figure> {
+    /// Returns the name, the description and the requirements of this kind of figure.
+    pub(crate) fn about(self) -> About {
+        // Forces and build have two looks, and the older one knows which of the two kinds it is.
         match self {
-            Kind::Forces | Kind::Build if !joint_forces::is_source_look(options) => Some(&JointForces),
-            _ => None,
+            Kind::Forces => FORCES.about(),
+            Kind::Build => BUILD.about(),
+            kind => match kind.drawer(&Options::default()) {
+                Drawer::Panels(content) => content.about(),
+                Drawer::Canvas(figure) => figure.about(),
+            },
         }
     }
 
     /// Returns the name of this kind of figure in lower case, such as `mechanism`.
     pub fn name(self) -> &'static str {
-        self.content().about().name
+        self.about().name
     }
 
     /// Returns the kind of figure with this name; `None` if there is no such kind.
@@ -124,7 +143,7 @@ impl Kind {
 
     /// Returns one line of text that describes this kind of figure, for a list of all kinds.
     pub fn help(self) -> &'static str {
-        self.content().about().help
+        self.about().help
     }
 
     /// True if the line of the verdict gives the headline margin of this scene: a figure of forces of one frame, of few
@@ -132,13 +151,20 @@ impl Kind {
     #[cfg(any(feature = "cli", feature = "wasm"))]
     fn states_margin(self, scene: &Scene, options: &Options) -> bool {
         let [frame] = &scene.frames[..] else { return false };
-        options.verdict_margin && frame.placed.len() <= MAX_MARGIN_BLOCKS && self.figure(options).is_some()
+        let about = self.about();
+        options.verdict_margin
+            && frame.placed.len() <= MAX_MARGIN_BLOCKS
+            && !(about.hides_verdicts || about.shows_one_block || about.states_own_margin)
+            && matches!(self.drawer(options), Drawer::Canvas(_))
     }
 
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and
     /// is complete without them. Returns `None` if there are no optional margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
-        let kinds = self.content().stated_margins(analysis);
+        let kinds = match self.drawer(&Options::default()) {
+            Drawer::Panels(content) => content.stated_margins(analysis),
+            Drawer::Canvas(figure) => figure.stated_margins(analysis),
+        };
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
@@ -185,35 +211,34 @@ impl Kind {
     /// True if the figure needs margins. The analysis computes them only on request
     /// ([`analysis::Options::margins`](crate::mechanics::analysis::Options::margins)).
     pub fn needs_margins(self) -> bool {
-        self.content().about().needs_margins
+        self.about().needs_margins
     }
 
     /// True if the figure needs the forces that a block can carry. The analysis computes them only on request
     /// ([`analysis::Options::capacity`](crate::mechanics::analysis::Options::capacity)).
     pub fn needs_capacity(self) -> bool {
-        self.content().about().needs_capacity
+        self.about().needs_capacity
     }
 
     /// True if the figure needs the derivatives of a margin. The analysis computes them only on request
     /// ([`analysis::Options::sensitivity`](crate::mechanics::analysis::Options::sensitivity)).
     pub fn needs_sensitivity(self) -> bool {
-        self.content().about().needs_sensitivity
+        self.about().needs_sensitivity
+    }
+
+    /// True if the figure shows only one block, in one frame.
+    pub fn shows_one_block(self) -> bool {
+        self.about().shows_one_block
     }
 
     /// Returns a copy of the options for a figure of this kind. A kind whose panels share one scale of arrows overrides
     /// the option `scale`, and a kind that shows no verdicts the option `verdicts`.
     pub(crate) fn options(self, options: &Options) -> Options {
         let mut options = options.clone();
-        if self.content().about().shares_arrow_scale {
+        if self.about().shares_arrow_scale {
             options.scale = ArrowScale::Strip;
         }
-        options.verdicts &= !self.content().about().hides_verdicts;
+        options.verdicts &= !self.about().hides_verdicts;
         options
-    }
-
-    /// Computes the data that all panels of a figure of this kind have in common, such as the arrows and the shown part
-    /// of the scene.
-    pub(crate) fn context<'a>(self, analysis: &'a Analysis, options: &'a Options) -> FigureContext<'a> {
-        FigureContext::new(analysis, options, self.content())
     }
 }

@@ -124,12 +124,12 @@ request! {
         /// Whether the captions of frames are drawn.
         pub captions: bool = !given.flag("no_caption"),
             arg(long = "no-caption", action = clap::ArgAction::SetFalse, help = "Leave out the frames' captions");
-        /// Whether verdicts and the texts below them are drawn. A free-body diagram ignores this option.
+        /// Whether verdicts and the texts below them are drawn.
         pub verdicts: bool = !given.flag("no_verdict"),
             arg(long = "no-verdict", action = clap::ArgAction::SetFalse,
                 help = "Leave out the verdicts and the text below them");
-        /// Whether the scale of arrows and the legend are drawn; in a free-body diagram also the verdict, the notes and
-        /// the list of forces.
+        /// Whether the scale of arrows and the legend are drawn; in a figure of a free body also the notes and the list
+        /// of forces.
         pub keys: bool = !given.flag("no_key"),
             arg(long = "no-key", action = clap::ArgAction::SetFalse, help = "Leave out the key and the scale of arrows");
         /// Whether blocks and robots have labels with their names, and loads, missing forces and the largest forces
@@ -168,6 +168,8 @@ request! {
         pub toward: Toward = Toward::default(), arg(skip);
         /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
         pub motion_progress: f64 = given.number("way").map_or(1.0, |way| way.clamp(0.0, 1.0)), arg(skip = 1.0);
+        /// The block of [`Kind::Freebody`](super::Kind::Freebody); `None` for the block with the largest contact force.
+        pub block: Option<BlockId> = None, arg(skip);
         /// The block in the centre of a zoomed picture. The picture only shows this block and its surroundings. `None`
         /// for the whole structure.
         pub zoom: Option<BlockId> = None, arg(skip);

@@ -4,8 +4,6 @@
 mod listed;
 mod stroke;
 
-pub(crate) use stroke::SWEEP;
-
 use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
 use super::context::{FigureContext, MANY_BLOCKS};

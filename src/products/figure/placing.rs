@@ -7,6 +7,7 @@
 use super::design::{Layer, Look, Mark, around};
 use super::option::Options;
 use crate::geometry::{Aabb, BoxIndex};
+use crate::pictures::drawing::symbol::Symbol;
 use crate::pictures::drawing::{
     Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Segment, Stroke, Text, text,
 };
@@ -22,6 +23,8 @@ const LEAST_LEADER: f64 = 1.4;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
 
+/// The font size of a symbol as a multiple of the size of other labels.
+const SYMBOL_SIZE: f64 = 1.35;
 /// The cost of a label that lies beside its panel, per mm.
 const BESIDE_PANEL: f64 = 3.0;
 
@@ -40,8 +43,26 @@ pub(crate) struct Label {
     /// The middle of a position that is taken without a search if no other label lies there.
     pub fixed: Option<PagePoint>,
     /// Whether the text is the name of a block: it then only stands in this rectangle, inside the block, without a
-    /// leader. All names are left out if too few have a place.
+    /// leader. All names of one rank are left out if too few of them have a place.
     pub inside: Option<PageRect>,
+    /// A mathematical symbol that is drawn instead of the words.
+    pub symbol: Option<Symbol>,
+}
+
+impl Label {
+    /// Returns a label that may stand beside any of these points.
+    pub fn new(words: String, colour: Colour, anchors: Vec<PagePoint>, rank: u8) -> Label {
+        let (away, fixed, inside, symbol) = (None, None, None, None);
+        Label { words, bold: false, colour, anchors, rank, away, fixed, inside, symbol }
+    }
+
+    /// Returns the width and the height of the ink, pixels. `size` is the font size in pixels.
+    fn size(&self, size: f64) -> (f64, f64) {
+        match &self.symbol {
+            Some(symbol) => symbol.size(SYMBOL_SIZE * size),
+            None => (text::width(&self.words, face(self), size), 0.95 * size),
+        }
+    }
 }
 
 /// The labels that have a position.
@@ -149,24 +170,25 @@ pub(crate) fn labels(mut labels: Vec<Label>, drawn: &Surroundings, look: Look, o
     let mut placed = PlacedLabels::default();
     let size = look.text * options.theme.sizes.amount;
     for label in others {
-        let wide = text::width(&label.words, face(&label), size) + look.mm(0.4);
-        let size = (wide, 0.95 * size + look.mm(0.3));
+        let (wide, high) = label.size(size);
+        let size = (wide + look.mm(0.4), high + look.mm(0.3));
         if let Some(position) = search(&label, size, drawn, &placed.rects, look) {
             placed.put(&label, position, look, options);
         }
     }
-    let asked = names.len();
-    let found: Vec<(Label, PageRect)> = names
-        .into_iter()
-        .filter_map(|label| {
-            let wide = text::width(&label.words, face(&label), size);
-            let rect = name_place(&label, (wide, 0.74 * size), drawn, &placed.rects, look)?;
-            Some((label, rect))
-        })
-        .collect();
-    if found.len() as f64 >= LEAST_NAMED * asked as f64 {
-        for (label, rect) in found {
-            placed.put(&label, Position { cost: 0.0, rect, leader: None }, look, options);
+    for names in names.chunk_by(|a, b| a.rank == b.rank) {
+        let found: Vec<(&Label, PageRect)> = names
+            .iter()
+            .filter_map(|label| {
+                let wide = text::width(&label.words, face(label), size);
+                let rect = name_place(label, (wide, 0.74 * size), drawn, &placed.rects, look)?;
+                Some((label, rect))
+            })
+            .collect();
+        if found.len() as f64 >= LEAST_NAMED * names.len() as f64 {
+            for (label, rect) in found {
+                placed.put(label, Position { cost: 0.0, rect, leader: None }, look, options);
+            }
         }
     }
     placed
@@ -180,7 +202,7 @@ impl PlacedLabels {
     fn put(&mut self, label: &Label, position: Position, look: Look, options: &Options) {
         let (rect, theme) = (position.rect, &options.theme);
         let size = look.text * theme.sizes.amount;
-        let class = if label.inside.is_some() { "name" } else { "amount" };
+        let class = if label.inside.is_some() || label.symbol.is_some() { "name" } else { "amount" };
         let mut group = Group::with_class(class);
         if let Some(anchor) = position.leader {
             let from = nearest(rect, anchor);
@@ -193,6 +215,14 @@ impl PlacedLabels {
                 group = group.with(Path::stroked(line, Stroke::new(label.colour, look.mm(0.18))));
                 self.rects.push(around([from, to]).unwrap_or(rect));
             }
+        }
+        if let Some(symbol) = &label.symbol {
+            let (wide, high) = label.size(size);
+            let at = rect.at.moved((rect.width - wide) / 2.0, (rect.height - high) / 2.0);
+            let rect = PageRect { at, width: wide, height: high };
+            self.items.push(group.with(symbol.draw(rect, SYMBOL_SIZE * size, label.colour)).into());
+            self.rects.push(rect);
+            return;
         }
         let base = rect.at.moved(rect.width / 2.0, rect.height / 2.0 + 0.36 * size);
         let words = Text::new(base, label.words.as_str(), face(label), size, label.colour).anchored(Anchor::Middle);

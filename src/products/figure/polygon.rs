@@ -1,218 +1,226 @@
-//! Draws the force polygon next to the structure: the external forces on the structure as arrows, each of which begins
-//! at the tip of the previous arrow.
+//! Draws the force polygon next to the structure, as on plates of graphic statics: the external forces on the structure
+//! as arrows, each of which begins at the tip of the previous arrow.
 //!
 //! Its first sides are weights and loads, block by block. Then come the forces of the ground and the robots, and
 //! finally missing forces from the ground and from robots, which are hollow and dashed. The polygon is closed if the
 //! structure is in equilibrium. Forces that are missing between two blocks are no sides, because they act in opposite
-//! pairs. If no other forces are missing, the polygon of a structure that falls is closed too. Each arrow has the same
-//! colour and force as on the structure. The polygon has its own scale, which the legend shows.
+//! pairs. If no other forces are missing, the polygon of a structure that falls is closed too. The forces of the ground
+//! have the same letters at the structure and in the polygon. All polygons of a figure have one scale.
 
-mod closure;
-mod symbol;
+use std::rc::Rc;
 
-use super::arrow::{ArrowKind, ForceArrow, Marks};
-use super::content::{About, FrameSource, PanelContent};
-use super::context::FigureContext;
-use super::description;
-use super::label;
-use super::legend::{self, Entry};
-use super::mark;
-use super::panel::{composed, cut_ground};
-use super::pen::Pen;
+use super::canvas::Canvas;
+use super::content::About;
+use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::option::Options;
+use super::placing::Label;
+use super::sheet::{Figure, Subject, View};
+use super::stage;
 use super::unit::unit;
 use super::verdict;
-use super::view;
-use super::words::{letter, listed, quantity, round_below, round_below_in};
+use super::words::{force, letter, quantity, round_below_in};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, Verdict};
-use crate::mechanics::scene::{BodyId, Unit};
-use crate::pictures::drawing::arrow::straight;
-use crate::pictures::drawing::placement::Ink;
-use crate::pictures::drawing::{Group, Item, Outline, Path, Stroke};
-use symbol::{JOIN_SYMBOL, join_stroke, join_symbol, missing, missing_symbol};
+use crate::mechanics::analysis::{Analysis, Failure, Verdict};
+use crate::mechanics::scene::{BlockId, BodyId, ForceCause, RobotId};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
 
 /// Largest width and height of the polygon, as a fraction of the larger side of the structure.
 const POLYGON_SIZE: f64 = 0.75;
 /// Largest height of the polygon as a fraction of the structure's width. If the structure is higher than this, the
 /// height of the structure is the limit.
 const POLYGON_HEIGHT: f64 = 0.4;
-/// Longest arrow that shows the scale of a polygon in the legend, pixels.
-const SCALE_ARROW: f64 = 64.0;
 /// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit lengths.
-const POLYGON_GAP: (f64, f64) = (0.12, 1.0);
+const POLYGON_GAP: (f64, f64) = (0.17, 1.0);
+/// Space for amounts to the right of the polygon, as a fraction of the width of the structure.
+const AMOUNT_SPACE: f64 = 0.15;
 /// A polygon is closed if its gap is at most this fraction of the sum of the magnitudes of all forces. Rounding errors
 /// are far smaller, and missing forces are far larger.
 const CLOSURE_TOL: f64 = 1e-6;
-
-/// True if a force acts on the structure from outside: a weight, a load, or a force of the ground or a robot. Such a
-/// force is a side of the polygon.
-fn outside(arrow: &ForceArrow) -> bool {
-    !matches!(arrow.kind.partner(), Some(BodyId::Block(_)))
-}
-
-/// Returns the forces that are sides of the force polygon of a frame, in drawing order.
-fn outer(marks: &Marks) -> impl Iterator<Item = &ForceArrow> {
-    marks.arrows.iter().filter(|arrow| outside(arrow))
-}
-
-/// The figure of the force polygon.
-pub(crate) struct ForcePolygon;
-
-impl PanelContent for ForcePolygon {
-    fn about(&self) -> About {
-        About {
-            name: "polygon",
-            help: "The external forces on the structure, and their force polygon next to it",
-            title: "The force polygon of a dry-laid structure",
-            draws_forces: true,
-            stretches_arrows: true,
-            ..About::default()
-        }
-    }
-
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        mark::largest(of.analysis, of.frame, of.options)
-    }
-
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        let FrameSource { analysis, frame, options } = of;
-        let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-        let shown = |arrow: &ForceArrow| outside(arrow) || arrow.kind.is_failure();
-        let mut arrows: Vec<ForceArrow> = marks.arrows.into_iter().filter(shown).collect();
-        arrows.sort_by_key(|arrow| match arrow.kind {
-            ArrowKind::Weight | ArrowKind::Load => 0,
-            kind if kind.is_failure() => 2,
-            _ => 1,
-        });
-        Marks { arrows, ..marks }
-    }
-
-    fn extent(&self, of: FrameSource<'_>, unit: f64, marks: &Marks) -> Option<Bounds> {
-        let chain = chain(of.analysis, marks)?;
-        let own = Bounds::from_points(chain.sides.into_iter().flatten())?;
-        Some(own.grown(0.3 * unit))
-    }
-
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let scene = &pen.context.analysis.scene;
-        let mut ink = label::ink(pen);
-        let polygon = drawn_polygon(pen, &mut ink);
-        let parts = vec![pen.arrows(false), pen.arrows(true), polygon];
-        // Keep labels out of the area to the right of the shown ground, where the ground is cut off.
-        if let Some(shown) = view::ground_shown(scene, unit(scene, None)) {
-            let mut beyond = pen.camera.rect(shown);
-            let right = beyond.at.x + beyond.width;
-            let page = pen.camera.rect(view);
-            beyond.at.x = right;
-            beyond.width = (page.at.x + page.width - right).max(0.0);
-            ink.rect(beyond);
-        }
-        let mut picture = composed(pen, view, pen.blocks(), parts, ink);
-        // Cut the ground, so that the polygon does not seem to rest on it.
-        cut_ground(pen, &mut picture);
-        picture
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-        let mut entries = legend::entries(context, unit);
-        // In this figure, the colours of blocks show no quantity, and joints at their limit have no mark.
-        entries.retain(|entry| !matches!(entry, Entry::Amplitudes(..)) && !legend::is_limit(entry));
-        let mut sides = context.marks.iter().flat_map(outer);
-        if sides.any(|arrow| arrow.kind.is_failure()) {
-            let what = "side of the polygon that shows a missing force".to_owned();
-            entries.push(Entry::Symbol(missing_symbol, 26.0, what));
-        }
-        let frames = context.marks.iter().enumerate();
-        let mut joined = false;
-        let scales = frames.filter_map(|(frame, marks)| {
-            let chain = chain(context.analysis, marks)?;
-            joined |= !chain.joins.is_empty();
-            Some((frame, chain.scale * unit / context.unit))
-        });
-        let scales: Vec<(usize, f64)> = scales.collect();
-        if joined {
-            let what = "the same corner of the force polygon, drawn at two places".to_owned();
-            entries.push(Entry::Symbol(join_symbol, JOIN_SYMBOL, what));
-        }
-        entries.extend(scale_entries(&scales, context.analysis.scene.units.force()));
-        entries
-    }
-
-    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let scene = &context.analysis.scene;
-        let frame_analysis = &context.analysis.frames[frame];
-        let why = verdict::reason(scene, frame_analysis);
-        let marks = &context.marks[frame];
-        if outer(marks).next().is_none() {
-            return why;
-        }
-        let (how, why) = match (frame_analysis.verdict, closed(outer(marks))) {
-            (_, false) => ("the force polygon is open".to_owned(), why),
-            (Verdict::Stable, true) => ("the force polygon is closed".to_owned(), why),
-            (Verdict::Unstable, true) => closure::reason(scene, frame_analysis, marks),
-            (Verdict::Undecided, true) => {
-                let how = "the force polygon of the forces found is closed".to_owned();
-                (how, why)
-            }
-        };
-        if why.is_empty() { how } else { format!("{how}; {why}") }
-    }
-}
-
-/// Draws the force polygon of a frame. If actions (weights and loads) and reactions are drawn apart, dashed lines
-/// connect the two positions of each common corner. If the polygon is open, a dashed line closes the gap.
-fn drawn_polygon(pen: &Pen<'_>, ink: &mut Ink) -> Group {
-    let (context, camera) = (pen.context, pen.camera);
-    let theme = &context.options.theme;
-    let marks = &context.marks[pen.number];
-    let mut polygon = Group::with_class("polygon").titled("Force polygon");
-    let Some(chain) = chain(context.analysis, marks) else {
-        return polygon;
-    };
-    for (arrow, ends) in outer(marks).zip(&chain.sides) {
-        let from = camera.place(ends[0]);
-        let along = camera.turn(ends[1] - ends[0]);
-        ink.arrow(from, along, pen.width(arrow));
-        let outline = straight(from, along, pen.width(arrow));
-        let path = if arrow.kind.is_failure() {
-            missing(outline, arrow.colour, theme)
-        } else {
-            Path::filled(outline, arrow.colour)
-        };
-        let title = description::arrow(context, arrow);
-        let drawn = Group::with_class("force").titled(title).with(path);
-        polygon.items.push(drawn.into());
-    }
-    let dashed = |class, title, ends: [Point; 2], stroke| -> Item {
-        let line = Outline::line(ends.map(|p| camera.place(p)));
-        let drawn = Group::with_class(class).titled(title);
-        drawn.with(Path::stroked(line, stroke)).into()
-    };
-    // If actions and reactions are drawn apart, two dashed lines each connect two positions of the same corner. In an
-    // open polygon, the second line would look like the line of the gap, so it is left out.
-    let closed = closed(outer(marks));
-    for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
-        let title = "The same corner of the force polygon, drawn at two places";
-        let stroke = join_stroke(theme);
-        polygon.items.push(dashed("join", title, *join, stroke));
-    }
-    let ends = (chain.sides.last(), chain.sides.first());
-    if let ((Some(last), Some(first)), false) = (ends, closed) {
-        let stroke = Stroke::new(theme.failure, 1.4).dashed([5.0, 4.0]);
-        let title = "The force that is missing for equilibrium";
-        let gap = [last[1], first[0]];
-        polygon.items.push(dashed("gap", title, gap, stroke));
-    }
-    polygon
-}
-
+/// Forces of the ground and of robots below this fraction of the largest force may be errors of the solver.
+const NOISE: f64 = 1e-9;
 /// If two points of a reaction are nearer to an action (a weight or a load) than this fraction of the polygon's size,
 /// all reactions are moved sideways, so that they do not cover the actions.
 const OVERLAP_SHARE: f64 = 0.03;
 /// Distance by which reactions are moved sideways, as a fraction of the polygon's size.
 const REACTION_OFFSET: f64 = 0.09;
+/// Longest arrow that shows the scale of a polygon in the legend, mm.
+const SCALE_ARROW: f64 = 12.0;
+/// At most this many forces of the ground have letters.
+const MAX_LETTERS: usize = 12;
 
-/// The polygon of a frame: the ends of each arrow in the scene, metres, and the scale.
+/// What exerts an external force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cause {
+    Weight,
+    Load,
+    Ground,
+    Robot(RobotId),
+    /// A missing force of the ground.
+    MissingGround,
+    /// A missing force of a robot.
+    MissingRobot(RobotId),
+}
+
+impl Cause {
+    fn is_missing(self) -> bool {
+        matches!(self, Cause::MissingGround | Cause::MissingRobot(_))
+    }
+
+    fn is_action(self) -> bool {
+        matches!(self, Cause::Weight | Cause::Load)
+    }
+}
+
+/// An external force on the structure: a side of the polygon.
+#[derive(Clone, Debug)]
+struct Side {
+    cause: Cause,
+    on: BlockId,
+    /// The point at which it acts, metres.
+    at: Point,
+    /// The force, N.
+    force: Vector,
+}
+
+/// The figure of the force polygon.
+pub(crate) struct ForcePolygon;
+
+impl Figure for ForcePolygon {
+    fn about(&self) -> About {
+        About {
+            name: "polygon",
+            help: "The external forces on the structure, and their force polygon next to it",
+            title: "The force polygon of a dry-laid structure",
+            states_own_margin: true,
+            ..About::default()
+        }
+    }
+
+    fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
+        let subject = Subject::structure(analysis, options, frames);
+        if options.zoom.is_some() {
+            return subject;
+        }
+        let chains = (0..analysis.frames.len()).filter_map(|frame| Chain::new(analysis, frame));
+        let corners = chains.filter_map(|chain| Bounds::from_points(chain.sides.into_iter().flatten()));
+        let mut bounds = corners.fold(subject.bounds, Bounds::union);
+        bounds.max.x += AMOUNT_SPACE * subject.bounds.width();
+        Subject { bounds, ..subject }
+    }
+
+    fn scale(&self, view: &View<'_>, look: Look) -> f64 {
+        let frames = 0..view.analysis.frames.len();
+        let ground = frames.flat_map(|frame| sides(view.analysis, frame)).filter(|side| !side.cause.is_action());
+        let largest = ground.map(|side| side.force.norm()).fold(0.0, f64::max);
+        if largest > 0.0 { look.mm(8.0) / largest } else { 0.0 }
+    }
+
+    fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
+        let sides = sides(analysis, frame);
+        let found = &analysis.frames[frame];
+        if sides.is_empty() {
+            return Vec::new();
+        }
+        let how = match (found.verdict, is_closed(&sides)) {
+            (_, false) => "the force polygon is open",
+            (Verdict::Stable, true) => "the force polygon is closed",
+            (Verdict::Unstable, true) => closure(&sides, &found.failures),
+            (Verdict::Undecided, true) => "the force polygon of the forces found is closed",
+        };
+        let why = verdict::reason(&analysis.scene, found);
+        let why = Some(why).filter(|why| found.verdict == Verdict::Undecided && !why.is_empty());
+        std::iter::once(how.to_owned()).chain(why).collect()
+    }
+
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        let structure = Subject::structure(canvas.analysis, canvas.options, None).bounds;
+        let all = core::mem::replace(&mut canvas.structure, canvas.camera.rect(structure));
+        stage::ground(canvas);
+        canvas.structure = all;
+        stage::blocks(canvas);
+        let sides = sides(canvas.analysis, canvas.number);
+        at_structure(canvas, &sides);
+        stage::held(canvas);
+        stage::loads(canvas);
+        stage::names(canvas);
+        if canvas.options.zoom.is_none() {
+            polygon(canvas, &sides);
+        }
+    }
+}
+
+/// Returns the external forces on the structure of a frame, in the order of the polygon: weights and loads block by
+/// block, forces of the ground and of robots, missing forces.
+fn sides(analysis: &Analysis, frame: usize) -> Vec<Side> {
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let applied = scene.applied_forces();
+    let placed = scene.frames[frame].placed.iter().flat_map(|id| &applied[id.0]);
+    let actions = placed.map(|applied| {
+        let cause = if applied.cause == ForceCause::Weight { Cause::Weight } else { Cause::Load };
+        Side { cause, on: applied.block, at: applied.at, force: applied.force }
+    });
+    let ground = found.contacts.iter().filter_map(|contact| {
+        let (force, at) = (contact.resultant.force, contact.resultant.at);
+        let side = |on: BlockId, force: Vector| Side { cause: Cause::Ground, on, at, force };
+        match contact.interface.bodies {
+            [BodyId::Block(on), BodyId::Ground(_)] => Some(side(on, force)),
+            [BodyId::Ground(_), BodyId::Block(on)] => Some(side(on, -force)),
+            _ => None,
+        }
+    });
+    let robots = found.robots.iter();
+    let robots =
+        robots.map(|held| Side { cause: Cause::Robot(held.robot), on: held.block, at: held.at, force: held.force });
+    let missing = found.failures.iter().filter_map(|failure| {
+        let side = |cause: Cause, on: BlockId| {
+            let (force, _) = failure.on(BodyId::Block(on))?;
+            Some(Side { cause, on, at: failure.at(), force })
+        };
+        match *failure {
+            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
+                [BodyId::Block(on), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(on)] => {
+                    side(Cause::MissingGround, on)
+                }
+                _ => None,
+            },
+            Failure::RobotForce { robot, block, .. } => side(Cause::MissingRobot(robot), block),
+            Failure::RobotTorque { .. } => None,
+        }
+    });
+    let mut all: Vec<Side> = actions.chain(ground).chain(robots).chain(missing).collect();
+    let largest = all.iter().map(|side| side.force.norm()).fold(0.0, f64::max);
+    all.retain(|side| side.force.norm() > NOISE * largest);
+    all
+}
+
+/// True if the sum of the forces is zero, except for rounding.
+fn is_closed(sides: &[Side]) -> bool {
+    let sum: Vector = sides.iter().map(|side| side.force).sum();
+    let all: f64 = sides.iter().map(|side| side.force.norm()).sum();
+    sum.norm() <= CLOSURE_TOL * all
+}
+
+/// Returns why the polygon of a structure that falls is closed. Missing forces between two blocks act in opposite pairs,
+/// so they do not change the polygon.
+fn closure(sides: &[Side], failures: &[Failure]) -> &'static str {
+    let ground = sides.iter().any(|side| side.cause == Cause::MissingGround);
+    let robots = sides.iter().any(|side| matches!(side.cause, Cause::MissingRobot(_)));
+    let carried: Vec<Side> = sides.iter().filter(|side| !side.cause.is_missing()).cloned().collect();
+    match (ground, robots) {
+        (true, false) if !is_closed(&carried) => "the force polygon closes only with the missing forces at the ground",
+        (false, true) if !is_closed(&carried) => "the force polygon closes only with the missing forces from robots",
+        (true, true) if !is_closed(&carried) => {
+            "the force polygon closes only with the missing forces at the ground and from robots"
+        }
+        (false, false) if failures.iter().any(|failure| failure.force().norm() > 0.0) => {
+            "the force polygon closes, because the forces missing inside the structure act in pairs"
+        }
+        (false, false) => "the force polygon closes, because only torques are missing",
+        _ => "the force polygon closes even without the missing forces, because their sum is zero",
+    }
+}
+
+/// The polygon of a frame: the ends of each side in the scene, metres, and the scale.
 struct Chain {
     sides: Vec<[Point; 2]>,
     /// Pairs of positions of the same corner, if actions and reactions are drawn apart; otherwise empty.
@@ -221,127 +229,247 @@ struct Chain {
     scale: f64,
 }
 
+/// Returns the corners of a polygon that begins at the origin, N.
+fn corners(sides: &[Side]) -> Vec<Point> {
+    let mut at = Point::origin();
+    let next = sides.iter().map(|side| {
+        at += side.force;
+        at
+    });
+    std::iter::once(Point::origin()).chain(next).collect()
+}
+
+impl Chain {
+    /// Places the polygon of a frame to the right of the structure. Returns `None` if this frame has fewer than two
+    /// external forces.
+    fn new(analysis: &Analysis, frame: usize) -> Option<Chain> {
+        let scene = &analysis.scene;
+        let blocks = stage::shown_blocks(scene).into_iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
+        let structure = blocks.reduce(Bounds::union)?;
+        let scale = scale(analysis, structure)?;
+        let sides = sides(analysis, frame);
+        let corners = corners(&sides);
+        let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
+        let size = own.width().max(own.height());
+        let acting = sides.iter().position(|side| !side.cause.is_action()).unwrap_or(sides.len());
+        let is_covered = covers(&corners[..=acting], &corners[acting..], size);
+        let aside = if is_covered { REACTION_OFFSET * size } else { 0.0 };
+        let (share, least) = POLYGON_GAP;
+        let apart = (share * structure.diagonal()).max(least * unit(scene, None));
+        let middle = 0.5 * (structure.min.y + structure.max.y);
+        let left = structure.max.x + apart;
+        let shift = Vector::new(left - scale * own.min.x, middle - 0.5 * scale * (own.min.y + own.max.y));
+        let place = |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * scale + shift);
+        let side = |(number, ends): (usize, &[Point])| {
+            let aside = if number < acting { 0.0 } else { aside };
+            [place(ends[0], aside), place(ends[1], aside)]
+        };
+        let ends = [(corners[acting], corners[acting]), (*corners.last()?, corners[0])];
+        let joins = ends.map(|(answer, act)| [place(act, 0.0), place(answer, aside)]).to_vec();
+        let sides = corners.windows(2).enumerate().map(side).collect();
+        Some(Chain { sides, joins: if aside > 0.0 { joins } else { Vec::new() }, scale })
+    }
+}
+
+/// Returns the one scale of all polygons, metres per newton; `None` if there is no polygon.
+fn scale(analysis: &Analysis, structure: Bounds) -> Option<f64> {
+    let size = POLYGON_SIZE * structure.width().max(structure.height());
+    let high = structure.height().max(POLYGON_HEIGHT * structure.width()).min(size);
+    let polygons = (0..analysis.frames.len()).map(|frame| corners(&sides(analysis, frame)));
+    let boxes = polygons.filter(|corners| corners.len() > 2).filter_map(Bounds::from_points);
+    let fitting = boxes.map(|own| (size / own.width()).min(high / own.height()));
+    fitting.filter(|scale| *scale > 0.0 && scale.is_finite()).reduce(f64::min)
+}
+
 /// True if sides of reactions would cover sides of actions, because they lie on the same line. `acting` are the corners
 /// at the ends of all actions (weights and loads), `answering` those at the ends of all reactions. `size` is the size
 /// of the polygon, in the unit of these corners.
 fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
-    let pair = |ends: &[Point]| [ends[0], ends[1]];
-    let (acting, answering): (Vec<_>, Vec<_>) =
-        (acting.windows(2).map(pair).collect(), answering.windows(2).map(pair).collect());
     // Two sides overlap if the midpoint and the first quarter point of one of them both lie close to the other.
     let from = |[a, b]: [Point; 2], p: Point| {
-        let along = b - a;
-        let length = along.norm_squared();
-        let share = if length > 0.0 { ((p - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
-        (p - (a + along * share)).norm()
+        let way = b - a;
+        let length = way.norm_squared();
+        let share = if length > 0.0 { ((p - a).dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
+        (p - (a + way * share)).norm()
     };
-    let lies_on = |short: &[Point; 2], long: &[Point; 2]| {
+    let lies_on = |short: [Point; 2], long: [Point; 2]| {
         let middle = nalgebra::center(&short[0], &short[1]);
         let quarter = nalgebra::center(&short[0], &middle);
-        [middle, quarter].iter().all(|p| from(*long, *p) < OVERLAP_SHARE * size)
+        [middle, quarter].iter().all(|p| from(long, *p) < OVERLAP_SHARE * size)
     };
-    acting.iter().any(|a| {
-        let mut others = answering.iter();
-        others.any(|b| lies_on(a, b) || lies_on(b, a))
-    })
+    let pairs = |corners: &[Point]| corners.windows(2).map(|ends| [ends[0], ends[1]]).collect::<Vec<[Point; 2]>>();
+    let (acting, answering) = (pairs(acting), pairs(answering));
+    acting.iter().any(|a| answering.iter().any(|b| lies_on(*a, *b) || lies_on(*b, *a)))
 }
 
-/// Computes the force polygon of a frame from the external forces among the arrows in `marks`. The polygon is placed to
-/// the right of the structure. Returns `None` if no frame has a block, if this frame has fewer than two external
-/// forces, or if all of them are 0.
-fn chain(analysis: &Analysis, marks: &Marks) -> Option<Chain> {
-    let scene = &analysis.scene;
-    let blocks = scene.frames.iter().flat_map(|frame| &frame.placed);
-    let structure = blocks.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)?;
-    // The corners of the polygon, N.
-    let mut at = Point::origin();
-    let mut corners = vec![at];
-    for arrow in outer(marks) {
-        at += arrow.force;
-        corners.push(at);
-    }
-    let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
-    let size = own.width().max(own.height());
-    if size.is_nan() || size <= 0.0 {
-        return None;
-    }
-    let scale = scale(structure, own, analysis.frames.len() > 1);
-    if scale <= 0.0 || !scale.is_finite() {
-        return None;
-    }
-    let answers = |arrow: &ForceArrow| !matches!(arrow.kind, ArrowKind::Weight | ArrowKind::Load);
-    let acting = outer(marks).position(answers);
-    let acting = acting.unwrap_or(corners.len() - 1);
-    let aside = if covers(&corners[..=acting], &corners[acting..], size) { REACTION_OFFSET * size } else { 0.0 };
-    let (share, least) = POLYGON_GAP;
-    let apart = (share * structure.diagonal()).max(least * unit(scene, None));
-    // Place the polygon to the right of the structure and its ground, at the height of the middle of the structure.
-    let right = view::ground_shown(scene, unit(scene, None)).map_or(structure.max.x, |g| structure.max.x.max(g.max.x));
-    let middle = 0.5 * (structure.min.y + structure.max.y);
-    let shift = Vector::new(right + apart - scale * own.min.x, middle - 0.5 * scale * (own.min.y + own.max.y));
-    let place = |p: Point, aside: f64| Point::from((p.coords + Vector::new(aside, 0.0)) * scale + shift);
-    let side = |(number, ends): (usize, &[Point])| {
-        let aside = if number < acting { 0.0 } else { aside };
-        [place(ends[0], aside), place(ends[1], aside)]
-    };
-    let ends = [corners[acting], at];
-    let ends = ends.into_iter().zip([corners[acting], corners[0]]);
-    let joins = ends.map(|(answer, act)| [place(act, 0.0), place(answer, aside)]);
-    Some(Chain {
-        sides: corners.windows(2).enumerate().map(side).collect(),
-        joins: if aside > 0.0 { joins.collect() } else { Vec::new() },
-        scale,
-    })
-}
-
-/// Returns the scale of a polygon, metres per newton. `structure` is in metres, `own` is the box around the polygon in
-/// newtons. In figures of several frames the scale is rounded down, so that polygons of similar size have the same
-/// scale.
-fn scale(structure: Bounds, own: Bounds, is_one_of_several: bool) -> f64 {
-    let size = POLYGON_SIZE * structure.width().max(structure.height());
-    let high = structure.height().max(POLYGON_HEIGHT * structure.width());
-    let high = high.min(size);
-    let scale = (size / own.width()).min(high / own.height());
-    match is_one_of_several {
-        true => round_below(scale),
-        false => scale,
+/// Returns the colour of a force.
+fn ink(canvas: &Canvas<'_>, side: &Side) -> Colour {
+    let theme = canvas.theme();
+    match side.cause {
+        Cause::Weight => theme.ink,
+        Cause::Load => theme.load,
+        Cause::Ground => theme.arrow(1),
+        Cause::Robot(robot) => theme.letters_on(theme.page, Some(theme.robot(robot.0))),
+        Cause::MissingGround | Cause::MissingRobot(_) => theme.failure,
     }
 }
 
-/// True if the sum of the forces is zero, except for rounding.
-fn closed<'a>(arrows: impl Iterator<Item = &'a ForceArrow>) -> bool {
-    let sides = arrows.fold((Vector::zeros(), 0.0), |(sum, all), arrow| (sum + arrow.force, all + arrow.force.norm()));
-    sides.0.norm() <= CLOSURE_TOL * sides.1
+/// Returns an arrow of a force, hollow and dashed for a missing force.
+fn shape(canvas: &Canvas<'_>, side: &Side, outline: Outline) -> Path {
+    let (ink, page) = (ink(canvas, side), canvas.theme().page);
+    if side.cause.is_missing() {
+        let edge = Stroke::new(ink, canvas.mm(0.22)).dashed([canvas.mm(0.55), canvas.mm(0.4)]);
+        return Path::filled(outline, page).with_stroke(edge);
+    }
+    Path::filled(outline, ink).cased(page, canvas.mm(0.12))
 }
 
-/// Returns a legend entry for each different scale of the polygons: an arrow of a round force. `scales` lists the index
-/// of each frame with its scale, pixels per newton.
-fn scale_entries(scales: &[(usize, f64)], unit: Unit) -> Vec<Entry> {
-    let mut groups: Vec<(f64, Vec<String>)> = Vec::new();
-    for (frame, scale) in scales {
-        let named = format!("({})", letter(*frame));
-        match groups.iter_mut().find(|group| group.0 == *scale) {
-            Some(group) => group.1.push(named),
-            None => groups.push((*scale, vec![named])),
+/// Describes a force, such as `Weight of block a: 6 N at 270°`.
+fn title(canvas: &Canvas<'_>, side: &Side) -> String {
+    let scene = canvas.scene();
+    let (on, amount) = (&scene.blocks[side.on.0].id, force(side.force, scene.units));
+    match side.cause {
+        Cause::Weight => format!("Weight of block {on}: {amount}"),
+        Cause::Load => format!("Load on block {on}: {amount}"),
+        Cause::Ground => format!("Force on block {on} from the ground: {amount}"),
+        Cause::Robot(robot) => format!("Force on block {on} from robot {}: {amount}", scene.robots[robot.0].id),
+        Cause::MissingGround => format!("Missing force on block {on} from the ground: {amount}"),
+        Cause::MissingRobot(robot) => {
+            format!("Missing force on block {on} from robot {}: {amount}", scene.robots[robot.0].id)
         }
     }
-    let is_only = groups.len() == 1;
-    let entry = |(scale, frames): (f64, Vec<String>)| {
-        let amount = round_below_in(SCALE_ARROW / scale, unit);
-        let amount_words = quantity(amount, unit);
-        let words = match (is_only, frames.len()) {
-            (true, 1) => format!("arrow of {amount_words} in the force polygon"),
-            (true, _) => format!("arrow of {amount_words} in the force polygons"),
-            (false, 1) => format!("{amount_words} in the polygon of {}", listed(&frames)),
-            (false, _) => format!("{amount_words} in the polygons of {}", listed(&frames)),
-        };
-        (amount > 0.0).then_some(Entry::Scale(amount * scale, SCALE_WIDTH, words))
-    };
-    groups.into_iter().filter_map(entry).collect()
 }
 
-/// Width of the arrow that shows the scale of a polygon, pixels.
-const SCALE_WIDTH: f64 = 2.4;
+/// Returns the name of each force in the figure: a letter for each of the largest forces of the ground, from left to
+/// right, and the names of robots. Other forces have no names.
+fn names(canvas: &Canvas<'_>, sides: &[Side]) -> Vec<Option<String>> {
+    let mut ground: Vec<usize> = (0..sides.len()).filter(|i| sides[*i].cause == Cause::Ground).collect();
+    ground.sort_by(|a, b| sides[*b].force.norm().total_cmp(&sides[*a].force.norm()));
+    ground.truncate(MAX_LETTERS);
+    ground.sort_by(|a, b| sides[*a].at.x.total_cmp(&sides[*b].at.x));
+    let name = |(number, side): (usize, &Side)| match side.cause {
+        Cause::Robot(robot) => Some(canvas.scene().robots[robot.0].id.clone()),
+        _ => ground.iter().position(|i| *i == number).map(|place| letter(place).to_uppercase()),
+    };
+    sides.iter().enumerate().map(name).collect()
+}
 
-#[cfg(test)]
-mod tests;
+/// Draws the forces of the ground and of robots at the structure, with their names, and the missing forces.
+fn at_structure(canvas: &mut Canvas<'_>, sides: &[Side]) {
+    for (side, name) in sides.iter().zip(names(canvas, sides)) {
+        let norm = side.force.norm();
+        if side.cause.is_action() {
+            continue;
+        }
+        let u = (side.force.x / norm, -side.force.y / norm);
+        let (at, length) = (canvas.place(side.at), (canvas.scale * norm).max(canvas.mm(1.6)));
+        let head = (canvas.mm(1.7), canvas.mm(1.7).min(0.62 * length));
+        let outline = ArrowSize { length, shaft: canvas.mm(0.7), head }.outline(at, u);
+        let layer = if side.cause.is_missing() { Layer::Missing } else { Layer::Force };
+        let mark = Mark::new(layer, "force", vec![shape(canvas, side, outline)]).titled(title(canvas, side));
+        canvas.put(mark.avoided(canvas.mm(0.2)));
+        if let Some(name) = name.filter(|_| side.cause == Cause::Ground && canvas.options.labels) {
+            let anchors = vec![along(at, u, 0.0, 0.0), along(at, u, 0.5 * length, 0.0)];
+            let away = Some((-u.0, -u.1));
+            canvas.label(Label { bold: true, away, ..Label::new(name, ink(canvas, side), anchors, 3) });
+        }
+    }
+}
+
+/// Draws the force polygon of the frame, with the names and the amounts of its sides. If actions and reactions are
+/// drawn apart, dashed lines connect the two positions of each common corner. A dashed line closes the gap of an open
+/// polygon.
+fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
+    let Some(chain) = Chain::new(canvas.analysis, canvas.number) else { return };
+    let (theme, units) = (canvas.theme(), canvas.scene().units.force());
+    let (missing_key, scale_key, join_key) = keys(canvas, &chain);
+    let tagged: Vec<(&Side, Option<String>)> = sides.iter().zip(names(canvas, sides)).collect();
+    let middle = chain.sides.iter().flatten().map(|p| p.x).sum::<f64>() / (2 * chain.sides.len()).max(1) as f64;
+    for ((side, name), ends) in tagged.into_iter().zip(&chain.sides) {
+        let [from, to] = ends.map(|p| canvas.place(p));
+        let length = libm::hypot(to.x - from.x, to.y - from.y).max(1e-9);
+        let u = ((to.x - from.x) / length, (to.y - from.y) / length);
+        let wide = if side.cause.is_missing() { 0.9 } else { 0.42 };
+        let head = (canvas.mm(1.2 + wide), canvas.mm(1.7).min(0.6 * length));
+        let outline = ArrowSize { length, shaft: canvas.mm(wide), head }.outline(from, u);
+        let mark = Mark::new(Layer::Force, "side", vec![shape(canvas, side, outline)]).titled(title(canvas, side));
+        let mark = if side.cause.is_missing() { mark.keyed(&missing_key) } else { mark };
+        canvas.put(mark.avoided(canvas.mm(0.2)));
+        let amount = quantity(side.force.norm(), units);
+        let words = match (side.cause, name) {
+            (Cause::Load | Cause::MissingGround | Cause::MissingRobot(_), _) => amount,
+            (_, Some(name)) => format!("{name}: {amount}"),
+            _ => continue,
+        };
+        // The name stands outside of the polygon.
+        let outward = if nalgebra::center(&ends[0], &ends[1]).x < middle { -1.0 } else { 1.0 };
+        let anchors = [0.5, 0.3, 0.7].map(|share| along(from, u, share * length, 0.0)).to_vec();
+        if canvas.options.labels && canvas.options.main_amounts {
+            let label = Label::new(words, ink(canvas, side), anchors, 4);
+            canvas.label(Label { away: Some((outward, 0.0)), ..label });
+        }
+    }
+    weights(canvas, sides, &chain);
+    canvas.explain(scale_key);
+    let line = |canvas: &Canvas<'_>, ends: [Point; 2]| Outline::line(ends.map(|p| canvas.place(p)));
+    let closed = is_closed(sides);
+    // In an open polygon, the second line would look like the line of the gap, so it is left out.
+    for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
+        let path = Path::stroked(line(canvas, *join), join_stroke(canvas));
+        let mark = Mark::new(Layer::Force, "join", vec![path]).keyed(&join_key);
+        canvas.put(mark.titled("The same corner of the force polygon, drawn at two places".into()));
+    }
+    if let (Some(last), Some(first), false) = (chain.sides.last(), chain.sides.first(), closed) {
+        let stroke = Stroke::new(theme.failure, canvas.mm(0.26)).dashed([canvas.mm(0.9), canvas.mm(0.7)]);
+        let path = Path::stroked(line(canvas, [last[1], first[0]]), stroke);
+        let mark = Mark::new(Layer::Force, "gap", vec![path]);
+        canvas.put(mark.titled("The force that is missing for equilibrium".into()));
+    }
+}
+
+/// Writes the sum of the weights beside their sides, if these follow one another without a load between them.
+fn weights(canvas: &mut Canvas<'_>, sides: &[Side], chain: &Chain) {
+    let count = sides.iter().take_while(|side| side.cause == Cause::Weight).count();
+    let all = sides.iter().filter(|side| side.cause == Cause::Weight).count();
+    let Some([[from, _], [_, to]]) =
+        chain.sides.first().zip(chain.sides.get(count.wrapping_sub(1))).map(|(a, b)| [*a, *b])
+    else {
+        return;
+    };
+    if count != all || !(canvas.options.labels && canvas.options.main_amounts) {
+        return;
+    }
+    let sum: Vector = sides.iter().take(count).map(|side| side.force).sum();
+    let words = if count == 1 { "weight" } else { "weights" };
+    let words = format!("{words}: {}", quantity(sum.norm(), canvas.scene().units.force()));
+    let at = |share: f64| canvas.place(from + (to - from) * share);
+    let label = Label::new(words, canvas.theme().ink, vec![at(0.5), at(0.3), at(0.7)], 5);
+    canvas.label(Label { away: Some((-1.0, 0.0)), ..label });
+}
+
+fn join_stroke(canvas: &Canvas<'_>) -> Stroke {
+    Stroke::new(canvas.theme().faint, canvas.mm(0.15)).dashed([canvas.mm(0.4), canvas.mm(0.4)])
+}
+
+/// Returns the entries of the legend: a missing force, the scale, and corners at two places.
+fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Key, Rc<Key>) {
+    let (theme, units) = (canvas.theme(), canvas.scene().units.force());
+    let start = PagePoint::new(0.0, 0.0);
+    let arrow = |length: f64, shaft: f64| {
+        let head = (canvas.mm(1.2 + shaft), canvas.mm(1.7).min(0.6 * length));
+        ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(start, (1.0, 0.0))
+    };
+    let missing = Side { cause: Cause::MissingGround, on: BlockId(0), at: Point::origin(), force: Vector::zeros() };
+    let width = canvas.mm(4.8);
+    let symbol = vec![shape(canvas, &missing, arrow(width, 0.9))];
+    let missing = Rc::new(Key { rank: 50, words: "missing".into(), symbol, width });
+    let scale = canvas.camera.length(chain.scale);
+    let amount = round_below_in(canvas.mm(SCALE_ARROW) / scale, units);
+    let symbol = vec![Path::filled(arrow(amount * scale, 0.42), theme.ink)];
+    let words = format!("{} in the force polygon", quantity(amount, units));
+    let scale = Key { rank: 20, words, symbol, width: amount * scale };
+    let line = Outline::line([start, start.moved(width, 0.0)]);
+    let symbol = vec![Path::stroked(line, join_stroke(canvas))];
+    let words = "the same corner of the force polygon, drawn at two places".into();
+    (missing, scale, Rc::new(Key { rank: 60, words, symbol, width }))
+}

@@ -3,15 +3,17 @@
 
 use std::rc::Rc;
 
-use super::canvas::{Canvas, Picture};
-use super::design::{Key, Look};
+use super::canvas::{Canvas, Picture, corners};
+use super::content::About;
+use super::design::{Key, Look, around};
 use super::option::Options;
 use super::stage;
 use super::title;
 use super::verdict;
+use super::view;
 use super::words::{counted, letter, quantity};
 use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
 use crate::products::wording::margin::governing;
 
@@ -25,8 +27,9 @@ const SCREEN_WIDTH: f64 = 150.0;
 const COLUMN_WIDTH: f64 = 100.0;
 /// Largest height of a picture in a column and on a wider page, mm.
 const HIGH: [f64; 2] = [66.0, 100.0];
-/// Largest size of a typical block, mm.
+/// Largest size of a typical block, mm, and of the block in the centre of a zoomed picture.
 const LARGEST_BLOCK: f64 = 16.0;
+const LARGEST_ZOOMED_BLOCK: f64 = 40.0;
 /// From this size of a typical block on, a frame of at most [`FEW`] blocks is drawn with large marks and weights, mm.
 const LARGE_BLOCK: f64 = 9.0;
 const FEW: usize = 12;
@@ -36,8 +39,12 @@ const NAMED_BLOCK: f64 = 6.5;
 const FIRST_SPACE: f64 = 6.0;
 /// The structure is never drawn smaller than this share of the first scale, whatever space labels take.
 const LEAST_ZOOM: f64 = 0.8;
+/// The same share if dimension lines or coordinates take space too.
+const LEAST_CROWDED_ZOOM: f64 = 0.5;
 /// How often the pictures are drawn to find the scale at which they fill the width.
 const ROUNDS: usize = 6;
+/// Width of a list below a picture, if the width of the page is not given, mm.
+const LIST_WIDTH: f64 = 86.0;
 /// Largest number of lines of a caption and of a reason.
 const MAX_LINES: usize = 4;
 /// With more lines, the legend leaves out its notes.
@@ -54,16 +61,93 @@ pub(crate) struct View<'a> {
     pub zoom: f64,
 }
 
-/// A kind of figure in the new look.
+/// What the panels of a figure show.
+pub(crate) struct Subject {
+    /// The frames of the panels, counted from 0.
+    pub frames: Vec<usize>,
+    /// The part of the scene that each panel shows, metres.
+    pub bounds: Bounds,
+    /// Whether everything outside this part is cut off.
+    pub is_cut: bool,
+    /// The side of a typical block, metres, and its largest size in a picture, mm.
+    pub block: (f64, f64),
+}
+
+impl Subject {
+    /// The structure in all frames, or the neighbourhood of the block of the option `zoom`.
+    pub fn structure(analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
+        let scene = &analysis.scene;
+        let frames = frames.map_or_else(|| (0..analysis.frames.len()).collect(), <[usize]>::to_vec);
+        if let Some(block) = options.zoom {
+            let side = scene.blocks[block.0].body.polygon.area().sqrt();
+            let bounds = view::zoomed_view(scene, block);
+            return Subject { frames, bounds, is_cut: true, block: (side, LARGEST_ZOOMED_BLOCK) };
+        }
+        let blocks = stage::shown_blocks(scene);
+        let polygons = || blocks.iter().map(|id| &scene.blocks[id.0].body.polygon);
+        let ground = scene.ground.iter().map(|ground| ground.body.polygon.bounds());
+        let origin = Bounds { min: Point::origin(), max: Point::origin() };
+        let bounds = polygons().map(|polygon| polygon.bounds()).reduce(Bounds::union);
+        let bounds = bounds.or_else(|| ground.reduce(Bounds::union)).unwrap_or(origin.grown(1.0));
+        let last = scene.frames.last().map_or(&[][..], |frame| &frame.placed);
+        let mut sizes: Vec<f64> = last.iter().map(|id| scene.blocks[id.0].body.polygon.area().sqrt()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let side = sizes.get(sizes.len() / 2).copied().unwrap_or(bounds.diagonal());
+        Subject { frames, bounds, is_cut: false, block: (side, LARGEST_BLOCK) }
+    }
+}
+
+/// A kind of figure on the canvas. A new kind implements `about` and `draw` in a file of its own;
+/// [`Kind`](super::Kind) lists it.
 pub(crate) trait Figure: Sync {
-    /// Returns the one scale of all forces of the figure, pixels per newton.
-    fn scale(&self, view: &View<'_>, look: Look) -> f64;
+    /// Returns the name, the description and the requirements of this kind of figure.
+    fn about(&self) -> About;
 
     /// Draws the picture of a frame.
     fn draw(&self, canvas: &mut Canvas<'_>);
 
-    /// Returns the title of the page if the scene has none.
-    fn title(&self) -> &'static str;
+    /// Returns the one scale of all forces of the figure, pixels per newton; 0 if the figure draws no forces of
+    /// contacts.
+    fn scale(&self, _view: &View<'_>, _look: Look) -> f64 {
+        0.0
+    }
+
+    /// Returns the optional margins: the figure shows them if the analysis has computed them, and is complete without
+    /// them. Margins that the figure needs are requested with [`About::needs_margins`].
+    fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
+        &[]
+    }
+
+    /// Returns what the panels of these frames show; `None` for the frames that the figure shows on one page.
+    fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
+        Subject::structure(analysis, options, frames)
+    }
+
+    /// Returns the caption of a frame.
+    fn caption(&self, analysis: &Analysis, frame: usize, options: &Options) -> String {
+        caption(analysis, frame, options)
+    }
+
+    /// Returns the words of the verdict of a frame, which are written in bold.
+    fn verdict(&self, analysis: &Analysis, frame: usize) -> String {
+        verdict::badge(&analysis.frames[frame]).to_owned()
+    }
+
+    /// Returns the words after the verdict of a frame: by default its headline margin, or what decides if no margin
+    /// does.
+    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+        margin_words(analysis, frame, options)
+    }
+
+    /// Describes the picture of a frame for screen readers; empty to describe only the verdict.
+    fn description(&self, _canvas: &Canvas<'_>) -> String {
+        String::new()
+    }
+
+    /// Draws a list below the picture of a frame, in `room` pixels. Returns it with its height.
+    fn list(&self, _canvas: &Canvas<'_>, _room: f64) -> (Group, f64) {
+        (Group::default(), 0.0)
+    }
 }
 
 /// The pictures of all frames, and their arrangement.
@@ -72,9 +156,7 @@ pub(crate) struct Sheet<'a> {
     figure: &'static dyn Figure,
     options: &'a Options,
     look: Look,
-    structure: Bounds,
-    /// The side of a typical block, metres.
-    block: f64,
+    subject: Subject,
     columns: usize,
     /// Width of the page, pixels.
     width: f64,
@@ -88,14 +170,15 @@ struct Pictures {
     all: Vec<(usize, Picture)>,
     /// The left and the right edge of all pictures together, pixels.
     sides: (f64, f64),
+    /// Pixels per metre.
+    zoom: f64,
 }
 
 /// Draws all frames on one page.
 pub(crate) fn page(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> Drawing {
-    let frames: Vec<usize> = (0..analysis.frames.len()).collect();
-    let sheet = Sheet::new(analysis, figure, options, frames.len());
-    let pictures = sheet.pictures(&frames);
-    sheet.write(&pictures, &frames)
+    let sheet = Sheet::new(analysis, figure, options, None);
+    let pictures = sheet.pictures(&sheet.subject.frames);
+    sheet.write(&pictures, &sheet.subject.frames)
 }
 
 /// Draws each of these frames on a page of its own. All pages have the same size and scale.
@@ -105,9 +188,46 @@ pub(crate) fn pages(
     options: &Options,
     frames: &[usize],
 ) -> Vec<Drawing> {
-    let sheet = Sheet::new(analysis, figure, options, 1);
+    let sheet = Sheet::new(analysis, figure, options, Some(frames));
+    let frames = &sheet.subject.frames;
+    if frames.is_empty() {
+        return Vec::new();
+    }
     let pictures = sheet.pictures(frames);
-    let mut pages: Vec<Drawing> = frames.iter().map(|frame| sheet.write(&pictures, &[*frame])).collect();
+    same_size(frames.iter().map(|frame| sheet.write(&pictures, &[*frame])).collect())
+}
+
+/// Draws a page for each step of a motion: the index of its frame, and the way from 0 at the beginning to 1 at the end.
+/// All pages have the same size and scale.
+pub(crate) fn steps(
+    analysis: &Analysis,
+    figure: &'static dyn Figure,
+    options: &Options,
+    steps: &[(usize, f64)],
+) -> Vec<Drawing> {
+    let mut frames: Vec<usize> = steps.iter().map(|step| step.0).collect();
+    frames.dedup();
+    let sheet = Sheet::new(analysis, figure, options, Some(&frames));
+    // The end of the motion takes the most space, so its scale is the scale of all pages.
+    let ends = sheet.pictures(&frames);
+    let page = |(frame, way): &(usize, f64)| {
+        let options = Options { motion_progress: *way, ..options.clone() };
+        let sheet = Sheet::new(analysis, figure, &options, Some(&frames));
+        let mut pictures = sheet.drawn(&[*frame], ends.zoom);
+        // Every page has the space and the position of the end of the motion.
+        for (number, picture) in &mut pictures.all {
+            if let Some((_, end)) = ends.all.iter().find(|(frame, _)| frame == number) {
+                picture.extent =
+                    around(corners(end.extent).into_iter().chain(corners(picture.extent))).unwrap_or(picture.extent);
+            }
+        }
+        sheet.write(&Pictures { sides: ends.sides, ..pictures }, &[*frame])
+    };
+    same_size(steps.iter().map(page).collect())
+}
+
+/// Makes all pages as large as the largest.
+fn same_size(mut pages: Vec<Drawing>) -> Vec<Drawing> {
     let [high, wide] =
         [|page: &Drawing| page.height, |page: &Drawing| page.width].map(|of| pages.iter().map(of).fold(0.0, f64::max));
     for page in &mut pages {
@@ -119,9 +239,9 @@ pub(crate) fn pages(
 /// Draws all frames on several pages with the same scale. The height of a page is at most `ratio` times its width, unless
 /// one row is higher.
 pub(crate) fn split(analysis: &Analysis, figure: &'static dyn Figure, options: &Options, ratio: f64) -> Vec<Drawing> {
-    let frames: Vec<usize> = (0..analysis.frames.len()).collect();
-    let sheet = Sheet::new(analysis, figure, options, frames.len());
-    let pictures = sheet.pictures(&frames);
+    let sheet = Sheet::new(analysis, figure, options, None);
+    let frames = &sheet.subject.frames;
+    let pictures = sheet.pictures(frames);
     let mut pages = Vec::new();
     let mut rest = &frames[..];
     while !rest.is_empty() {
@@ -143,29 +263,26 @@ pub(crate) fn split(analysis: &Analysis, figure: &'static dyn Figure, options: &
 
 /// Returns lower bounds of the width and the height of the page of [`page`], pixels. Nothing is drawn.
 pub(crate) fn least_size(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> (f64, f64) {
-    let count = analysis.frames.len();
-    let sheet = Sheet::new(analysis, figure, options, count);
-    let rows = count.div_ceil(sheet.columns);
+    let sheet = Sheet::new(analysis, figure, options, None);
+    let rows = sheet.subject.frames.len().div_ceil(sheet.columns);
     let width = if options.width.is_some() { sheet.width } else { 0.0 };
-    (width, rows as f64 * 0.5 * sheet.structure.height() * sheet.first_zoom())
+    (width, rows as f64 * 0.5 * sheet.subject.bounds.height() * sheet.first_zoom())
 }
 
 impl<'a> Sheet<'a> {
-    fn new(analysis: &'a Analysis, figure: &'static dyn Figure, options: &'a Options, count: usize) -> Sheet<'a> {
-        let scene = &analysis.scene;
-        let blocks = stage::shown_blocks(scene);
-        let polygons = || blocks.iter().map(|id| &scene.blocks[id.0].body.polygon);
-        let ground = scene.ground.iter().map(|ground| ground.body.polygon.bounds());
-        let origin = Bounds { min: Point::origin(), max: Point::origin() };
-        let structure = polygons().map(|polygon| polygon.bounds()).reduce(Bounds::union);
-        let structure = structure.or_else(|| ground.reduce(Bounds::union)).unwrap_or(origin.grown(1.0));
-        let last = scene.frames.last().map_or(&[][..], |frame| &frame.placed);
-        let mut sizes: Vec<f64> = last.iter().map(|id| scene.blocks[id.0].body.polygon.area().sqrt()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let block = sizes.get(sizes.len() / 2).copied().unwrap_or(structure.diagonal());
-        let look = Look::new(options, analysis.frames.len() > 1);
+    /// Creates the arrangement of one page with all panels, or of a page for each of these frames.
+    fn new(
+        analysis: &'a Analysis,
+        figure: &'static dyn Figure,
+        options: &'a Options,
+        frames: Option<&[usize]>,
+    ) -> Sheet<'a> {
+        let subject = figure.subject(analysis, options, frames);
+        let count = if frames.is_some() { 1 } else { subject.frames.len() };
+        let is_strip = analysis.frames.len() > 1 && !figure.about().shows_one_block;
+        let look = Look::new(options, is_strip);
         let width = options.width.unwrap_or(look.mm(SCREEN_WIDTH));
-        let mut sheet = Sheet { analysis, figure, options, look, structure, block, columns: 1, width, panel: width };
+        let mut sheet = Sheet { analysis, figure, options, look, subject, columns: 1, width, panel: width };
         sheet.columns = sheet.fitting_columns(count);
         sheet.panel = sheet.panel_width(sheet.columns);
         sheet
@@ -183,7 +300,7 @@ impl<'a> Sheet<'a> {
         }
         let size = |columns: usize| {
             let room = self.panel_width(columns) - self.look.mm(4.0);
-            self.block * room / self.structure.width().max(f64::MIN_POSITIVE) / self.look.mm(1.0)
+            self.subject.block.0 * room / self.subject.bounds.width().max(f64::MIN_POSITIVE) / self.look.mm(1.0)
         };
         match count {
             0 | 1 => 1,
@@ -196,10 +313,16 @@ impl<'a> Sheet<'a> {
 
     /// Returns the scale that leaves some space for loads and labels, pixels per metre.
     fn first_zoom(&self) -> f64 {
-        let (wide, high) = (self.structure.width(), self.structure.height());
+        let (wide, high) = (self.subject.bounds.width(), self.subject.bounds.height());
         let across = (self.panel - self.look.mm(FIRST_SPACE)).max(1.0) / wide.max(f64::MIN_POSITIVE);
-        let zoom = across.min(self.high() / high.max(f64::MIN_POSITIVE)).min(self.look.mm(LARGEST_BLOCK) / self.block);
+        let zoom = across.min(self.high() / high.max(f64::MIN_POSITIVE)).min(self.largest_zoom());
         if zoom.is_finite() && zoom > 0.0 { zoom } else { 1.0 }
+    }
+
+    /// Returns the scale at which a typical block has its largest size, pixels per metre.
+    fn largest_zoom(&self) -> f64 {
+        let (side, most) = self.subject.block;
+        self.look.mm(most) / side.max(f64::MIN_POSITIVE)
     }
 
     /// Returns the largest height of the structure in a picture, pixels.
@@ -210,17 +333,18 @@ impl<'a> Sheet<'a> {
 
     /// Draws the pictures of these frames at the largest scale at which they fit into the width of a panel.
     fn pictures(&self, frames: &[usize]) -> Pictures {
-        let most = self.high() / self.structure.height().max(f64::MIN_POSITIVE);
-        let most = most.min(self.look.mm(LARGEST_BLOCK) / self.block.max(f64::MIN_POSITIVE));
+        let most = self.high() / self.subject.bounds.height().max(f64::MIN_POSITIVE);
+        let most = most.min(self.largest_zoom());
         let mut zoom = self.first_zoom();
-        let least = LEAST_ZOOM * zoom;
+        let is_crowded = self.options.dimensions || self.figure.about().shows_one_block;
+        let least = if is_crowded { LEAST_CROWDED_ZOOM } else { LEAST_ZOOM } * zoom;
         // Labels do not shrink with the structure, so a step is never large, and the largest scale that fits is kept.
         let mut best: Option<(f64, Pictures)> = None;
         for _ in 0..ROUNDS {
             let pictures = self.drawn(frames, zoom);
             let over = pictures.sides.1 - pictures.sides.0 - self.panel;
             let fits = over <= self.look.mm(0.15);
-            let share = over / (self.structure.width() * zoom).max(f64::MIN_POSITIVE);
+            let share = over / (self.subject.bounds.width() * zoom).max(f64::MIN_POSITIVE);
             let next = (zoom * (1.0 - share).clamp(0.75, 1.3)).max(least).min(most);
             let is_better = |kept: &(f64, Pictures)| {
                 let kept_fits = kept.1.sides.1 - kept.1.sides.0 - self.panel <= self.look.mm(0.15);
@@ -239,7 +363,7 @@ impl<'a> Sheet<'a> {
 
     /// Draws the pictures of these frames with `zoom` pixels per metre.
     fn drawn(&self, frames: &[usize], zoom: f64) -> Pictures {
-        let size = self.block * zoom / self.look.mm(1.0);
+        let size = self.subject.block.0 * zoom / self.look.mm(1.0);
         let blocks = self.analysis.scene.frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
         let narrow = self.columns == 3 && self.width < self.look.mm(COLUMN_WIDTH);
         let look = Look {
@@ -248,21 +372,40 @@ impl<'a> Sheet<'a> {
             panel: self.panel,
             ..self.look
         };
-        let view = View { analysis: self.analysis, structure: self.structure, zoom };
+        let view = View { analysis: self.analysis, structure: self.subject.bounds, zoom };
         let scale = self.figure.scale(&view, look);
         let all: Vec<(usize, Picture)> = frames
             .iter()
             .map(|frame| {
                 let shown = (view.structure, zoom);
                 let mut canvas = Canvas::new(self.analysis, *frame, self.options, look, shown, scale);
+                canvas.window = self.subject.is_cut.then_some(canvas.structure);
                 self.figure.draw(&mut canvas);
-                (*frame, canvas.finish())
+                if self.options.dimensions {
+                    stage::dimensions(&mut canvas);
+                }
+                if self.options.scale_bar
+                    && let Some(key) = stage::scale_bar(&canvas)
+                {
+                    canvas.explain(key);
+                }
+                let description = self.figure.description(&canvas);
+                let room = if self.options.width.is_some() { self.panel } else { self.panel.min(look.mm(LIST_WIDTH)) };
+                let list = self.figure.list(&canvas, room);
+                (*frame, Picture { list, description, ..canvas.finish() })
             })
             .collect();
         let left = all.iter().map(|(_, picture)| picture.extent.at.x).fold(f64::INFINITY, f64::min);
         let right = all.iter().map(|(_, picture)| picture.extent.at.x + picture.extent.width);
         let sides = (left, right.fold(f64::NEG_INFINITY, f64::max));
-        Pictures { all, sides }
+        Pictures { all, sides, zoom }
+    }
+
+    /// Returns the width of an entry of the legend, pixels.
+    fn key_width(&self, key: &Key) -> f64 {
+        let size = self.look.text * self.options.theme.sizes.key;
+        let gap = if key.symbol.is_empty() { 0.0 } else { self.look.mm(1.2) };
+        key.width + gap + text::width(&key.words, Face::Sans, size)
     }
 
     /// Writes a page with some of the pictures.
@@ -274,7 +417,13 @@ impl<'a> Sheet<'a> {
         // Without a given width, the page is as wide as its panels, but wide enough for short texts.
         let panel = match options.width {
             Some(_) => self.panel,
-            None => natural.max(look.mm(if columns > 1 { 42.0 } else { 72.0 })).min(self.panel.max(natural)),
+            None => {
+                let has_list = pictures.all.iter().any(|(_, picture)| !picture.list.0.items.is_empty());
+                let least = if has_list { LIST_WIDTH } else { [72.0, 42.0][usize::from(columns > 1)] };
+                let keys = pictures.all.iter().flat_map(|(_, picture)| &picture.keys);
+                let widest = keys.map(|key| self.key_width(key)).fold(0.0, f64::max) / columns as f64;
+                natural.max(look.mm(least)).max(widest).min(self.panel.max(natural))
+            }
         };
         let inner = columns as f64 * panel + look.mm(GAP * (columns - 1) as f64);
         let width = if options.width.is_some() { self.width } else { inner + look.mm(2.0 * MARGIN) };
@@ -292,62 +441,78 @@ impl<'a> Sheet<'a> {
         if options.keys {
             page.legend(&shown);
         }
-        let described: Vec<String> = frames.iter().take(MAX_DESCRIBED).map(|f| self.described(*f)).collect();
+        let described: Vec<String> = shown.iter().take(MAX_DESCRIBED).map(|one| self.described(one)).collect();
         Drawing {
             width: width.ceil(),
             height: (page.y + look.mm(MARGIN + 0.6)).ceil(),
-            title: if heading.is_empty() { self.figure.title().to_owned() } else { heading.clone() },
+            title: if heading.is_empty() { self.figure.about().title.to_owned() } else { heading.clone() },
             description: described.join(" "),
             background: Some(theme.page),
             items: page.items,
         }
     }
 
-    /// Returns the caption of a frame: its letter and its title, in a figure of several frames.
     fn caption(&self, frame: usize) -> String {
-        let scene = &self.analysis.scene;
-        let own = &scene.frames[frame].title;
-        match (scene.frames.len(), own.as_str()) {
-            (1, title) if title.is_empty() || *title == scene.title => String::new(),
-            (1, title) => title.to_owned(),
-            (_, "") => format!("({})", letter(frame)),
-            (_, title) => format!("({}) {title}", letter(frame)),
-        }
-    }
-
-    /// Returns the words after the verdict of a frame: its headline margin, or what decides if no margin does.
-    fn words(&self, frame: usize) -> Vec<String> {
-        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[frame]);
-        let unexplained =
-            found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
-        // The panels of a strip are too narrow for margins.
-        let margin = if self.options.verdict_margin && self.analysis.frames.len() == 1 {
-            governing(scene, frame, found).words
-        } else {
-            Vec::new()
-        };
-        if margin.is_empty() && unexplained {
-            let reason = verdict::reason(scene, found);
-            return if reason.is_empty() { Vec::new() } else { vec![reason] };
-        }
-        margin
+        self.figure.caption(self.analysis, frame, self.options)
     }
 
     /// Describes a frame in a sentence, for screen readers.
-    fn described(&self, frame: usize) -> String {
-        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[frame]);
-        let blocks = counted(scene.frames[frame].placed.len(), "block");
+    fn described(&self, (frame, picture): &(usize, Picture)) -> String {
+        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[*frame]);
+        if !picture.description.is_empty() {
+            return picture.description.clone();
+        }
+        let blocks = counted(scene.frames[*frame].placed.len(), "block");
         let weight = quantity(found.weight, scene.units.force());
-        let mut parts = vec![format!("{blocks}, {weight} in all, {}", verdict::word(found.verdict))];
-        parts.push(verdict::reason(scene, found));
-        parts.extend(self.words(frame));
-        parts.extend(found.notices.iter().cloned());
+        let mut parts = vec![format!("{blocks}, {weight} in all")];
+        if self.options.verdicts {
+            parts[0] = format!("{}, {}", parts[0], verdict::word(found.verdict));
+            parts.push(verdict::reason(scene, found));
+            parts.extend(self.figure.words(self.analysis, *frame, self.options));
+            parts.extend(found.notices.iter().cloned());
+        }
         parts.retain(|part| !part.is_empty());
         parts.dedup();
-        let caption = self.caption(frame);
+        let caption = self.caption(*frame);
         let start = if caption.is_empty() { String::new() } else { format!("{caption}: ") };
         format!("{start}{}.", parts.join("; ").replace(text::NO_BREAK, " "))
     }
+}
+
+/// Returns the caption of a frame: its letter and its title, in a figure of several frames. In a zoomed figure, the
+/// caption also names the block in the centre.
+pub(crate) fn caption(analysis: &Analysis, frame: usize, options: &Options) -> String {
+    let scene = &analysis.scene;
+    let own = &scene.frames[frame].title;
+    let mut parts = Vec::new();
+    if scene.frames.len() > 1 {
+        parts.push(format!("({})", letter(frame)));
+    }
+    if !own.is_empty() && (scene.frames.len() > 1 || *own != scene.title) {
+        parts.push(own.clone());
+    }
+    if let Some(block) = options.zoom {
+        parts.push(format!("around block {}", scene.blocks[block.0].id));
+    }
+    parts.join(" ")
+}
+
+/// Returns the headline margin of a frame, or what decides if no margin does.
+pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let unexplained =
+        found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
+    // The panels of a strip are too narrow for margins.
+    let margin = if options.verdict_margin && analysis.frames.len() == 1 {
+        governing(scene, frame, found).words
+    } else {
+        Vec::new()
+    };
+    if margin.is_empty() && unexplained {
+        let reason = verdict::reason(scene, found);
+        return if reason.is_empty() { Vec::new() } else { vec![reason] };
+    }
+    margin
 }
 
 /// A page that is written from top to bottom.
@@ -394,11 +559,17 @@ impl Page<'_> {
             let found = &self.sheet.analysis.frames[*frame];
             let mut group = Group { id: Some(format!("frame-{}", frame + 1)), ..Group::with_class("frame") };
             let caption = self.sheet.caption(*frame);
-            let word = verdict::word(found.verdict);
+            let word = if self.sheet.options.verdicts { verdict::word(found.verdict) } else { "no verdict is shown" };
             group.title = if caption.is_empty() { word.to_owned() } else { format!("{caption}: {word}") };
             group = group.with(Item::from(picture.group.clone()).moved(centre - middle, start - top));
-            let (lines, below) = self.lines(*frame, PagePoint::new(centre, start + bottom - top), panel);
+            let (lines, mut below) = self.lines(*frame, PagePoint::new(centre, start + bottom - top), panel);
             group.items.extend(lines);
+            let (list, high) = &picture.list;
+            if !list.items.is_empty() {
+                let top = below + self.mm(0.8);
+                group = group.with(Item::from(list.clone()).moved(centre, top));
+                below = top + high;
+            }
             self.items.push(group.into());
             end = end.max(below);
         }
@@ -421,13 +592,13 @@ impl Page<'_> {
         let indent = if options.verdicts { look.mm(3.8) } else { 0.0 };
         let mut lines = broken(&caption, room - indent);
         // The symbol of the verdict stands before the caption in a strip, and before the verdict otherwise.
-        let alone = self.sheet.analysis.frames.len() == 1 || caption.is_empty();
+        let alone = !look.is_strip || caption.is_empty();
         let marked_line = if alone { lines.len() } else { 0 };
         if options.verdicts {
-            let badge = (verdict::badge(found).to_owned(), Face::SansBold, colour);
+            let badge = (self.sheet.figure.verdict(self.sheet.analysis, frame), Face::SansBold, colour);
             let mut line = if alone { vec![badge] } else { Vec::new() };
             let mut long = Vec::new();
-            for words in self.sheet.words(frame) {
+            for words in self.sheet.figure.words(self.sheet.analysis, frame, options) {
                 let span = (format!("{}·\u{a0}{words}", text::NO_BREAK), Face::Sans, theme.ink);
                 let wide: f64 =
                     line.iter().chain([&span]).map(|(words, face, _)| text::width(words, *face, size)).sum();
@@ -466,8 +637,7 @@ impl Page<'_> {
         let mut keys: Vec<Rc<Key>> = shown.iter().flat_map(|(_, picture)| picture.keys.iter().cloned()).collect();
         keys.sort_by_key(|key| key.rank);
         keys.dedup_by_key(|key| key.rank);
-        let gap = |key: &Key| if key.symbol.is_empty() { 0.0 } else { look.mm(1.2) };
-        let width = |key: &Key| key.width + gap(key) + text::width(&key.words, Face::Sans, size);
+        let width = |key: &Key| self.sheet.key_width(key);
         let room = self.width - look.mm(2.0 * MARGIN);
         let between = look.mm(4.0);
         let broken = |keys: &[Rc<Key>]| {
@@ -499,7 +669,8 @@ impl Page<'_> {
                 let middle = PagePoint::new(x, self.y - 0.36 * size);
                 let symbol = key.symbol.iter().map(|path| Item::from(path.clone()).moved(middle.x, middle.y));
                 group.items.extend(symbol);
-                let at = PagePoint::new(x + key.width + gap(&key), self.y);
+                let words = text::width(&key.words, Face::Sans, size);
+                let at = PagePoint::new(x + width(&key) - words, self.y);
                 group.items.push(Text::new(at, key.words.as_str(), Face::Sans, size, theme.faint).into());
                 x += width(&key) + between;
             }

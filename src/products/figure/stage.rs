@@ -6,10 +6,10 @@ use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark, along};
 use super::pen::{colour, seams};
 use super::placing::Label;
-use super::words::{force, quantity};
-use crate::geometry::{Edge, Point, Vector};
+use super::words::{force, quantity, round_below_in};
+use crate::geometry::{Bounds, Edge, Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, Load};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, arrow};
+use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 
 /// The ranks of the entries of the legend that this module explains.
 const LOAD_RANK: u8 = 40;
@@ -142,16 +142,9 @@ pub(crate) fn names(canvas: &mut Canvas<'_>) {
     for id in &canvas.frame().placed {
         let block = &canvas.scene().blocks[id.0];
         let fill = block.body.fill.map_or(theme.block, colour);
-        canvas.label(Label {
-            words: block.id.clone(),
-            bold: false,
-            colour: theme.letters_on(fill, None),
-            anchors: vec![canvas.place(block.body.polygon.centroid())],
-            rank: 90,
-            away: None,
-            fixed: None,
-            inside: Some(canvas.camera.rect(block.body.polygon.bounds())),
-        });
+        let at = vec![canvas.place(block.body.polygon.centroid())];
+        let inside = Some(canvas.camera.rect(block.body.polygon.bounds()));
+        canvas.label(Label { inside, ..Label::new(block.id.clone(), theme.letters_on(fill, None), at, 90) });
     }
 }
 
@@ -271,7 +264,7 @@ pub(crate) fn amount(
     away: Option<(f64, f64)>,
 ) {
     if canvas.options.labels && canvas.options.main_amounts {
-        canvas.label(Label { words, bold: rank > 0, colour: ink, anchors, rank, away, fixed: None, inside: None });
+        canvas.label(Label { bold: rank > 0, away, ..Label::new(words, ink, anchors, rank) });
     }
 }
 
@@ -330,9 +323,23 @@ pub(crate) fn robots(canvas: &mut Canvas<'_>) {
             words = format!("{words}, {stated}");
         }
         if canvas.options.labels && canvas.options.main_amounts {
-            let label =
-                Label { words, bold: false, colour: ink, anchors, rank: 2, away: None, fixed: None, inside: None };
-            canvas.label(label);
+            canvas.label(Label::new(words, ink, anchors, 2));
+        }
+    }
+}
+
+/// Draws the discs and the names of the robots that hold a block, without their forces.
+pub(crate) fn held(canvas: &mut Canvas<'_>) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    for hold in &canvas.frame().holds {
+        let (name, at, fill) = (&scene.robots[hold.robot.0].id, canvas.place(hold.at), theme.robot(hold.robot.0));
+        let edge = Stroke::new(theme.ink, canvas.mm(0.22));
+        let disc = Path::filled(Outline::circle(at, canvas.mm(1.35)), fill).with_stroke(edge);
+        let title = format!("Robot {name} holds block {}", scene.blocks[hold.block.0].id);
+        canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
+        let ink = theme.letters_on(theme.page, Some(fill));
+        if canvas.options.labels {
+            canvas.label(Label::new(name.clone(), ink, vec![at], 2));
         }
     }
 }
@@ -351,6 +358,54 @@ pub(crate) fn listed_contacts(canvas: &mut Canvas<'_>) {
         let dot = Path::filled(Outline::circle(at, canvas.mm(0.35)), theme.ink);
         canvas.put(Mark::new(Layer::Force, "contact", vec![dot]).titled(title));
     }
+}
+
+/// Draws dimension lines below and to the left of all that is drawn: the width and the height of the blocks of the
+/// frame, or of the block in the centre of a zoomed picture.
+pub(crate) fn dimensions(canvas: &mut Canvas<'_>) {
+    let scene = canvas.scene();
+    let measured = canvas.frame().placed.iter().filter(|id| canvas.options.zoom.is_none_or(|zoomed| zoomed == **id));
+    let bounds = measured.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
+    let Some(bounds) = bounds else { return };
+    let (all, blocks, ink) = (canvas.extent(), canvas.camera.rect(bounds), canvas.theme().faint);
+    let size = canvas.look.text * canvas.theme().sizes.amount;
+    let (tick, clear) = (canvas.mm(0.7), canvas.mm(2.4));
+    let (x, y) = (all.at.x - clear, all.at.y + all.height + clear);
+    let (left, right) = (blocks.at.x, blocks.at.x + blocks.width);
+    let (top, bottom) = (blocks.at.y, blocks.at.y + blocks.height);
+    let line = |from: PagePoint, to: PagePoint, (dx, dy): (f64, f64)| {
+        let mut line = Outline::line([from, to]);
+        for end in [from, to] {
+            line.extend(Outline::line([end.moved(-dx, -dy), end.moved(dx, dy)]));
+        }
+        Path::stroked(line, Stroke::new(ink, canvas.mm(0.15)))
+    };
+    let across = line(PagePoint::new(left, y), PagePoint::new(right, y), (0.0, tick));
+    let up = line(PagePoint::new(x, top), PagePoint::new(x, bottom), (tick, 0.0));
+    let words = |metres: f64| quantity(metres, scene.units.length());
+    let (wide, high) = (words(bounds.width()), words(bounds.height()));
+    let beside = x - canvas.mm(1.2) - text::width(&high, Face::Sans, size) / 2.0;
+    let labels = [
+        (wide, PagePoint::new((left + right) / 2.0, y + canvas.mm(0.7) + 0.6 * size)),
+        (high, PagePoint::new(beside, (top + bottom) / 2.0)),
+    ];
+    canvas.put(Mark::new(Layer::Around, "dimensions", vec![across, up]).avoided(canvas.mm(0.3)));
+    for (words, at) in labels {
+        canvas.label(Label { fixed: Some(at), ..Label::new(words, ink, vec![at], 5) });
+    }
+}
+
+/// Returns the entry of the legend with a bar of a round length, at most a quarter of the structure.
+pub(crate) fn scale_bar(canvas: &Canvas<'_>) -> Option<Key> {
+    let units = canvas.scene().units.length();
+    let metres = round_below_in(0.25 * canvas.camera.metres(canvas.structure.width), units);
+    let (width, tick) = (canvas.camera.length(metres), canvas.mm(0.6));
+    let mut bar = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
+    for x in [0.0, width] {
+        bar.extend(Outline::line([PagePoint::new(x, -tick), PagePoint::new(x, tick)]));
+    }
+    let symbol = vec![Path::stroked(bar, Stroke::new(canvas.theme().ink, canvas.mm(0.22)))];
+    (metres > 0.0).then(|| Key { rank: 90, words: quantity(metres, units), symbol, width })
 }
 
 /// Returns the blocks of all frames, placed or planned.

@@ -1,18 +1,14 @@
 //! Draws the structure without its solution, for exercises: the blocks, the ground, the robots and the loads.
 
-use super::content::{About, PanelContent};
-use super::context::FigureContext;
-use super::label;
-use super::legend::{self, Entry};
-use super::panel::composed;
-use super::pen::Pen;
-use crate::geometry::Bounds;
-use crate::pictures::drawing::Group;
+use super::canvas::Canvas;
+use super::content::About;
+use super::sheet::Figure;
+use super::stage;
 
 /// The figure of a structure without its solution.
 pub(crate) struct Structure;
 
-impl PanelContent for Structure {
+impl Figure for Structure {
     fn about(&self) -> About {
         About {
             name: "structure",
@@ -23,15 +19,12 @@ impl PanelContent for Structure {
         }
     }
 
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        composed(pen, view, pen.blocks(), vec![pen.arrows(false)], label::ink(pen))
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
-        legend::loads(context).into_iter().chain(legend::robots(context)).collect()
-    }
-
-    fn reason(&self, _context: &FigureContext<'_>, _frame: usize) -> String {
-        String::new()
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        stage::listed_contacts(canvas);
+        stage::held(canvas);
+        stage::loads(canvas);
+        stage::names(canvas);
     }
 }

@@ -51,11 +51,6 @@ pub(crate) fn badge_colour(frame_analysis: &FrameAnalysis, theme: &Theme) -> Col
     }
 }
 
-/// Draws the symbol of a verdict in the colour of this verdict. `r` is the radius of the symbol in pixels.
-pub(crate) fn mark(verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {
-    mark_in(colour(verdict, theme), verdict, centre, r, theme)
-}
-
 /// Draws the symbol of a verdict in a given colour: a disc of radius `r` pixels with a tick (stable), a cross
 /// (unstable) or a question mark (undecided).
 pub(crate) fn mark_in(colour: Colour, verdict: Verdict, centre: PagePoint, r: f64, theme: &Theme) -> Group {

@@ -7,7 +7,7 @@
 //! | option | meaning |
 //! |---|---|
 //! | `file=scene.json` | the scene file; its path is relative to the file of the chapter |
-//! | `kind=mechanism` | the kind of figure: `freebody`, or the name of a [`Kind`]; without this option, `forces` |
+//! | `kind=mechanism` | the kind of figure: the name of a [`Kind`]; without this option, `forces` |
 //! | `block=a` | the id of the block in a free-body diagram; not needed if the scene has only one block |
 //! | `theme=dark` | the theme of the figure |
 //! | `width=600` | the width of the figure in pixels |
@@ -215,23 +215,22 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
 }
 
 fn drawing(analysis: &Analysis, request: &FigureRequest) -> Result<Drawing, String> {
-    let kind = match request.kind.as_str() {
-        "freebody" => {
-            let scene = &analysis.scene;
-            let block = match &request.block {
-                Some(id) => scene.blocks.iter().position(|b| b.id == *id),
-                None => (scene.blocks.len() == 1).then_some(0),
-            };
-            let block = BlockId(block.ok_or("block= must be the id of a block in the scene")?);
-            let frame = scene.frames.iter().rposition(|f| f.placed.contains(&block));
-            return frame
-                .and_then(|f| figure::freebody(analysis, f, block, &request.options))
-                .ok_or("no step of the scene places this block".to_owned());
+    let name = request.kind.as_str();
+    let known = || Kind::ALL.map(Kind::name).join(", ");
+    let kind =
+        Kind::from_name(name).ok_or_else(|| format!("there is no kind of figure {name:?}; known are {}", known()))?;
+    let mut options = request.options.clone();
+    if kind.shows_one_block() {
+        let scene = &analysis.scene;
+        let block = match &request.block {
+            Some(id) => scene.blocks.iter().position(|b| b.id == *id),
+            None => (scene.blocks.len() == 1).then_some(0),
+        };
+        let block = BlockId(block.ok_or("block= must be the id of a block in the scene")?);
+        if !scene.frames.iter().any(|frame| frame.placed.contains(&block)) {
+            return Err("no step of the scene places this block".to_owned());
         }
-        name => Kind::from_name(name).ok_or(format!(
-            "there is no kind of figure {name:?}; known are {}, freebody",
-            Kind::ALL.map(Kind::name).join(", ")
-        ))?,
-    };
-    Ok(figure::draw(analysis, kind, &request.options))
+        options.block = Some(block);
+    }
+    Ok(figure::draw(analysis, kind, &options))
 }

@@ -2,7 +2,7 @@
 
 use super::super::option::{Corners, Options};
 use super::super::words::{force as amount, quantity};
-use super::around::{Corner, corners, distinct, inward, other};
+use super::surroundings::{Corner, corners, distinct, inward, other};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::mechanics::scene::format::UnitsEntry;
@@ -17,13 +17,54 @@ const MAX_INTERFACES_BY_CORNER: usize = 3;
 /// rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 
+/// What exerts a force on a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cause {
+    Weight,
+    /// The force of a load.
+    Load,
+    /// The torque of a load.
+    LoadTorque,
+    /// The normal force at an end of an interface, the friction force there, or both.
+    Normal,
+    Friction,
+    Contact,
+    /// The force of a robot.
+    Robot,
+    /// The torque of a robot.
+    RobotTorque,
+    /// A missing force or torque; the word says which.
+    Missing(&'static str),
+}
+
+impl Cause {
+    /// The word for the force, such as `Weight`.
+    fn word(self) -> &'static str {
+        match self {
+            Cause::Weight => "Weight",
+            Cause::Load => "Load",
+            Cause::LoadTorque => "Torque of a load",
+            Cause::Normal => "Normal force",
+            Cause::Friction => "Friction force",
+            Cause::Contact | Cause::Robot => "Force",
+            Cause::RobotTorque => "Torque",
+            Cause::Missing(word) => word,
+        }
+    }
+
+    /// True for a force of an interface.
+    pub(super) fn is_interface(self) -> bool {
+        matches!(self, Cause::Normal | Cause::Friction | Cause::Contact)
+    }
+}
+
 /// A force on the block.
 #[derive(Clone, Debug)]
 pub(super) struct Force {
     /// The name of the force.
     pub symbol: Symbol,
-    /// The kind of force, such as `Weight`.
-    pub what: &'static str,
+    /// What exerts the force.
+    pub cause: Cause,
     /// The origin of the force, such as the name of a block.
     pub from: String,
     /// The point where the force acts, metres.
@@ -44,12 +85,12 @@ impl Force {
 
     /// True for a force or a torque of a load.
     pub(super) fn is_load(&self) -> bool {
-        matches!(self.what, "Load" | "Torque of a load")
+        matches!(self.cause, Cause::Load | Cause::LoadTorque)
     }
 
     /// True for a missing force or torque.
     pub(super) fn is_missing(&self) -> bool {
-        self.what.starts_with("Missing")
+        matches!(self.cause, Cause::Missing(_))
     }
 
     /// Describes the force and its magnitude, such as `Weight mg on block a: 6 N at 270°`. `on` is the name of the
@@ -60,7 +101,7 @@ impl Force {
         } else {
             quantity(self.torque, units.torque())
         };
-        format!("{} {} on block {on}: {amount}", self.what, self.symbol.stated())
+        format!("{} {} on block {on}: {amount}", self.cause.word(), self.symbol.stated())
     }
 }
 
@@ -137,7 +178,7 @@ impl ForceSource<'_> {
     fn weight(&self, applied: &AppliedForce) -> Force {
         Force {
             symbol: weight(),
-            what: "Weight",
+            cause: Cause::Weight,
             from: "weight".to_owned(),
             at: applied.at,
             force: applied.force,
@@ -152,7 +193,7 @@ impl ForceSource<'_> {
         let below = number.to_string();
         let push = Force {
             symbol: Symbol::new("Q", Accent::Arrow, &below),
-            what: "Load",
+            cause: Cause::Load,
             from: "load".to_owned(),
             at: applied.at,
             force: applied.force,
@@ -161,7 +202,7 @@ impl ForceSource<'_> {
         };
         let turn = Force {
             symbol: Symbol::new("M", Accent::None, &format!("Q{below}")),
-            what: "Torque of a load",
+            cause: Cause::LoadTorque,
             force: Vector::zeros(),
             torque: applied.torque,
             ..push.clone()
@@ -194,7 +235,7 @@ impl ForceSource<'_> {
         for (number, corner) in self.ends(contact) {
             let named = |kind: &str| Symbol::new("F", Accent::Arrow, &format!("{kind}{number}"));
             let push = normal * corner.normal;
-            forces.push(self.of_contact(contact, "Normal force", named("s"), (corner.at, push)));
+            forces.push(self.of_contact(contact, Cause::Normal, named("s"), (corner.at, push)));
             let side = if corner.friction >= 0.0 { "fl" } else { "fr" };
             for kind in ["fl", "fr"] {
                 let acts = kind == side && corner.friction.abs() > noise;
@@ -203,7 +244,7 @@ impl ForceSource<'_> {
                 }
                 let amount = if acts { corner.friction } else { 0.0 };
                 let rub = (corner.at, left * amount);
-                forces.push(self.of_contact(contact, "Friction force", named(kind), rub));
+                forces.push(self.of_contact(contact, Cause::Friction, named(kind), rub));
             }
         }
         forces
@@ -220,7 +261,7 @@ impl ForceSource<'_> {
             let symbol = Symbol::new(letter, accent, &end.to_string());
             let symbol = symbol.raised(&format!("({number})"));
             let sum = corner.on_block(inward(contact, self.block));
-            self.of_contact(contact, "Force", symbol, (corner.at, sum))
+            self.of_contact(contact, Cause::Contact, symbol, (corner.at, sum))
         };
         self.ends(contact).map(force).collect()
     }
@@ -231,7 +272,7 @@ impl ForceSource<'_> {
         let normal = inward(contact, self.block);
         let sum: Vector = ends.iter().map(|corner| corner.on_block(normal)).sum();
         let symbol = Symbol::new("F", Accent::Arrow, &number.to_string());
-        self.of_contact(contact, "Force", symbol, (contact.resultant.at, sum))
+        self.of_contact(contact, Cause::Contact, symbol, (contact.resultant.at, sum))
     }
 
     /// Returns the application points of an interface with their forces on the block, numbered from 1. If the two
@@ -242,10 +283,10 @@ impl ForceSource<'_> {
     }
 
     /// Creates the entry for a force (N) that the interface `contact` exerts on the block at the point `at`.
-    fn of_contact(&self, contact: &Contact, what: &'static str, symbol: Symbol, (at, force): (Point, Vector)) -> Force {
+    fn of_contact(&self, contact: &Contact, cause: Cause, symbol: Symbol, (at, force): (Point, Vector)) -> Force {
         Force {
             symbol,
-            what,
+            cause,
             from: self.named(other(contact, self.block)),
             at,
             force,
@@ -262,7 +303,7 @@ impl ForceSource<'_> {
             let robot = &scene.robots[held.robot.0];
             let push = Force {
                 symbol: Symbol::new("F", Accent::Arrow, "").raised(&robot.id),
-                what: "Force",
+                cause: Cause::Robot,
                 from: format!("robot {}", robot.id),
                 at: held.at,
                 force: held.force,
@@ -271,7 +312,7 @@ impl ForceSource<'_> {
             };
             let turn = Force {
                 symbol: Symbol::new("M", Accent::None, "").raised(&robot.id),
-                what: "Torque",
+                cause: Cause::RobotTorque,
                 force: Vector::zeros(),
                 torque: held.torque,
                 ..push.clone()
@@ -312,7 +353,7 @@ impl ForceSource<'_> {
         };
         Some(Force {
             symbol: Symbol::new("X", Accent::None, ""),
-            what,
+            cause: Cause::Missing(what),
             from: format!("missing, {from}"),
             at: failure.at(),
             force,
@@ -334,10 +375,7 @@ impl ForceSource<'_> {
 /// counts as a force. Returns 0 if the lengths of arrows do not show magnitudes.
 pub(super) fn largest(forces: &[Force], edge: f64, options: &Options) -> f64 {
     let size = |f: &Force| f.force.norm().max(f.torque.abs() / edge);
-    match options.corners {
-        Corners::All => 0.0,
-        Corners::Few => forces.iter().map(size).fold(0.0, f64::max),
-    }
+    if options.corners == Corners::All { 0.0 } else { forces.iter().map(size).fold(0.0, f64::max) }
 }
 
 /// Returns the symbol m·g of a weight.

@@ -55,10 +55,7 @@ impl Column {
     fn new(largest: f64, unit: Unit) -> Column {
         let largest = unit.value_from_si(largest);
         let digits = if largest > 0.0 && largest.is_finite() { libm::floor(libm::log10(largest)) as i32 } else { 0 };
-        let step = match unit.is_chosen {
-            true => 0,
-            false => digits.div_euclid(3).clamp(-2, 2),
-        };
+        let step = if unit.is_chosen { 0 } else { digits.div_euclid(3).clamp(-2, 2) };
         let before = digits - 3 * step + 1;
         let prefix = ["µ", "m", "", "k", "M"][(step + 2) as usize];
         Column {

@@ -1,6 +1,6 @@
 //! [`places`]: lists the coordinates of the points at which forces act, and the components of the unit normals.
 
-use super::around::{corners, distinct, inward};
+use super::surroundings::{corners, distinct, inward};
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::BlockId;
 use crate::pictures::drawing::symbol::{Accent, Symbol};

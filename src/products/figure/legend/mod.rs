@@ -8,7 +8,6 @@ mod symbol;
 pub(crate) use content::{entries, is_limit, limits, loads, metres, robots, scale, shared_scale};
 pub(crate) use entry::{Entry, MissingWords};
 pub(crate) use lines::draw;
-pub(crate) use symbol::BAR_LENGTH;
 
 use crate::pictures::drawing::{Item, PagePoint, Theme};
 

@@ -1,14 +1,10 @@
-//! Finds what a free-body diagram shows around the block: the bodies that touch it, the points at which forces act, and
-//! the shown part of the scene.
+//! Finds what a free body has around it: the bodies that touch it, the points at which forces act, and the shown part of
+//! the scene.
 
-use super::arrow::{Arrow, MAX_LENGTH};
 use crate::geometry::{Bounds, Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
-use crate::pictures::drawing::{Camera, PageRect};
-
-/// Space beyond the tip of an arrow for its name: width and height, pixels.
-const NAME_SPACE: (f64, f64) = (38.0, 24.0);
+use crate::pictures::drawing::{PagePoint, PageRect};
 
 /// Returns the bodies that touch a block, without duplicates.
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
@@ -29,7 +25,7 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
     if (b - a).norm() > 1e-9 * (1.0 + contact.interface.length()) { vec![a, b] } else { vec![a] }
 }
 
-/// Returns the part of the scene that the diagram shows, metres: the whole block, and the nearby parts of the bodies
+/// Returns the part of the scene that the figure shows, metres: the whole block, and the nearby parts of the bodies
 /// that touch it.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
     let own = analysis.scene.blocks[block.0].body.polygon.bounds();
@@ -131,45 +127,28 @@ pub(super) fn aside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64
     tries.into_iter().find(goes_on).unwrap_or(interface.middle())
 }
 
-/// Returns the widths of the margins that arrows and their names need around the shown part of the scene, in pixels:
-/// left, top, right, bottom.
-pub(super) fn around_arrows(shown: &PageRect, arrows: &[Arrow], camera: &Camera) -> [f64; 4] {
-    let mut pads: [f64; 4] = [12.0; 4];
-    for arrow in arrows {
-        let from = camera.place(arrow.at);
-        let ends = match arrow.turn {
-            Some(_) => {
-                vec![from.moved(-MAX_LENGTH / 2.0, -MAX_LENGTH / 2.0), from.moved(MAX_LENGTH / 2.0, MAX_LENGTH / 2.0)]
+/// Returns the part of a ring of points that lies in a rectangle, by the algorithm of Sutherland and Hodgman. Parts that
+/// are apart may be joined by lines along the edges of the rectangle.
+pub(super) fn clipped(ring: &[PagePoint], rect: PageRect) -> Vec<PagePoint> {
+    let (right, floor) = (rect.at.x + rect.width, rect.at.y + rect.height);
+    // Each side as (a, b, c): a point is inside if a·x + b·y + c ≥ 0.
+    let sides = [(1.0, 0.0, -rect.at.x), (-1.0, 0.0, right), (0.0, 1.0, -rect.at.y), (0.0, -1.0, floor)];
+    let mut ring = ring.to_vec();
+    for (a, b, c) in sides {
+        let height = |p: PagePoint| a * p.x + b * p.y + c;
+        let mut cut = Vec::new();
+        for (i, p) in ring.iter().enumerate() {
+            let next = ring[(i + 1) % ring.len()];
+            let (here, there) = (height(*p), height(next));
+            if here >= 0.0 {
+                cut.push(*p);
             }
-            None => vec![from, from.moved(arrow.along.0, arrow.along.1)],
-        };
-        let (right, floor) = (shown.at.x + shown.width, shown.at.y + shown.height);
-        for end in ends {
-            let beyond = [
-                shown.at.x - end.x + NAME_SPACE.0,
-                shown.at.y - end.y + NAME_SPACE.1,
-                end.x - right + NAME_SPACE.0,
-                end.y - floor + NAME_SPACE.1,
-            ];
-            for (pad, more) in pads.iter_mut().zip(beyond) {
-                *pad = pad.max(more);
+            if (here >= 0.0) != (there >= 0.0) {
+                let share = here / (here - there);
+                cut.push(p.moved(share * (next.x - p.x), share * (next.y - p.y)));
             }
         }
+        ring = cut;
     }
-    pads
-}
-
-/// True if a point lies outside the view, and the bounding box `body` also extends beyond the view on the same side.
-pub(super) fn runs_on(at: Point, view: Bounds, body: Bounds) -> bool {
-    at.x < view.min.x && body.min.x <= view.min.x
-        || at.x > view.max.x && body.max.x >= view.max.x
-        || at.y < view.min.y && body.min.y <= view.min.y
-        || at.y > view.max.y && body.max.y >= view.max.y
-}
-
-/// True if the diagram shows coordinates: the block has exactly one interface, and no robot holds the block. In other
-/// cases the dashed lines to the axes would make the picture unreadable.
-pub(super) fn guided(analysis: &Analysis, frame: usize, block: BlockId, contacts: &[&Contact]) -> bool {
-    let holds = &analysis.scene.frames[frame].holds;
-    contacts.len() == 1 && !holds.iter().any(|h| h.block == block)
+    ring
 }
