@@ -39,7 +39,7 @@ function figureOptions(kind) {
   const capacity = kind === "capacity" && body?.list === "blocks" ? { capacity: `${body.id}@${body.centre.map((c) => c.toFixed(6)).join(",")}` } : {};
   // Give the figure the width of its panel, so that its letters are as large as those of the page.
   const width = Math.max(340, Math.round(byId("figure-panel").clientWidth));
-  return { frame: store.frame + 1, theme: theme.dark ? "dark" : "thesis", width_px: width, ...capacity };
+  return { frame: store.frame + 1, theme: theme.dark ? "dark" : undefined, width_px: width, ...capacity };
 }
 
 /** @param {import("./verdict.js").Words} words @param {number} milliseconds */

@@ -1,30 +1,15 @@
 //! The marks of forces in the look `plain`: each lies in the place of its joint, in the direction of its force, and none
 //! is left out.
 
+use drystone::Analysis;
 use drystone::drawing::{Camera, Drawing, Group, Item, PagePoint, Theme};
 use drystone::figure::{self, Options};
 use drystone::scene::BodyId;
-use drystone::{Analysis, Scene};
+
+use crate::true_places::scenes;
 
 /// Largest distance of a mark from its joint: 1.2 mm of the design, pixels of a screen.
 const MAX_DISTANCE: f64 = 1.2 * 5.37;
-
-fn scenes() -> Vec<(String, Scene)> {
-    let mut found = Vec::new();
-    for folder in ["tests/scenes", "assets/gallery", "assets/thesis", "assets/validation"] {
-        let path = format!("{}/{folder}", env!("CARGO_MANIFEST_DIR"));
-        let files = std::fs::read_dir(path).expect("the folder is there").map(|file| file.expect("readable").path());
-        for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "json")) {
-            let text = std::fs::read_to_string(&file).expect("readable");
-            if let Ok(scene) = Scene::from_json(&text) {
-                found.push((file.display().to_string(), scene));
-            }
-        }
-    }
-    found.sort_by(|a, b| a.0.cmp(&b.0));
-    assert!(found.len() > 20, "{}", found.len());
-    found
-}
 
 /// Visits the groups of a class with the camera of their picture.
 fn visit(items: &[Item], camera: Option<Camera>, class: &str, seen: &mut dyn FnMut(&Group, Camera)) {
@@ -67,9 +52,6 @@ fn start(group: &Group) -> PagePoint {
 fn every_mark_lies_at_its_joint_and_names_its_bodies() {
     let mut marks = 0;
     for (name, scene) in scenes() {
-        if scene.blocks().len() > 1000 {
-            continue;
-        }
         let analysis = Analysis::new(&scene);
         let drawing = figure::forces(&analysis, &Options::default().theme(Theme::plain()));
         let panels = panels(&drawing);

@@ -1,7 +1,7 @@
 //! The keys of figures, their size on a page, and the options that leave out parts of a figure.
 
 use drystone::analysis::Analysis;
-use drystone::drawing::{Group, Text};
+use drystone::drawing::{Group, Text, Theme};
 use drystone::figure::{self, Kind, Options};
 
 use crate::labels::{COLUMN, classes, pieces, texts};
@@ -10,7 +10,7 @@ use crate::pictures::scene;
 #[test]
 fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
     let scene = scene("tests/scenes/loaded.json");
-    let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().theme(Theme::thesis()));
     let amounts: Vec<String> = classes(&drawing.items, &["amount"])
         .into_iter()
         .flat_map(texts)
@@ -26,7 +26,7 @@ fn a_load_has_its_magnitude_and_is_explained_in_the_key() {
 #[test]
 fn every_robot_is_named_in_the_key() {
     let scene = scene("tests/scenes/robots10.json");
-    let drawing = figure::forces(&Analysis::new(&scene), &Options::default());
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().theme(Theme::thesis()));
     let key: Vec<Text> = classes(&drawing.items, &["key"]).into_iter().flat_map(texts).collect();
     for robot in scene.robots() {
         let words = format!("robot {}", robot.id);
@@ -83,23 +83,19 @@ fn each_option_leaves_out_only_the_part_that_it_names() {
         let page = Group { items: drawing.items, ..Group::default() };
         texts(&page).into_iter().map(|t| t.words).collect::<Vec<String>>()
     };
-    let full = words_of(&Options::default());
+    let look = || Options::default().theme(Theme::thesis());
+    let full = words_of(&look());
     let has = |all: &[String], words: &str| all.iter().any(|s| s.contains(words));
     let signs = ["A lintel, and", "(b) The crane", "stands", "robot crane"];
     assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
-    let less = [
-        Options::default().titles(false),
-        Options::default().captions(false),
-        Options::default().verdicts(false),
-        Options::default().keys(false),
-    ];
+    let less = [look().titles(false), look().captions(false), look().verdicts(false), look().keys(false)];
     for (number, options) in less.iter().enumerate() {
         let left = words_of(options);
         for (other, words) in signs.iter().enumerate() {
             assert_eq!(has(&left, words), other != number, "{words}: {left:?}");
         }
     }
-    let more = Options::default().scale_bar(true).dimensions(true);
+    let more = look().scale_bar(true).dimensions(true);
     let more = words_of(&more);
     let metres = |all: &[String]| all.iter().filter(|s| s.ends_with(" m")).count();
     assert_eq!((metres(&full), metres(&more)), (0, 7), "{more:?}");

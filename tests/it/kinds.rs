@@ -123,7 +123,7 @@ fn the_safe_fraction_of_an_interface_is_one_minus_the_kernel() {
                 let points: Vec<_> = path.outline.points().collect();
                 let length: f64 =
                     points.chunks(2).map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y)).sum();
-                if stroke.colour == Theme::default().safe {
+                if stroke.colour == Theme::thesis().safe {
                     safe += length;
                 } else if !stroke.dash.is_empty() {
                     rest += length;
@@ -265,7 +265,7 @@ fn a_line_of_thrust_over_several_supports_names_its_state() {
 #[test]
 fn a_large_structure_without_arrows_still_names_its_largest_contact_force() {
     let scene = structure::scene(&structure::wall(20, 16));
-    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().width(397.0));
+    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().theme(Theme::thesis()).width(397.0));
     let svg = svg::write(&drawing);
     assert!(svg.contains("too small to read, left out"), "arrows are drawn");
     assert_eq!(svg.matches(">largest: ").count(), 1, "{svg}");

@@ -1,7 +1,7 @@
 //! Names next to their blocks, with and without a leader line, and names in several lines, measured on the drawings.
 
 use drystone::Analysis;
-use drystone::drawing::{Drawing, Group, Item, PagePoint};
+use drystone::drawing::{Drawing, Face, Group, Item, PagePoint, Theme};
 use drystone::figure::{self, Kind, Options};
 use drystone::scene::{BlockId, Scene};
 
@@ -31,7 +31,7 @@ fn leader(label: &Group) -> Option<[PagePoint; 2]> {
     pieces(label).last().copied()
 }
 
-/// In the crowded scene `steps30`, at most one leader in eighteen may cross a label or another leader. In all other
+/// In the crowded scene `steps30`, at most one leader in twenty may cross a label or another leader. In all other
 /// scenes, none may.
 #[test]
 fn leaders_cross_neither_each_other_nor_a_label() {
@@ -61,7 +61,7 @@ fn leaders_cross_neither_each_other_nor_a_label() {
     let crowded = |complaint: &&String| complaint.starts_with("steps30");
     let (crowded, others): (Vec<_>, Vec<_>) = complaints.iter().partition(crowded);
     assert!(others.is_empty(), "{others:?}");
-    assert!(crowded.len() * 18 <= count, "{} of {count}: {crowded:?}", crowded.len());
+    assert!(crowded.len() * 20 <= count, "{} of {count}: {crowded:?}", crowded.len());
 }
 
 /// Twelve loads stand so close together that their amounts do not fit beside each other. The amounts are in the order
@@ -82,14 +82,24 @@ fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
     for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism] {
         let drawing = drawn(&scene, kind, COLUMN);
         let labels = classes(&drawing.items, &["amount"]);
-        let labels = labels.iter().filter(|l| !texts(l)[0].words.starts_with("largest"));
+        // The largest force of a joint is written in bold, or with the word `largest`.
+        let is_load = |l: &&&Group| {
+            let text = &texts(l)[0];
+            !text.words.starts_with("largest") && (kind != Kind::Forces || text.face == Face::Sans)
+        };
+        let labels = labels.iter().filter(is_load);
         let labels: Vec<&Group> = labels.copied().collect();
         let mut amounts: Vec<(f64, String)> =
             labels.iter().map(|l| (texts(l)[0].at.x, texts(l)[0].words.clone())).collect();
         amounts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let words: Vec<&str> = amounts.iter().map(|a| a.1.as_str()).collect();
         let expected: Vec<String> = (1..=12).map(|k| format!("{k} kN")).collect();
-        assert_eq!(words, expected, "{kind:?}");
+        // In the figure of forces, leaders lead to the amounts that have no room in the row.
+        if kind == Kind::Forces {
+            assert!(words.len() == 12 && expected.iter().all(|load| words.contains(&load.as_str())), "{words:?}");
+        } else {
+            assert_eq!(words, expected, "{kind:?}");
+        }
         for (i, label) in labels.iter().enumerate() {
             let Some(line) = leader(label) else { continue };
             for (j, other) in labels.iter().enumerate().filter(|(j, _)| *j != i) {
@@ -229,7 +239,8 @@ fn the_key_does_not_repeat_the_word_robot() {
     };
     for (id, entry) in [("robot", "robot"), ("Robot 2", "Robot 2"), ("r0", "robot r0")] {
         let scene = Scene::from_json(&text(id)).expect("sound");
-        let drawing = drawn(&scene, Kind::Forces, 658.0);
+        let options = Options::default().theme(Theme::thesis()).width(658.0);
+        let drawing = figure::forces(&Analysis::new(&scene), &options);
         let all = |items: &[Item]| {
             let page = Group { items: items.to_vec(), ..Group::default() };
             texts(&page)

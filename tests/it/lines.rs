@@ -2,7 +2,7 @@
 
 use drystone::Analysis;
 use drystone::analysis::{Failure, FrameAnalysis};
-use drystone::drawing::{Camera, Drawing, Group, Item, Outline, PagePoint};
+use drystone::drawing::{Camera, Drawing, Group, Item, Outline, PagePoint, Theme};
 use drystone::figure::{self, ForceStyle, Kind, Normalisation, Options};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::scene::{BlockId, BodyId, Scene};
@@ -228,10 +228,10 @@ fn scale(frame: &Group) -> Option<(f64, f64)> {
 fn every_arrow_has_the_length_of_its_force_in_the_scale_of_its_panel() {
     let (mut checked, mut shortest, mut left_out) = (0, f64::INFINITY, 0);
     let options = [
-        Options::default(),
+        Options::default().theme(Theme::thesis()),
         Options::default().style(ForceStyle::Components),
         Options::default().normalisation(Normalisation::Source),
-        Options::default().width(396.0),
+        Options::default().theme(Theme::thesis()).width(396.0),
     ];
     for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
@@ -290,7 +290,7 @@ fn all_text(group: &Group) -> Vec<&str> {
 fn forces_too_small_to_be_drawn_are_counted() {
     for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
-        let options = Options::default();
+        let options = Options::default().theme(Theme::thesis());
         let drawing = figure::forces(&analysis, &options);
         let page = Group { items: drawing.items.clone(), ..Group::default() };
         // Arrows that would be too small to read are not drawn. The key then counts them for all frames together.

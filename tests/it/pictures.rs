@@ -222,7 +222,7 @@ fn the_same_scene_gives_the_same_bytes() {
 
 #[test]
 fn shapes_are_drawn_with_their_names() {
-    let drawing = figure::shapes(&Theme::default());
+    let drawing = figure::shapes(&Theme::thesis());
     let svg = svg::write(&drawing);
     for name in drystone::scene::shape::BUILT_IN {
         assert!(svg.contains(&format!(">{name}</text>")), "{name}");
@@ -290,18 +290,20 @@ fn with_one_scale_for_a_strip_equal_weights_have_equal_arrows() {
 
 #[test]
 fn without_a_limit_the_key_states_what_the_colours_mean() {
+    let look =
+        |scene: &Scene| svg::write(&figure::forces(&Analysis::new(scene), &Options::default().theme(Theme::thesis())));
     let two = r#"{ "drystone": 1, "ground": [ { "polygon": [[-1,-1],[9,-1],[9,0],[-1,0]] } ], "blocks": [
         { "id": "low", "polygon": [[0,0],[2,0],[2,1],[0,1]], "weight": 6 },
         { "id": "high", "polygon": [[0,1],[2,1],[2,2],[0,2]], "weight": 2 } ] }"#;
-    let text = drawn(&from_json(two));
+    let text = look(&from_json(two));
     assert!(text.contains(">8 N</text>") && text.contains("weight or largest normal force"));
-    let full = Options::default().theme.amplitude(1.0).css();
+    let full = Theme::thesis().amplitude(1.0).css();
     assert!(text.contains(&format!("fill=\"{full}\"")), "the most loaded block is at the end of the scale");
     assert!(!text.contains("limit of"));
     let limited = two.replace("\"ground\"", r#""robots": [ { "id": "r", "limits": { "force": 20 } } ], "ground""#);
     // A robot that holds nothing changes no colour, except with the fills of the thesis, which have a different key.
     let of_blocks = |text: &str, fill: &str| text.matches(&format!("fill=\"{fill}\"")).count();
-    let with_robot = drawn(&from_json(&limited));
+    let with_robot = look(&from_json(&limited));
     assert!(!with_robot.contains("limit of"));
     assert_eq!(of_blocks(&with_robot, &full), of_blocks(&text, &full));
     let options = Options::default().fill(Fill::Source);

@@ -1,7 +1,7 @@
 //! Missing forces and loads in figures: the figure of a structure that falls must not look like a balance.
 
 use drystone::analysis::{Analysis, Options as AnalysisOptions, Toward, Verdict};
-use drystone::drawing::{Drawing, Group, Item};
+use drystone::drawing::{Drawing, Group, Item, Theme};
 use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
 use drystone::scene::Scene;
@@ -120,7 +120,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
         "blocks": [{ "id": "a", "polygon": [[1,0],[5,0],[5,2],[1,2]], "weight": 6000 }],
         "loads": [{ "block": "a", "force": [0, 0], "at": [3, 1.5], "torque": 0.5 }] }"#,
     );
-    let drawing = figure::draw(&Analysis::new(&small), Kind::Forces, &Options::default());
+    let drawing = figure::draw(&Analysis::new(&small), Kind::Forces, &Options::default().theme(Theme::thesis()));
     let turns = classes(&drawing.items, &["torque"]);
     let [turn] = turns[..] else { panic!("{} turning arrows", turns.len()) };
     let across = turn.items.iter().find_map(|item| match item {

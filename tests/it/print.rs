@@ -63,7 +63,7 @@ fn sound(svg: &str, what: &str) {
 #[test]
 fn every_svg_is_sound_in_every_form() {
     let mut drawings: Vec<(&str, Drawing)> = SCENES.map(|name| (name, figure(name))).into();
-    drawings.push(("shapes", figure::shapes(&drystone::drawing::Theme::default())));
+    drawings.push(("shapes", figure::shapes(&drystone::drawing::Theme::thesis())));
     drawings.push(("hostile", hostile()));
     for (name, drawing) in drawings {
         for words in [Words::Names, Words::Embedded, Words::Outlines] {
@@ -226,7 +226,7 @@ fn a_pdf_without_a_width_has_three_quarters_of_a_point_per_pixel() {
 
 #[test]
 fn unusual_drawings_become_pdf() {
-    for drawing in [hostile(), figure::shapes(&drystone::drawing::Theme::default())] {
+    for drawing in [hostile(), figure::shapes(&drystone::drawing::Theme::thesis())] {
         assert!(pdf::write(&drawing, None).is_ok());
     }
 }

@@ -113,7 +113,7 @@ fn the_gallery_equals_its_references() {
 /// The figures of `drystone figures`. Some of them have no scene file: the ring of colours and the sheet of shapes.
 #[test]
 fn the_figures_of_the_program_equal_their_references() {
-    let plates = drystone::figure::gallery(&drystone::drawing::Theme::default());
+    let plates = drystone::figure::gallery(&drystone::drawing::Theme::thesis());
     for plate in &plates {
         drystone::snapshot::assert_figure!(plate.name, &plate.drawing);
     }

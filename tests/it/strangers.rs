@@ -101,7 +101,7 @@ fn overlapping_and_faint_texts_are_found() {
     let (_, scene) = strangers().remove(0);
     let mut drawing = figure::forces(&Analysis::new(&scene), &Options::default());
     assert_eq!(faults(&drawing).1, Vec::<String>::new());
-    let key = classes(&drawing.items, &["key"])[0];
+    let key = classes(&drawing.items, &["legend"])[0];
     let mut twice = texts(key)[0].clone();
     twice.at = twice.at.moved(3.0, 1.0);
     drawing.items.push(twice.into());
@@ -132,7 +132,7 @@ fn missing_forces_and_loads_are_shown_even_if_very_small() {
         let drawing = figure::forces(&analysis, &Options::default());
         for (found, frame) in analysis.frames.iter().zip(classes(&drawing.items, &["frame"])) {
             let drawn: Vec<String> =
-                classes(&frame.items, &["force", "torque", "small"]).into_iter().map(|g| g.title.clone()).collect();
+                classes(&frame.items, &["missing", "load"]).into_iter().map(|g| g.title.clone()).collect();
             let missing = drawn.iter().filter(|t| t.starts_with("Missing")).count();
             assert!(missing >= found.failures.len(), "{name}: {missing}");
             assert_eq!(found.verdict == Verdict::Unstable, missing > 0, "{name}");

@@ -60,7 +60,7 @@ pub(crate) struct Batch {
     #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
     fields: Fields,
     /// Draw every scene into this folder, by default as PNG, 400 pixels wide. A picture is named after the file and
-    /// the line of its scene
+    /// the line of its scene; the line of its verdict has no margin
     #[arg(long, value_name = "FOLDER")]
     render: Option<PathBuf>,
     /// Number of threads [default: the number of cores, or 1.5 times as many with --render, because pictures wait for

@@ -42,7 +42,7 @@ impl Schema {
 #[derive(Debug, Args)]
 pub(crate) struct Style {
     /// The theme to print
-    #[arg(long, value_name = "NAME", default_value = "thesis", value_parser = typed_word::<ThemeName>())]
+    #[arg(long, value_name = "NAME", default_value = "plain", value_parser = typed_word::<ThemeName>())]
     theme: ThemeName,
 }
 

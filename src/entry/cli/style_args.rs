@@ -13,8 +13,8 @@ request! {
     /// The theme, and a style file that changes it.
     #[derive(Clone, Debug)]
     pub(crate) struct StyleArgs(given) {
-        /// The look: as in Vallat (2023), plain with one mark at each joint, for print and greyscale, for all kinds of colour vision, or for a dark page
-        /// [default: thesis]
+        /// The look: plain with one mark at each joint, as in Vallat (2023), for print and greyscale, for all kinds of
+        /// colour vision, or for a dark page [default: plain, but thesis for scenes on a lattice]
         theme: Option<ThemeName> = given.word("theme"),
             arg(long, value_name = "NAME", value_parser = typed_word::<ThemeName>());
         /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start

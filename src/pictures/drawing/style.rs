@@ -18,10 +18,10 @@ const MIN_LIGHTNESS_DIFFERENCE: f64 = 53.0;
 
 /// The look of a figure: its colours, widths and sizes.
 ///
-/// The built-in themes are `thesis` (the default, with the colours of the thesis [Vallat23](crate::doc::references)),
-/// `plain` (pale stones, and one mark for the force at each joint), `paper` (for print, also in grey), `colourblind`
-/// (after Okabe and Ito) and `dark`. The table shows the least
-/// distance of colours that can touch; a test checks the numbers. ΔE is CIEDE2000
+/// The built-in themes are `plain` (pale stones, and one mark for the force at each joint), `thesis` (with the colours of
+/// the thesis [Vallat23](crate::doc::references), and an arrow on each block), `paper` (for print, also in grey),
+/// `colourblind` (after Okabe and Ito) and `dark`. The default is `plain`, and `thesis` for scenes on a lattice. The table
+/// shows the least distance of colours that can touch; a test checks the numbers. ΔE is CIEDE2000
 /// ([`difference`](super::difference)). For `paper`, the distance is the difference of lightness, as in a grey print.
 /// For `colourblind`, it is the least value for full colour vision and the three deficiencies.
 ///
@@ -91,11 +91,13 @@ pub enum ForceMarks {
     Joints,
     /// An arrow on each of the two blocks, in the colour of the block, as in the thesis.
     Blocks,
+    /// Joints, but blocks in a scene on a lattice. With the colours of `plain`, such a scene has the theme `thesis`.
+    Scene,
 }
 
 impl ForceMarks {
     /// The names in style files.
-    pub const NAMES: [&str; 2] = ["joints", "blocks"];
+    pub const NAMES: [&str; 3] = ["joints", "blocks", "scene"];
 
     /// Returns the name of this way to draw forces in style files.
     pub fn name(self) -> &'static str {
@@ -244,6 +246,17 @@ impl Theme {
         if self.page.brightness() < self.ink.brightness() { self.ink } else { self.page }
     }
 
+    /// Returns the theme for a scene: the way to draw forces no longer depends on whether the scene is on a lattice.
+    #[must_use]
+    pub(crate) fn for_scene(&self, is_lattice: bool) -> Theme {
+        match self.forces {
+            ForceMarks::Scene if is_lattice && *self == Theme::default() => Theme::thesis(),
+            ForceMarks::Scene if is_lattice => Theme { forces: ForceMarks::Blocks, ..self.clone() },
+            ForceMarks::Scene => Theme { forces: ForceMarks::Joints, ..self.clone() },
+            _ => self.clone(),
+        }
+    }
+
     /// Returns the darker of the page colour and the ink colour.
     fn darker(&self) -> Colour {
         if self.page.brightness() < self.ink.brightness() { self.page } else { self.ink }
@@ -257,6 +270,6 @@ fn entry(list: &[Colour], number: usize) -> Option<Colour> {
 
 impl Default for Theme {
     fn default() -> Theme {
-        Theme::thesis()
+        Theme { forces: ForceMarks::Scene, ..Theme::plain() }
     }
 }

@@ -22,18 +22,23 @@ const MOTION_END_SECONDS: f64 = 1.0;
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
-    let options = kind.options(options);
+    let options = kind.options(&analysis.scene, options);
     match kind.drawer(&options) {
         Drawer::Canvas(figure) => sheet::page(&shown(analysis, kind), figure, &options),
         Drawer::Panels(content) => strip(&shown(analysis, kind), content, &options),
     }
 }
 
-/// Draws the forces of an analysis. Each frame has a panel with its arrows, its caption and its verdict.
+/// Draws the forces of an analysis. Each frame has a panel with its marks, its caption and its verdict.
 ///
-/// An arrow has the colour of the block on which it acts. Missing forces are thick and red. Unless the options select
-/// another quantity, the colours of blocks show amplitudes: the larger of the weight and the largest normal force
-/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9). All panels show the scene at the same scale.
+/// The force between two bodies is a mark with two heads at the point where it acts. Its length is the force, in one
+/// scale for all panels. Missing forces are red. Loads, robots and missing forces have their amounts. All panels show the
+/// scene at the same scale.
+///
+/// For a scene on a lattice, and with the theme `thesis`, the figure looks as in the thesis: every force is an arrow in
+/// the colour of the block on which it acts, and missing forces are thick and red. Unless the options select another
+/// quantity, the colours of blocks show amplitudes: the larger of the weight and the largest normal force
+/// ([Vallat23](crate::doc::references) §2.0.8 and §2.0.9).
 ///
 /// Units: the page is in pixels at natural size. It is about 370 to 1100 wide, unless the options set a width or more
 /// columns than fit.
@@ -63,7 +68,7 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 ///
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
-    let (analysis, options) = (shown(analysis, kind), kind.options(options));
+    let (analysis, options) = (shown(analysis, kind), kind.options(&analysis.scene, options));
     if !kind.about().needs_elementary_mechanisms {
         let pages = frame_pages(&analysis, kind, &options, &all_frames(&analysis)).into_iter();
         return pages.map(|page| (page, seconds)).collect();
@@ -96,12 +101,12 @@ fn eased(time: f64) -> f64 {
 
 /// Draws the panels of [`draw`] as separate pages, one for each frame. All pages have the same size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    frame_pages(&shown(analysis, kind), kind, &kind.options(options), &all_frames(analysis))
+    frame_pages(&shown(analysis, kind), kind, &kind.options(&analysis.scene, options), &all_frames(analysis))
 }
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
-    let options = kind.options(options);
+    let options = kind.options(&analysis.scene, options);
     let count = analysis.frames.len();
     let existing: Vec<usize> = frames.iter().copied().filter(|frame| *frame < count).collect();
     frame_pages(&shown(analysis, kind), kind, &options, &existing)
@@ -110,7 +115,7 @@ pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[u
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
-    let options = kind.options(options);
+    let options = kind.options(&analysis.scene, options);
     match kind.drawer(&options) {
         Drawer::Canvas(figure) => sheet::split(&shown(analysis, kind), figure, &options, max_ratio),
         Drawer::Panels(content) => strip::split(&shown(analysis, kind), content, &options, max_ratio),
@@ -120,7 +125,7 @@ pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64)
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
 /// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
-    let options = kind.options(options);
+    let options = kind.options(&analysis.scene, options);
     match kind.drawer(&options) {
         Drawer::Canvas(figure) => sheet::least_size(analysis, figure, &options),
         Drawer::Panels(content) => {

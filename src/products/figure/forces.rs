@@ -15,7 +15,7 @@ use crate::pictures::drawing::Group;
 /// The figure of forces. The options decide whether each panel has its own scale of arrows.
 pub(crate) const FORCES: Forces = Forces {
     name: "forces",
-    help: "Every force, and every missing force, as an arrow on the block on which it acts",
+    help: "Every force at a joint as a mark in its place, and every missing force",
     shares_arrow_scale: false,
 };
 

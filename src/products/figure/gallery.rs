@@ -114,6 +114,7 @@ pub fn gallery(theme: &Theme) -> Vec<Plate> {
 }
 
 fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
+    let theme = &theme.for_scene(true);
     let options = Options {
         style: ForceStyle::Components,
         normalisation: Normalisation::Source,

@@ -19,12 +19,13 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
-use crate::pictures::drawing::style::ForceMarks;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::margin::governing;
 
 /// A force below this share of the largest is numerical noise and has no mark.
 const NOISE: f64 = 1e-6;
+/// Forces that differ by less than this share of the largest have no order.
+const ORDER_STEP: f64 = 1e-3;
 /// Half the length of a tick, mm: the least half length of a mark.
 const TICK: f64 = 0.45;
 /// The legend explains ticks if there are at least this many.
@@ -174,7 +175,9 @@ fn drawn<'a>(canvas: &Canvas<'a>) -> Vec<Drawn<'a>> {
     };
     let mut all: Vec<Drawn<'a>> = contacts.filter_map(one).collect();
     // The largest first, so that small marks lie on top.
-    all.sort_by(|a, b| b.newtons.total_cmp(&a.newtons));
+    // Forces that differ only by rounding errors keep the order of their joints.
+    let step = (ORDER_STEP * largest(&canvas.analysis.frames)).max(f64::MIN_POSITIVE);
+    all.sort_by_key(|one| core::cmp::Reverse((one.newtons / step).round() as u64));
     all
 }
 
@@ -182,7 +185,7 @@ fn drawn<'a>(canvas: &Canvas<'a>) -> Vec<Drawn<'a>> {
 fn joints(canvas: &mut Canvas<'_>) {
     let (theme, look, scene) = (canvas.theme(), canvas.look, canvas.scene());
     let most = largest(&canvas.analysis.frames);
-    let all = drawn(canvas);
+    let mut all = drawn(canvas);
     let newtons_of_tick = look.mm(TICK) / canvas.scale;
     let every = canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts);
     let every = every.map(|contact| contact.resultant.force.norm());
@@ -202,6 +205,10 @@ fn joints(canvas: &mut Canvas<'_>) {
     }
     let few = canvas.frame().placed.len() <= MAX_AMOUNT_BLOCKS;
     let labelled = if canvas.options.amounts && few { all.len() } else { 1 };
+    let own_most = all.iter().map(|one| one.newtons).fold(0.0, f64::max);
+    if let Some(place) = all.iter().position(|one| one.newtons >= (1.0 - NOISE) * own_most) {
+        all[..=place].rotate_right(1);
+    }
     for (number, one) in all.iter().take(labelled).enumerate() {
         label(canvas, one, if number == 0 { 3 } else { 4 }, most);
     }
@@ -303,7 +310,8 @@ fn missing(canvas: &mut Canvas<'_>) {
         let (what, shapes, anchors, amount) = if let Failure::RobotTorque { torque, .. } = *failure {
             let amount = quantity(torque.abs(), scene.units.torque());
             let shapes = stage::torque(canvas, at, torque, (3.1, 0.6), ink);
-            (stage::turning(torque, amount.clone()), shapes, vec![at.moved(0.0, -look.mm(3.0))], amount)
+            let anchors = [(0.0, -3.0), (3.0, 0.0), (-3.0, 0.0)].map(|(x, y)| at.moved(look.mm(x), look.mm(y)));
+            (stage::turning(torque, amount.clone()), shapes, anchors.to_vec(), amount)
         } else if norm > 0.0 {
             let u = (missing.x / norm, -missing.y / norm);
             let length = (canvas.scale * norm).clamp(look.mm(if large { 4.0 } else { 3.0 }), look.mm(10.0));
@@ -447,9 +455,8 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> 
 }
 
 /// True if the options ask for what only the figures in the look of the thesis have.
-pub(crate) fn is_source_look(options: &Options) -> bool {
-    options.theme.forces == ForceMarks::Blocks
-        || options.style == ForceStyle::Components
+pub(crate) fn asks_for_source_look(options: &Options) -> bool {
+    options.style == ForceStyle::Components
         || options.normalisation == Normalisation::Source
         || matches!(options.fill, Fill::Stress | Fill::Friction | Fill::Source)
         || options.zoom.is_some()

@@ -19,14 +19,14 @@ use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
 use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::mechanics::analysis::{CapacityRequest, Sensitivity};
-#[cfg(any(feature = "cli", feature = "wasm"))]
+use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
 use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::style::ForceMarks;
 
-/// The largest number of blocks for which a figure of forces asks for margins. The number is part of the scene, so the
-/// same scene has the same figure on every machine.
+/// The largest number of blocks for which a figure of forces asks for all margins, and for only the factor on the loads
+/// and the tilt. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
-const MAX_MARGIN_BLOCKS: usize = 60;
+const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 120];
 
 /// What draws a kind of figure.
 #[derive(Clone, Copy)]
@@ -41,7 +41,7 @@ pub(crate) enum Drawer {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// Every force, and every missing force, as an arrow on the block on which it acts.
+    /// Every force at a joint as a mark in its place, and every missing force. On a lattice, arrows on the blocks.
     #[default]
     Forces,
     /// The paths of the forces through the blocks. The lines are as wide as the forces. In each block they lead from
@@ -100,7 +100,7 @@ impl Kind {
     /// Returns what draws a figure of this kind.
     pub(crate) fn drawer(self, options: &Options) -> Drawer {
         match self {
-            Kind::Forces | Kind::Build if !joint_forces::is_source_look(options) => Drawer::Canvas(&JointForces),
+            Kind::Forces | Kind::Build if options.theme.forces == ForceMarks::Joints => Drawer::Canvas(&JointForces),
             Kind::Forces => Drawer::Panels(&FORCES),
             Kind::Flow => Drawer::Panels(&ForceFlow),
             Kind::Mechanism => Drawer::Panels(&Mechanism),
@@ -146,16 +146,27 @@ impl Kind {
         self.about().help
     }
 
-    /// True if the line of the verdict gives the headline margin of this scene: a figure of forces of one frame, of few
-    /// blocks. The margins of more blocks would take far longer than the figure itself.
+    /// Returns the margins that the line of the verdict gives if they are cheap: those of a figure of forces of one frame
+    /// of few blocks. The margins of more blocks would take far longer than the figure itself.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    fn states_margin(self, scene: &Scene, options: &Options) -> bool {
-        let [frame] = &scene.frames[..] else { return false };
+    fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
+        let [frame] = &scene.frames[..] else { return None };
         let about = self.about();
-        options.verdict_margin
-            && frame.placed.len() <= MAX_MARGIN_BLOCKS
-            && !(about.hides_verdicts || about.shows_one_block || about.states_own_margin)
-            && matches!(self.drawer(options), Drawer::Canvas(_))
+        let is_on_canvas = matches!(self.drawer(&self.options(scene, options)), Drawer::Canvas(_));
+        if !options.verdict_margin
+            || about.hides_verdicts
+            || about.shows_one_block
+            || about.states_own_margin
+            || !is_on_canvas
+        {
+            return None;
+        }
+        let [all, main] = MAX_MARGIN_BLOCKS;
+        match frame.placed.len() {
+            count if count <= all => Some(MarginKinds::ALL),
+            count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
+            _ => None,
+        }
     }
 
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and
@@ -175,7 +186,10 @@ impl Kind {
     #[cfg(any(feature = "cli", feature = "wasm"))]
     pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options, options: &Options) -> Analysis {
         let mut analysis_options = *analysis_options;
-        analysis_options.margins |= self.needs_margins() || self.states_margin(scene, options);
+        if let Some(kinds) = self.line_margins(scene, options).filter(|_| !analysis_options.margins) {
+            analysis_options = analysis_options.margins(true).margin_kinds(kinds);
+        }
+        analysis_options.margins |= self.needs_margins();
         if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
             analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }
@@ -231,10 +245,17 @@ impl Kind {
         self.about().shows_one_block
     }
 
-    /// Returns a copy of the options for a figure of this kind. A kind whose panels share one scale of arrows overrides
-    /// the option `scale`, and a kind that shows no verdicts the option `verdicts`.
-    pub(crate) fn options(self, options: &Options) -> Options {
-        let mut options = options.clone();
+    /// Returns a copy of the options for a figure of this kind of a scene. A kind whose panels share one scale of arrows
+    /// overrides the option `scale`, and a kind that shows no verdicts the option `verdicts`. The theme no longer depends
+    /// on the scene.
+    pub(crate) fn options(self, scene: &Scene, options: &Options) -> Options {
+        let asks_for_source_look =
+            matches!(self, Kind::Forces | Kind::Build) && joint_forces::asks_for_source_look(options);
+        let theme = options.theme.for_scene(scene.lattice.is_some() || asks_for_source_look);
+        let mut options = Options { theme, ..options.clone() };
+        if asks_for_source_look {
+            options.theme.forces = ForceMarks::Blocks;
+        }
         if self.about().shares_arrow_scale {
             options.scale = ArrowScale::Strip;
         }

@@ -1,7 +1,7 @@
 //! [`Options`]: the options of a figure, such as its colours, its scale of arrows and its size.
 
 use crate::mechanics::analysis::Toward;
-use crate::mechanics::scene::BlockId;
+use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::Theme;
 
 words! {
@@ -189,6 +189,11 @@ request! {
 const PRINT_COLUMN: f64 = 520.0;
 
 impl Options {
+    /// Returns the options with the theme for this scene.
+    pub(crate) fn for_scene(&self, scene: &Scene) -> Options {
+        Options { theme: self.theme.for_scene(scene.lattice.is_some()), ..self.clone() }
+    }
+
     /// True if arrows look as in the printed figures of the thesis: separate arrows for the components of forces, at
     /// the scale of the thesis.
     pub(crate) fn printed(&self) -> bool {

@@ -213,7 +213,7 @@ impl PlacedLabels {
             if long > look.mm(LEAST_LEADER) {
                 group = group.with(Path::stroked(line.clone(), Stroke::new(theme.page, look.mm(0.5))));
                 group = group.with(Path::stroked(line, Stroke::new(label.colour, look.mm(0.18))));
-                self.rects.push(around([from, to]).unwrap_or(rect));
+                self.rects.push(around([from, to]).map_or(rect, |line| grown_rect(line, look.mm(0.4))));
             }
         }
         if let Some(symbol) = &label.symbol {
@@ -295,12 +295,13 @@ fn cost(
     }
     let mut leader = None;
     if distance > LEADER_DISTANCE {
-        let line = [middle, anchor];
+        let from = nearest(rect, anchor);
+        let line = [from, anchor];
         let crosses = |other: &&PageRect| other.part_of(line).is_some();
         if placed.iter().any(|other| crosses(&other)) {
             return None;
         }
-        cost += 0.8 + 2.0 * drawn.crossed(middle, anchor, look.mm(0.35)) as f64;
+        cost += 0.8 + 2.0 * drawn.crossed(from, anchor, look.mm(0.35)) as f64;
         leader = Some(anchor);
     }
     let structure = drawn.structure;

@@ -293,7 +293,7 @@ impl<'a> Sheet<'a> {
         ((self.width - gaps) / columns as f64).max(1.0)
     }
 
-    /// Chooses the number of columns: mostly 3, 2 if the blocks are large enough, else 1.
+    /// Chooses the number of columns: mostly 3 or 2 if the blocks are large enough, else 1. Long strips have more.
     fn fitting_columns(&self, count: usize) -> usize {
         if let Some(columns) = self.options.columns {
             return columns.clamp(1, count.max(1));
@@ -304,7 +304,8 @@ impl<'a> Sheet<'a> {
         };
         match count {
             0 | 1 => 1,
-            count if count % 3 == 0 && size(3) >= 5.0 => 3,
+            count if count > 12 && size(4) >= 3.0 => 4,
+            count if ![2, 4].contains(&count) && size(3) >= if count > 12 { 3.0 } else { 5.0 } => 3,
             _ if size(2) >= 4.0 => 2,
             count if count > 12 && size(1) > 3.0 => 3,
             _ => 1,
@@ -365,7 +366,7 @@ impl<'a> Sheet<'a> {
     fn drawn(&self, frames: &[usize], zoom: f64) -> Pictures {
         let size = self.subject.block.0 * zoom / self.look.mm(1.0);
         let blocks = self.analysis.scene.frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
-        let narrow = self.columns == 3 && self.width < self.look.mm(COLUMN_WIDTH);
+        let narrow = self.columns >= 3 && self.width < self.look.mm(COLUMN_WIDTH);
         let look = Look {
             large: size >= LARGE_BLOCK && blocks <= FEW,
             names: size >= NAMED_BLOCK && !narrow,

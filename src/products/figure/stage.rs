@@ -11,6 +11,8 @@ use crate::geometry::{Bounds, Edge, Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, Load};
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 
+/// At most about this many loads have amounts, the largest.
+const MAX_LOAD_AMOUNTS: usize = 16;
 /// The ranks of the entries of the legend that this module explains.
 const LOAD_RANK: u8 = 40;
 
@@ -160,13 +162,20 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     let fits = (canvas.mm(5.0)..=canvas.mm(11.0)).contains(&longest);
     let scale = if fits { canvas.scale } else { canvas.mm(7.5) / largest };
     let ink = canvas.theme().load;
-    let words = if loads.len() == 1 { "load" } else { "loads" };
+    let mut amounts: Vec<f64> = loads.iter().map(|load| load.force.norm()).collect();
+    amounts.sort_by(|a, b| b.total_cmp(a));
+    let least = amounts.get(MAX_LOAD_AMOUNTS - 1).copied().unwrap_or(0.0);
+    let words = match loads.len() {
+        1 => "load".to_owned(),
+        count if count > MAX_LOAD_AMOUNTS => "loads, amounts only at the largest".to_owned(),
+        _ => "loads".to_owned(),
+    };
     let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
     let symbol = hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
-    let key = Rc::new(Key { rank: LOAD_RANK, words: words.to_owned(), symbol: vec![symbol], width: canvas.mm(5.0) });
+    let key = Rc::new(Key { rank: LOAD_RANK, words, symbol: vec![symbol], width: canvas.mm(5.0) });
     for load in loads {
         if load.force.norm() > 0.0 {
-            one_load(canvas, load, scale, &key);
+            one_load(canvas, load, scale, &key, load.force.norm() >= least);
         }
         if load.torque != 0.0 {
             let at = canvas.place(load.at);
@@ -190,7 +199,7 @@ fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
     Path::filled(outline, canvas.theme().page).with_stroke(Stroke::new(ink, canvas.mm(0.32)).mitred())
 }
 
-fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>) {
+fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has_amount: bool) {
     let (scene, ink) = (canvas.scene(), canvas.theme().load);
     let norm = load.force.norm();
     let u = (load.force.x / norm, -load.force.y / norm);
@@ -209,6 +218,9 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>) {
     }
     let title = format!("Load on block {}: {}", scene.name(BodyId::Block(load.block)), force(load.force, scene.units));
     canvas.put(Mark::new(Layer::Load, "load", shapes).titled(title).keyed(key).avoided(canvas.mm(0.2)));
+    if !has_amount {
+        return;
+    }
     let far = if ends { tail } else { along(at, u, length, 0.0) };
     let away = if ends { (-u.0, -u.1) } else { u };
     let anchors = vec![far, along(tail, u, length / 2.0, 0.0)];

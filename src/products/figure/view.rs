@@ -28,7 +28,7 @@ pub(crate) fn shown(scene: &Scene, marks: &[Marks], reach: &[Option<Bounds>], di
         });
         // Several torques at one point have arrows of different radii.
         let here = |at: Point| marks.turns.iter().filter(|other| (other.at - at).norm() < 1e-6 * unit).count();
-        let turns = marks.turns.iter().map(|turn| square_around(turn.at, (0.46 + 0.24 * here(turn.at) as f64) * unit));
+        let turns = marks.turns.iter().map(|turn| square_around(turn.at, (0.46 + 0.28 * here(turn.at) as f64) * unit));
         let robots = frame.holds.iter().map(|hold| square_around(hold.at, disc * unit));
         let all = blocks.chain(arrows).chain(turns).chain(robots).chain(ground).chain(*reach);
         all.reduce(Bounds::union).unwrap_or(square_around(Point::origin(), unit)).grown(PADDING * unit)

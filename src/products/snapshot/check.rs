@@ -67,7 +67,9 @@ fn check_scene(job: &Job) -> Vec<Finding> {
         }
         let known = drawn.take().filter(|(p, _)| p.kind == part.kind && p.theme == part.theme);
         let (_, text) = drawn.insert(known.unwrap_or_else(|| {
-            let options = Options { theme: Theme::named(&part.theme).unwrap_or_default(), ..Options::default() };
+            // The first theme of all stands for the default, which is another theme for scenes on a lattice.
+            let theme = Theme::named(&part.theme).filter(|_| part.theme != Theme::NAMES[0]).unwrap_or_default();
+            let options = Options { theme, ..Options::default() };
             (part, svg::write(&figure::draw(&analysis, part.kind, &options)))
         }));
         findings.extend(drawing_finding(part, text, &job.settings));

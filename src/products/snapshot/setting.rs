@@ -51,7 +51,7 @@ impl Default for Settings {
         Settings {
             layers: Layer::ALL.to_vec(),
             kinds: vec![Kind::Forces],
-            themes: vec!["thesis".into()],
+            themes: vec![Theme::NAMES[0].into()],
             widths: Vec::new(),
             digits: DIGITS,
             channel_tolerance: 1,

@@ -231,6 +231,16 @@ fn titles_of_arrows_state_the_forces_of_the_result() {
                 let between: Vec<[f64; 2]> = between.collect();
                 assert!(between.into_iter().any(fits), "{title}: {}", checked.file);
                 contacts += 1;
+            } else if let Some((one, other)) = what.strip_prefix("Force between ").and_then(|w| w.split_once(" and ")) {
+                let id = |name: &str| if name == "the ground" { "ground".to_owned() } else { name.to_owned() };
+                let between = list(&frame["interfaces"]).iter().any(|interface| {
+                    let bodies = [&interface["bodies"][0], &interface["bodies"][1]];
+                    let force = pair(&interface["resultant"]["force"]);
+                    let same = [[one, other], [other, one]].iter().any(|p| (0..2).all(|k| *bodies[k] == *id(p[k])));
+                    same && (fits(force) || fits([-force[0], -force[1]]))
+                });
+                assert!(between, "{title}: {}", checked.file);
+                contacts += 1;
             } else if let Some(on) = what.strip_prefix("Weight of block ") {
                 let block = scene.blocks().iter().find(|b| b.id == on).expect("a block");
                 let down = scene.down();

@@ -38,6 +38,8 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                         true => 9.0,
                         // Figures on the canvas have the same size of text in both widths.
                         false if width == COLUMN || ON_CANVAS.contains(&kind) => 10.0,
+                        // 6.6 points in the figures of forces, otherwise 7.5 points.
+                        false if matches!(kind, figure::Kind::Forces | figure::Kind::Build) => 10.99,
                         false => 12.5,
                     };
                     if text.size < least {

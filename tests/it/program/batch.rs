@@ -227,10 +227,10 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
         assert_eq!(png[16..20], 400_u32.to_be_bytes(), "{name}");
     }
     assert_eq!(fs::read_dir(bench.path("drawn")).expect("there").count(), 2);
-    // The picture equals that of `render`.
+    // The picture equals that of `render` without a margin.
     let ran = bench.run("batch stands.json --render more --format svg");
     assert_eq!(lines(&ran.out)[0]["picture"], "stands.svg");
-    bench.run("render stands.json -o alone.svg");
+    bench.run("render stands.json --no-margin -o alone.svg");
     let both = ["more/stands.svg", "alone.svg"].map(|n| fs::read(bench.path(n)).expect("there"));
     assert!(both[0] == both[1]);
     fs::create_dir(bench.path("more/in")).expect("made");

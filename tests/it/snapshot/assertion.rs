@@ -66,7 +66,7 @@ fn a_test_fails_with_a_message_until_it_is_updated_and_never_writes_in_ci() {
 #[test]
 #[should_panic(expected = "leads out of tests/snapshots")]
 fn a_figures_name_stays_in_its_folder() {
-    let drawing = figure::shapes(&drystone::drawing::Theme::default());
+    let drawing = figure::shapes(&drystone::drawing::Theme::thesis());
     assertion::figure(Path::new("."), "../elsewhere".as_ref(), &drawing);
 }
 

@@ -2,7 +2,7 @@
 //! of forces and pixels are not reported.
 
 use drystone::analysis::{Analysis, Verdict};
-use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, Segment};
+use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, Segment, Theme};
 use drystone::figure::{self, Options};
 use drystone::output::{png, svg};
 use drystone::snapshot::fact::{DIGITS, Facts};
@@ -34,7 +34,8 @@ impl Sample {
     fn drawn(text: &str, change: impl FnOnce(&mut Drawing)) -> Sample {
         let scene = Scene::from_json(text).expect("sound");
         let analysis = Analysis::new(&scene);
-        let mut drawing = figure::forces(&analysis, &Options::default());
+        let options = Options::default().theme(Theme::thesis());
+        let mut drawing = figure::forces(&analysis, &options);
         change(&mut drawing);
         Sample::of(&analysis, &drawing)
     }

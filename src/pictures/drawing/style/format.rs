@@ -165,7 +165,7 @@ fn theme<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>, base: Optio
     let fields = r.object(node, at, &keys)?;
     let named = r.optional(fields, at, "theme", |r, node, at| r.choice(node, at, &Theme::NAMES.map(|n| (n, n))));
     let mut theme = base.cloned().or(named.and_then(Theme::named)).unwrap_or_default();
-    let marks = [ForceMarks::Joints, ForceMarks::Blocks].map(|marks| (marks.name(), marks));
+    let marks = [ForceMarks::Joints, ForceMarks::Blocks, ForceMarks::Scene].map(|marks| (marks.name(), marks));
     if let Some(marks) = r.optional(fields, at, FORCES_KEY, |r, node, at| r.choice(node, at, &marks)) {
         theme.forces = marks;
     }

@@ -5,14 +5,14 @@ use super::super::ramp;
 use super::{ForceMarks, Sizes, Theme, Widths};
 
 impl Theme {
-    /// The names of the themes, the default first. [`Theme::named`] accepts each of them.
-    pub const NAMES: [&str; 5] = ["thesis", "plain", "paper", "colourblind", "dark"];
+    /// The names of the themes, the default first (of a scene on a lattice, the second is the default). [`Theme::named`] accepts each of them.
+    pub const NAMES: [&str; 5] = ["plain", "thesis", "paper", "colourblind", "dark"];
 
     /// Returns the built-in theme with this name; `None` for a name that is not in [`Theme::NAMES`].
     ///
     /// ```
     /// use drystone::drawing::Theme;
-    /// assert_eq!(Theme::named("thesis"), Some(Theme::default()));
+    /// assert_eq!(Theme::named("dark"), Some(Theme::dark()));
     /// assert!(Theme::NAMES.iter().all(|name| Theme::named(name).is_some()));
     /// ```
     pub fn named(name: &str) -> Option<Theme> {
@@ -26,7 +26,7 @@ impl Theme {
         }
     }
 
-    /// Returns the default theme: pale stones on a white page, with the colours on the marks. Forces go from green to dark
+    /// Returns the default theme of scenes that are not on a lattice: pale stones on a white page, with the colours on the marks. Forces go from green to dark
     /// blue.
     pub fn plain() -> Theme {
         Theme {
@@ -103,9 +103,9 @@ impl Theme {
             stands: Colour::hex(0x1b6b43),
             falls: Colour::hex(0x8a0f14),
             undecided: Colour::hex(0x555555),
-            forces: ForceMarks::Blocks,
+            forces: ForceMarks::Joints,
             widths: Widths::DEFAULT,
-            sizes: Sizes::DEFAULT,
+            sizes: Sizes::PLAIN,
         }
     }
 
@@ -131,9 +131,9 @@ impl Theme {
             stands: Colour::hex(0x0072b2),
             falls: Colour::hex(0x7d3600),
             undecided: Colour::hex(0x5d646e),
-            forces: ForceMarks::Blocks,
+            forces: ForceMarks::Joints,
             widths: Widths::DEFAULT,
-            sizes: Sizes::DEFAULT,
+            sizes: Sizes::PLAIN,
         }
     }
 
@@ -158,9 +158,9 @@ impl Theme {
             stands: Colour::hex(0x6fe0a8),
             falls: Colour::hex(0xff6b6b),
             undecided: Colour::hex(0xa3abb6),
-            forces: ForceMarks::Blocks,
+            forces: ForceMarks::Joints,
             widths: Widths::DEFAULT,
-            sizes: Sizes::DEFAULT,
+            sizes: Sizes::PLAIN,
         }
     }
 }

@@ -173,7 +173,7 @@ fn every_theme_can_be_written_and_read_again() {
         assert!(text.len() < 2000, "{text}");
     }
     let own =
-        Theme { failure: Colour::hex(0x123456), sizes: Sizes { caption: 11.25, ..Sizes::DEFAULT }, ..Theme::dark() };
+        Theme { failure: Colour::hex(0x123456), sizes: Sizes { caption: 11.25, ..Sizes::PLAIN }, ..Theme::dark() };
     let text = own.to_json();
     assert!(!text.contains("theme"), "{text}");
     assert_eq!(Theme::read(&text, Notation::Json, None), Ok(own));
@@ -190,7 +190,7 @@ fn a_style_file_changes_only_the_values_it_contains() {
         robots: vec![Colour::hex(0xabcdef)],
         amplitudes: ramp::between(&[Colour::BLACK, Colour::WHITE]),
         widths: Widths { casing: 0.0, force: 0.08, ..Widths::DEFAULT },
-        sizes: Sizes { title: 30.0, ..Sizes::DEFAULT },
+        sizes: Sizes { title: 30.0, ..Sizes::PLAIN },
         ..Theme::paper()
     };
     for (text, notation) in [(json, Notation::Json), (toml, Notation::Toml)] {
@@ -201,9 +201,18 @@ fn a_style_file_changes_only_the_values_it_contains() {
     assert_eq!((dark.page, dark.failure), (Theme::dark().page, expected.failure));
     let grey = Theme::read("amplitudes = 'viridis'", Notation::Toml, None).expect("valid");
     assert_eq!(Some(grey.amplitudes), ramp::named("viridis"));
-    assert_eq!(Theme::read("{}", Notation::Json, None), Ok(Theme::thesis()));
-    let joints = Theme::read("forces = 'joints'", Notation::Toml, None).expect("valid");
-    assert_eq!(joints, Theme { forces: ForceMarks::Joints, ..Theme::thesis() });
+    assert_eq!(Theme::read("{}", Notation::Json, None), Ok(Theme::default()));
+    let blocks = Theme::read("forces = 'blocks'", Notation::Toml, None).expect("valid");
+    assert_eq!(blocks, Theme { forces: ForceMarks::Blocks, ..Theme::plain() });
+}
+
+#[test]
+fn a_scene_on_a_lattice_has_another_default() {
+    assert_eq!(Theme::default().for_scene(false), Theme::plain());
+    assert_eq!(Theme::default().for_scene(true), Theme::thesis());
+    let own = Theme { page: Colour::BLACK, ..Theme::default() };
+    assert_eq!(own.for_scene(true), Theme { forces: ForceMarks::Blocks, ..own });
+    assert!(Theme::NAMES.iter().filter_map(|name| Theme::named(name)).all(|theme| theme.for_scene(true) == theme));
 }
 
 #[test]

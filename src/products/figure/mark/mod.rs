@@ -88,6 +88,7 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
         return marks;
     }
     let scene = &analysis.scene;
+    let options = &options.for_scene(scene);
     let edge = unit(scene, options.zoom);
     let maker = ArrowMaker { scene, options, edge, metres_per_newton: edge / newtons_per_unit };
     maker.blocks(placed, frame_analysis, &mut marks);

@@ -15,7 +15,7 @@ use crate::products::figure::description;
 
 /// Radius of the arrow of a torque in unit lengths, larger than a robot's disc. If several torques act at one point, each
 /// further arrow has a radius that is larger by the second number.
-const TURN_RADII: (f64, f64) = (0.46, 0.24);
+const TURN_RADII: (f64, f64) = (0.46, 0.28);
 /// Angle of the arrow of a torque, radians (225°). All have the same, and their amounts beside them: an arc to scale
 /// would be a triangle without direction for a small torque, and several turns for a large one.
 pub(crate) const SWEEP: f64 = 1.25 * PI;
