@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use super::cost::{SolveReport, Stages};
 use super::decide::{self, Method, Outcome, decide_component};
 use super::frame::complete_frame;
+use super::frame::{Key, key};
+use super::frame::{SolveReport, Stages};
 use super::gather::{add_component, unloaded_frame};
-use super::key::{Key, key};
 use super::margin::{self, ComponentIntervals, Part};
 use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};

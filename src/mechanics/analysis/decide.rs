@@ -13,7 +13,7 @@
 //! | 2 | without non-binding limits | `decide.rs` | most robots stay far below their limits; without these limits the program is smaller |
 //! | 3 | programs in order | `programs.rs`, `strategy/` | each may find forces or a motion, whose proof is then computed |
 //! | 3a | – rebalance locally | `rebalance.rs` | forces that balance the component as a whole may leave light bodies unbalanced; these bodies are solved again in their own scale |
-//! | 3b | – remove the solver's error from a motion | `motion.rs` | a motion must not violate any contact, not even by rounding |
+//! | 3b | – remove the solver's error from a motion | `forces.rs` | a motion must not violate any contact, not even by rounding |
 //! | 4 | complete | `complete.rs` | forces of least sum if the component stands, least adhesion if it falls |
 //!
 //! Route 4 can change *unstable* to *stable*, but only if the program of least adhesion finds forces that balance
@@ -26,28 +26,25 @@
 //!
 //! | | route | file |
 //! |---|---|---|
-//! | 0 | warm start of `verdicts` and `Session`: the balance nearest to the loads, from the last step's active set | `analysis/warm_start.rs`, `candidate.rs` |
+//! | 0 | warm start of `verdicts` and `Session`: the balance nearest to the loads, from the last step's active set | `analysis/warm_start.rs`, `verdict_only.rs` |
 //! | 5 | gaps closed: if the verdict depends on a gap or overlap of less than 1 % of a block, it becomes *undecided* | `analysis/gaps_closed.rs` |
 
 mod complete;
 mod failure;
 mod forces;
 mod proof_cache;
-mod candidate;
 mod programs;
 mod rebalance;
-mod motion;
 mod verdict_only;
 mod wedging;
 mod strategy;
 
-pub(super) use candidate::Candidate;
 pub(super) use proof_cache::ProofCache;
 #[cfg(feature = "certificate")]
 pub(crate) use verdict_only::mechanism_of;
 pub(super) use verdict_only::{
-    LimitResults, add_limit_to_cache, decide_verdict, decided_forces, least_force_error, proved_exact_motion,
-    proved_forces, proved_motion, verdict_from_cache,
+    Candidate, LimitResults, add_limit_to_cache, decide_verdict, decided_forces, least_force_error,
+    proved_exact_motion, proved_forces, proved_motion, verdict_from_cache,
 };
 pub(super) use wedging::only_by_wedging;
 

@@ -8,9 +8,7 @@
 mod analyse;
 mod capacity;
 mod decide;
-mod cost;
 mod force;
-mod key;
 mod undecided;
 mod frame;
 mod gather;
@@ -45,11 +43,11 @@ pub use capacity::{
     CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt, LoadCapacity,
     VertexForce,
 };
-pub use cost::{SolveReport, Stages};
 pub use decide::Method;
 #[cfg(feature = "certificate")]
 pub(crate) use decide::mechanism_of;
 pub use force::{Contact, Failure, RobotForce};
+pub use frame::{SolveReport, Stages};
 pub use margin::{
     End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals, RobotMargins, Sides,
     trials,

@@ -16,9 +16,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::basis_factor::{elimination_order, placed};
-use super::dual::from_kinematic_answer;
+use super::dual::{ReducedColumns, columns_in, from_kinematic_answer};
 use super::limit::farthest_cost;
-use super::scaled_program::{ReducedColumns, columns_in};
 use super::simplex::{Move, Simplex, Variable};
 use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
 use crate::geometry::{Vector, cross, quarter_turn};

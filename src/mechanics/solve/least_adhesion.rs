@@ -13,11 +13,11 @@
 //!    therefore keeps symmetric forces, and the figure of a mirrored scene is the mirrored figure;
 //! 4. least Σ force² on the remaining columns, which is unique.
 
-use super::scaled_program::{ReducedColumns, columns_in};
+use super::dual::{ReducedColumns, columns_in};
 use super::{
     Amounts, Conditioning, CrossoverTolerance, Dual, Effort, Face, LeastAdhesion, SolverSettings, Status, TOLERANCE,
-    determinate, dual, from_kinematic_answer, largest, least_adhesion_levels, least_squares_amounts, refine_balance,
-    solve_once, solve_static_form,
+    determinate, dual, from_kinematic_answer, largest, least_squares_amounts, level, refine_balance, solve_once,
+    solve_static_form,
 };
 use crate::mechanics::program::{Column, Program, adhesion_columns, kinematic_dual};
 
@@ -130,11 +130,11 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> LeastA
     // If loads or adhesion differ by many powers of ten, refine the optimum of stage 1 level by level, from the
     // largest amounts to the smallest.
     let many = size == Size::Many;
-    let precise = least_adhesion_levels::precise_optimum(&whole, &first, many, &mut effort);
+    let precise = level::precise_optimum(&whole, &first, many, &mut effort);
     let mut face = match &precise {
         Some((first, force_size)) => {
             motion = Some(first.y.iter().map(|v| -v).collect());
-            least_adhesion_levels::least_force_optimum(&whole, first, *force_size, settings, &mut effort)
+            level::least_force_optimum(&whole, first, *force_size, settings, &mut effort)
         }
         None => later_stages(&whole, &first, size, settings, &mut effort),
     };

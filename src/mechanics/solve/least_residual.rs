@@ -12,8 +12,7 @@
 //!   The program has an optimum on both sides of the limit. The size of the residual shows whether the forces balance
 //!   within the tolerance of the proofs.
 
-use super::dual::amounts_of_rows;
-use super::scaled_program::ScaledProgram;
+use super::dual::{ScaledProgram, amounts_of_rows};
 use super::{
     Amounts, Balance, Conditioning, Status, balance_by_least_change, largest, remainder, solve_static_form,
     solve_with_retry,

@@ -8,8 +8,7 @@
 //! limit of a robot's component is the least amount of this component, if no other force has a cost. Reference:
 //! [Livesley78](crate::doc::references).
 
-use super::dual::amounts_of_rows;
-use super::scaled_program::{ReducedColumns, ScaledProgram};
+use super::dual::{ReducedColumns, ScaledProgram, amounts_of_rows};
 use super::{
     Amounts, Answer, Conditioning, Effort, Face, Status, TOLERANCE, balance_by_least_change, dual, largest, solve,
 };
@@ -233,7 +232,7 @@ pub fn least_grip_limit(program: &Program, grip: usize, component: usize) -> Ext
 pub struct LimitState {
     /// The largest factor.
     pub factor: f64,
-    /// The columns of the program without the redundant pure normal forces (see `scaled_program`).
+    /// The columns of the program without the redundant pure normal forces (see `ReducedColumns`).
     pub columns: Vec<Column>,
     /// The amount of each column at the limit, in program units, at least 0.
     pub amounts: Vec<f64>,

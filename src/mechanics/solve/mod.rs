@@ -8,10 +8,10 @@
 //! | files | what they do |
 //! |---|---|
 //! | `solver`, `normal`, `settings`, `answer` | solve one quadratic program |
-//! | `scaled_program`, `dual`, `face`, `amounts` | the linear program of forces, its dual, and the set of its optima |
+//! | `dual`, `face`, `amounts` | the linear program of forces, its dual, and the set of its optima |
 //! | `balance`, `least_residual`, `least_adhesion`, `limit`, `tangent` | the programs of limit analysis |
 //! | `force_polygon`, `simplex`, `basis_factor` | compute all forces that one grip may exert, as a polygon |
-//! | `level`, `least_adhesion_levels` | refine optima of these programs if loads differ by many powers of ten |
+//! | `level` | refine optima of these programs if loads differ by many powers of ten |
 //! | `determinate`, `exact`, `bounded_nnls`, `incremental_cholesky` | solve programs without an interior-point method |
 //! | `iterative_refinement`, `rebalance_blocks`, `repair_motion`, `extreme_ray` | improve forces and motions of a solver |
 
@@ -39,9 +39,7 @@ mod rebalance_blocks;
 mod repair_motion;
 mod settings;
 mod simplex;
-mod scaled_program;
 mod solver;
-mod least_adhesion_levels;
 mod tangent;
 
 pub use amounts::{Amounts, Balance, Effort, LeastAdhesion};

@@ -9,9 +9,8 @@
 //! points. Its zero is the next value to try: Newton's method on V. Reference: Nocedal and Wright, Numerical
 //! Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
-use super::dual::amounts_of_rows;
+use super::dual::{ScaledProgram, amounts_of_rows};
 use super::limit::rebalanced;
-use super::scaled_program::ScaledProgram;
 use super::{Amounts, Conditioning, Effort, Status, largest, solve_with_retry};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, least_residual_dual};

@@ -7,25 +7,21 @@
 //! components stand: its interval is the intersection of theirs.
 //!
 //! [`search`] finds an end from a prediction and confirms it by verdicts. The prediction is one linear program if a
-//! parameter enters linearly ([`mod@linear`], and [`grip_limit`] for the limits of robots), or Newton's method for
+//! parameter enters linearly ([`mod@linear`], also for the limits of robots), or Newton's method for
 //! friction and kernel ([`mod@threshold`]). [`tilt`] and [`nearest_tilt`] find the ends for the rotation of gravity. An end is accepted only if it is proved
 //! that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
 //! mechanism just beyond it. [`Margins`] are derived from the intervals.
 
-mod exclusion;
-mod grip_limit;
 mod interval;
 mod kind;
 mod linear;
 mod margins;
 mod nearest_tilt;
-mod newton;
 mod search;
 mod threshold;
 mod parameter;
 mod tilt;
 mod trial;
-mod withheld;
 
 use std::collections::BTreeMap;
 
@@ -34,10 +30,10 @@ use rayon::prelude::*;
 
 use super::Verdict;
 use super::decide::Outcome;
-use super::key::Key;
+use super::frame::Key;
 use crate::mechanics::solve::{DeadlineGuard, deadline};
 use crate::mechanics::statics::assembly::Assembly;
-pub use exclusion::Exclusion;
+pub use interval::Exclusion;
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};

@@ -3,8 +3,7 @@
 //! A mechanism found at one tilt proves that the frame falls at all tilts in an arc. Each such arc enlarges the
 //! excluded range around 0, until the frame stands at one end of the range or the range is a full turn.
 
-use super::exclusion::{Exclusion, fewest_arcs};
-use super::interval::Interval;
+use super::interval::{Exclusion, Interval, fewest_arcs};
 use super::tilt::{MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted};
 use super::trial::Trial;
 use crate::mechanics::analysis::Verdict;

@@ -1,10 +1,9 @@
 //! Computes the interval of values at which a component stands, for each parameter: friction, tilt, loads, kernel,
 //! robot limits.
 
-use super::grip_limit;
 use super::interval::Interval;
 use super::kind::{MarginKind, MarginKinds};
-use super::linear::linear;
+use super::linear::{linear, robots};
 use super::margins::Margins;
 use super::search::{Path, Predictor};
 use super::threshold::threshold;
@@ -16,7 +15,7 @@ use super::{ComponentIntervals, tilt};
 /// computed.
 pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> ComponentIntervals {
     let robots = match kinds.has(MarginKind::Robots) {
-        true => grip_limit::robots(trial, stands),
+        true => robots(trial, stands),
         false => Vec::new(),
     };
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two

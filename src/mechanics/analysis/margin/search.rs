@@ -9,8 +9,6 @@
 //! then linear, too: one mechanism shows that a component falls at every value on one side of the value at which this
 //! power vanishes, a cutting plane (Kelley 1960). Friction and the kernel change the mechanisms themselves.
 
-mod nearest;
-
 use super::interval::End;
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
@@ -73,7 +71,7 @@ impl Beyond {
 }
 
 /// The values at which a mechanism proves a fall: all above one value, all below it, or all values.
-enum ExcludedRange {
+pub(super) enum ExcludedRange {
     Above(f64),
     Below(f64),
     All,
@@ -96,9 +94,9 @@ const LEAST_ERROR: f64 = 2e-10;
 /// solver.
 const ROUNDING_TOL: f64 = 1e-9;
 /// Distances from an end grow by this factor while verdicts stay undecided.
-const OFFSET_GROWTH: f64 = 16.0;
+pub(super) const OFFSET_GROWTH: f64 = 16.0;
 /// The largest number of steps of one search.
-const MAX_STEPS: usize = 60;
+pub(super) const MAX_STEPS: usize = 60;
 /// Values beyond this multiple of [`Path::typical_large`] are not tried. If the power of a mechanism vanishes only beyond
 /// it, the component counts as falling at every value.
 pub(super) const MAX_VALUE: f64 = 1e6;
@@ -350,7 +348,7 @@ impl Path<'_> {
     }
 
     /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
-    fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
+    pub fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
         if self.predictor == Predictor::Tangent {
             return ExcludedRange::All;
         }
@@ -369,7 +367,7 @@ impl Path<'_> {
         if slope > 0.0 { ExcludedRange::Above(bound.min(value)) } else { ExcludedRange::Below(bound.max(value)) }
     }
 
-    fn decide_at_limit(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
+    pub fn decide_at_limit(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
         trial.decide_at(&(self.setting)(value), LimitDistance::AtLimit)
     }
 

@@ -9,31 +9,27 @@
 //! |---|---|
 //! | `elimination` | small dense systems of equations, with all their solutions |
 //! | `joints`, `corners` | corners that move together if contacts are kept |
-//! | `motion`, `case`, `unknown`, `reduced`, `state` | forces and mechanism at an end, and whether they are unique |
+//! | `case`, `reduced`, `state` | forces and mechanism at an end, and whether they are unique |
 //! | `rates` | the derivatives for one state |
-//! | `slope` | the derivative from all states: unique, one-sided, or at a kink |
-//! | `find` | the sensitivity of a frame |
+//! | `find` | the sensitivity of a frame: each derivative is unique, one-sided, or at a kink |
 //!
 //! Reference: Nocedal and Wright, Numerical Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
 mod elimination;
 mod joints;
 mod corners;
-mod motion;
 mod case;
-mod unknown;
 mod reduced;
 mod state;
 mod rates;
-mod slope;
 mod find;
 
 use super::margin::MarginKind;
 use super::{Analysis, Options};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
+pub use find::Slope;
 pub(super) use find::{Part, find};
-pub use slope::Slope;
 
 impl Analysis {
     /// Returns the derivatives of a margin of a frame (numbered from 0) with respect to the positions of corners and of

@@ -5,7 +5,7 @@
 //! of a force moves, the power therefore changes by the change of its moment times the angular velocity.
 
 use super::corners::Corners;
-use super::motion::{RigidMotion, State};
+use super::reduced::{RigidMotion, State};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::proof::ContactForces;
 use crate::mechanics::scene::{BodyId, Scene};

@@ -14,9 +14,7 @@
 
 use super::case::Case;
 use super::elimination::Elimination;
-use super::motion::State;
-use super::reduced::Reduced;
-use super::unknown::Unknown;
+use super::reduced::{Reduced, State, Unknown};
 use crate::mechanics::statics::assembly::Assembly;
 
 /// Forces or velocities below this fraction of the largest count as 0.

@@ -13,13 +13,12 @@
 //! The amounts x and their distances s from the bounds are separate variables. Otherwise, for an amount far above its
 //! bound, a small change of x would be lost in the rounding of s.
 
-use super::block_matrix::{
-    BlockDiagonal, MAX_BLOCK_COLUMNS, backward_substitute, cholesky_in_place, forward_substitute,
-};
 use super::cholesky::Cholesky;
 use super::column_groups::ColumnGroups;
-use super::dense::{dot, max_norm};
-use super::iterate::{REGULARIZATION, STEP_TO_BOUNDARY, shorten_step};
+use super::dense::{
+    BlockDiagonal, MAX_BLOCK_COLUMNS, backward_substitute, cholesky_in_place, dot, forward_substitute, max_norm,
+};
+use super::residuals::{REGULARIZATION, STEP_TO_BOUNDARY, shorten_step};
 use crate::clock::Instant;
 use crate::mechanics::program::QuadraticProgram;
 use crate::mechanics::solve::answer::{Answer, Status};

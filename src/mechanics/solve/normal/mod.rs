@@ -22,18 +22,15 @@
 //!
 //! The results are checked by a proof, as are the results of clarabel.
 
-mod block_matrix;
 mod block_qp;
 mod cholesky;
 mod column_groups;
 mod dense;
 mod elimination_tree;
 mod interior_point;
-mod iterate;
 mod least_norm;
 mod newton;
 mod residuals;
-mod slack_trend;
 mod supernodes;
 #[cfg(test)]
 mod tests;
@@ -44,7 +41,7 @@ use crate::mechanics::program::QuadraticProgram;
 use cholesky::Cholesky;
 use column_groups::ColumnGroups;
 use interior_point::Solution;
-use iterate::LinearProgram;
+use residuals::LinearProgram;
 use residuals::Termination;
 
 /// Programs of fewer blocks than this are solved by clarabel, which takes little time for them.

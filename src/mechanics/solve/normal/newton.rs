@@ -16,8 +16,7 @@
 
 use super::cholesky::Cholesky;
 use super::dense::dot;
-use super::iterate::{Iterate, LinearProgram, REGULARIZATION, STEP_TO_BOUNDARY};
-use super::residuals::{Optimality, Residuals};
+use super::residuals::{Iterate, LinearProgram, Optimality, REGULARIZATION, Residuals, STEP_TO_BOUNDARY};
 
 /// The largest number of Gondzio correctors for a direction.
 ///
