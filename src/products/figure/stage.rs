@@ -94,7 +94,11 @@ fn hatched(canvas: &Canvas<'_>, edge: &Edge) -> Vec<Path> {
         at += canvas.mm(0.95);
     }
     let faint = theme.ground.mixed(theme.page, 0.25);
+    // The band below the line is pale. It makes the ground an area, which `import` finds again.
+    let corner = |at: PagePoint| along(at, u, 0.0, inward * depth);
+    let band = Outline::ring([from, to, corner(to), corner(from)]);
     vec![
+        Path::filled(band, theme.ground.mixed(theme.page, 0.9)),
         Path::stroked(lines, Stroke::new(faint, canvas.mm(0.16)).mitred()),
         Path::stroked(Outline::line([from, to]), Stroke::new(theme.ground, canvas.mm(0.38)).mitred()),
     ]

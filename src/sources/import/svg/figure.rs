@@ -91,7 +91,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             let title = child.children().find(|n| is(*n, "title")).map(words).unwrap_or_default();
             match child.attribute("class").unwrap_or("") {
                 "ground" => {
-                    for path in child.children().filter(|n| is(*n, "path")) {
+                    // The paths without a fill are the hatching.
+                    let paths = child.descendants().filter(|n| is(*n, "path") && n.attribute("fill") != Some("none"));
+                    for path in paths {
                         self.add_body(path, &around, Role::Ground, "");
                     }
                 }
