@@ -195,7 +195,8 @@ fn names(text: &str, name: &str) -> bool {
 }
 
 /// Kinds that write a name only where it has room, and name no block below the picture.
-const ON_CANVAS: [figure::Kind; 5] = [
+const ON_CANVAS: [figure::Kind; 6] = [
+    figure::Kind::Sensitivity,
     figure::Kind::Structure,
     figure::Kind::Freebody,
     figure::Kind::Kernel,

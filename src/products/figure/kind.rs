@@ -111,7 +111,7 @@ impl Kind {
             Kind::Polygon => Drawer::Canvas(&ForcePolygon),
             Kind::Margin => Drawer::Panels(&CollapseMargin),
             Kind::Capacity => Drawer::Panels(&CarriedForces),
-            Kind::Sensitivity => Drawer::Panels(&CornerEffects),
+            Kind::Sensitivity => Drawer::Canvas(&CornerEffects),
             Kind::Compare => Drawer::Panels(&Comparison),
             Kind::Structure => Drawer::Canvas(&Structure),
             Kind::Freebody => Drawer::Canvas(&FreeBody),

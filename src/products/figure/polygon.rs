@@ -30,7 +30,7 @@ const POLYGON_SIZE: f64 = 0.75;
 /// height of the structure is the limit.
 const POLYGON_HEIGHT: f64 = 0.4;
 /// Gap between structure and polygon as a fraction of the structure's diagonal, and the least gap in unit lengths.
-const POLYGON_GAP: (f64, f64) = (0.17, 1.0);
+const POLYGON_GAP: (f64, f64) = (0.22, 1.0);
 /// Space for amounts to the right of the polygon, as a fraction of the width of the structure.
 const AMOUNT_SPACE: f64 = 0.15;
 /// A polygon is closed if its gap is at most this fraction of the sum of the magnitudes of all forces. Rounding errors

@@ -9,258 +9,200 @@
 
 mod plan;
 
-use super::arrow::{ForceArrow, MIN_VISIBLE_ARROW, Marks};
-use super::content::{About, FrameSource, PanelContent};
-use super::context::FigureContext;
-use super::label::{self, Callout};
-use super::legend::{self, Entry};
-use super::panel::composed_with;
-use super::pen::Pen;
+use std::rc::Rc;
+
+use super::arrow::MIN_VISIBLE_ARROW;
+use super::canvas::Canvas;
+use super::content::About;
+use super::design::{ArrowSize, Key, Layer, Mark, along};
+use super::option::Options;
+use super::placing::Label;
+use super::sheet::Figure;
+use super::stage;
+use super::unit::unit;
 use super::words::{counted, round_below};
-use crate::geometry::Bounds;
-use crate::mechanics::analysis::MarginKind;
+use crate::mechanics::analysis::{Analysis, MarginKind};
 use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::arrow::straight;
-use crate::pictures::drawing::placement::Ink;
-use crate::pictures::drawing::{
-    Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
-};
+use crate::pictures::drawing::{Colour, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme, text};
 use crate::products::wording::number::digits;
 use crate::products::wording::sensitivity::{end_name, length, name, value, without};
 use plan::{CornerArrow, Plan, scale};
 
-/// Radius of the disc around the number of a change without an arrow, as a multiple of the font size.
-const DISC_RADIUS: f64 = 0.68;
-/// Largest length of the arrow that shows the scale, pixels.
-const MAX_SCALE_ARROW: f64 = 60.0;
+/// Radius of the ring around the number of a change without an arrow, mm.
+const RING_RADIUS: f64 = 1.9;
+/// Largest length of the arrow that shows the scale, mm.
+const MAX_SCALE_ARROW: f64 = 11.0;
+/// Widths of the shafts of arrows with and without a number, mm.
+const WIDTHS: [f64; 2] = [0.5, 0.3];
 
 /// The figure that shows how corners of blocks affect a margin.
 pub(crate) struct CornerEffects;
 
-impl PanelContent for CornerEffects {
+impl Figure for CornerEffects {
     fn about(&self) -> About {
         About {
             name: "sensitivity",
             help: "Where to move corners to make a margin larger, the ten most effective changes numbered; --margin selects the margin",
             title: "How corners change the margin of a dry-laid structure",
             needs_sensitivity: true,
-            lines_cross_names: true,
+            states_own_margin: true,
             ..About::default()
         }
     }
 
-    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let plan = Plan::new(of.analysis, of.frame, of.options)?;
-        let arrows = plan.bounds(scale(of.analysis, unit, of.options))?;
-        Some(arrows.grown(0.2 * unit))
-    }
-
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let mut ink = label::ink(pen);
-        let mut callouts = Vec::new();
-        let mut parts = vec![pen.arrows(false)];
-        if let Some(plan) = Plan::new(pen.context.analysis, pen.number, pen.context.options) {
-            parts.push(arrows(pen, &plan, &mut ink, &mut callouts));
-            parts.push(discs(pen, &plan, &mut ink));
-        }
-        composed_with(pen, view, pen.blocks(), parts, callouts, ink)
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-        let analysis = context.analysis;
-        let frames = 0..analysis.frames.len();
-        let plans = frames.filter_map(|f| Plan::new(analysis, f, context.options));
-        let plans: Vec<Plan> = plans.collect();
-        let mut entries = Vec::new();
-        if plans.iter().any(|plan| !plan.arrows.is_empty()) {
-            let words = "direction in which to move a corner; the length shows the effect";
-            entries.push(Entry::Symbol(arrow_symbol, 26.0, words.into()));
-        }
-        let strongest = |a: &&Plan, b: &&Plan| a.strongest().total_cmp(&b.strongest());
-        if let Some(plan) = plans.iter().max_by(strongest) {
-            let pixels = scale(analysis, context.unit, context.options) * unit / context.unit;
-            entries.extend(scale_entry(&analysis.scene, plan, pixels));
-        }
-        if plans.iter().any(|plan| plan.arrows.iter().any(|a| a.number.is_some())) {
-            let words = "one of the most effective moves; the text below states the estimated new margin";
-            entries.push(Entry::Symbol(numbered_symbol, 26.0, words.into()));
-        }
-        if plans.iter().any(Plan::has_marks) {
-            let words = "change of a weight, load or joint; the text below states the estimated new margin";
-            let wide = 1.6 * disc_radius(&context.options.theme);
-            entries.push(Entry::Symbol(disc_symbol, wide, words.into()));
-        }
-        entries.extend(legend::loads(context));
-        entries.extend(legend::robots(context));
-        let kinks = plans.iter().map(|plan| plan.kinks).sum();
-        if kinks > 0 {
-            let corners = counted(kinks, "corner");
-            entries.push(Entry::Note(format!("{corners} without an arrow, because the margin has a kink there")));
-        }
-        if let [only] = &plans[..]
-            && analysis.frames.len() == 1
-        {
-            entries.extend(list(only, &context.options.theme));
-        }
-        entries
-    }
-
-    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let frame_analysis = &context.analysis.frames[frame];
-        let Some(sensitivity) = &frame_analysis.sensitivity else {
-            return "the sensitivity of its margins was not computed".into();
+    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+        let Some(sensitivity) = &analysis.frames[frame].sensitivity else {
+            return vec!["the sensitivity of its margins was not computed".into()];
         };
         if let Some(reason) = sensitivity.reason() {
-            return without(sensitivity.kind, reason);
+            return vec![without(sensitivity.kind, reason)];
         }
-        let Some(plan) = Plan::new(context.analysis, frame, context.options) else {
-            return String::new();
-        };
-        let end = end_name(plan.kind, plan.is_high);
-        let stated = format!(
-            "limit: {} {} ({end} end of the interval in which the frame stands)",
-            name(plan.kind, plan.is_high),
-            value(plan.kind, plan.value)
-        );
+        let Some(plan) = Plan::new(analysis, frame, options) else { return Vec::new() };
+        let (limit, end) = (value(plan.kind, plan.value), end_name(plan.kind, plan.is_high));
+        let name = name(plan.kind, plan.is_high);
+        let mut words = vec![format!("limit: {name} {limit} ({end} end of the interval in which the frame stands)")];
         if plan.arrows.is_empty() && plan.changes.is_empty() {
-            return match plan.kinks {
-                0 => format!("{stated}; no single corner makes it visibly better"),
-                _ => format!("{stated}; it is at a kink, where corners have no unique derivatives"),
-            };
+            words.push(if plan.kinks == 0 {
+                "no single corner makes it visibly better".into()
+            } else {
+                "it is at a kink, where corners have no unique derivatives".into()
+            });
         }
-        if context.analysis.frames.len() == 1 {
-            return stated;
+        words
+    }
+
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        stage::held(canvas);
+        stage::loads(canvas);
+        if let Some(plan) = Plan::new(canvas.analysis, canvas.number, canvas.options) {
+            arrows(canvas, &plan);
+            rings(canvas, &plan);
+            if plan.kinks > 0 {
+                let corners = counted(plan.kinks, "corner");
+                canvas.note(70, &format!("{corners} without an arrow, because the margin has a kink there"));
+            }
         }
-        let changes = plan.changes.iter();
-        let changes = changes.map(|c| format!("{}: {}", c.number, c.words));
-        [stated].into_iter().chain(changes).collect::<Vec<_>>().join("; ")
+        stage::names(canvas);
+    }
+
+    /// Lists the numbered changes with the estimated new margins.
+    fn list(&self, canvas: &Canvas<'_>, room: f64) -> (Group, f64) {
+        let mut group = Group::with_class("list");
+        let plan = Plan::new(canvas.analysis, canvas.number, canvas.options).filter(|_| canvas.options.keys);
+        let (theme, ink) = (canvas.theme(), number_colour(canvas.theme()));
+        let size = canvas.look.text * theme.sizes.verdict;
+        let indent = 1.9 * size;
+        let changes = plan.iter().flat_map(|plan| &plan.changes);
+        let broken = changes.map(|change| {
+            (change.number, text::sentence_lines(&change.words, Face::Sans, size, room - indent, usize::MAX))
+        });
+        let broken: Vec<(usize, Vec<String>)> = broken.collect();
+        let widths = broken.iter().flat_map(|(_, lines)| lines).map(|line| text::width(line, Face::Sans, size));
+        let left = -(widths.fold(0.0, f64::max) + indent) / 2.0;
+        let mut y = 0.0;
+        for (number, lines) in broken {
+            for (place, line) in lines.into_iter().enumerate() {
+                y += 1.36 * size;
+                if place == 0 {
+                    let at = PagePoint::new(left, y);
+                    group = group.with(Text::new(at, number.to_string(), Face::SansBold, size, ink));
+                }
+                group = group.with(Text::new(PagePoint::new(left + indent, y), line, Face::Sans, size, theme.ink));
+            }
+        }
+        (group, y + 0.4 * size)
     }
 }
 
 /// Draws the arrows at the corners. The numbered arrows, which have the largest effects, are drawn last, so that no
 /// other arrow covers them.
-fn arrows(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink, callouts: &mut Vec<Callout>) -> Group {
-    let (context, theme) = (pen.context, &pen.context.options.theme);
-    let scale = scale(context.analysis, context.unit, context.options);
-    let mut group = Group::with_class("effects").titled("Where to move corners");
+fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let metres = scale(canvas.analysis, unit(scene, canvas.options.zoom), canvas.options);
+    let sized = |canvas: &Canvas<'_>, length: f64, is_numbered: bool| {
+        let width = WIDTHS[usize::from(!is_numbered)];
+        let head = (canvas.mm(3.4 * width), canvas.mm(3.4 * width).min(0.62 * length));
+        ArrowSize { length, shaft: canvas.mm(width), head }
+    };
+    let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(4.8));
+    let key = |rank: u8, words: String, is_numbered: bool, width: f64| {
+        let outline = sized(canvas, width, is_numbered).outline(start, (1.0, 0.0));
+        Rc::new(Key { rank, words, symbol: vec![Path::filled(outline, colour(theme, is_numbered))], width })
+    };
+    let plain_key = key(10, "where to move a corner; longer: more effect".into(), false, long);
+    let numbered_key = key(12, "most effective moves, listed".into(), true, long);
+    if let Some((width, words)) = scale_words(scene, plan, canvas.camera.length(metres), canvas.mm(MAX_SCALE_ARROW)) {
+        let scale_key = key(11, words, false, width);
+        canvas.explain(scale_key);
+    }
     let mut order: Vec<&CornerArrow> = plan.arrows.iter().collect();
     order.sort_by_key(|arrow| std::cmp::Reverse(arrow.number.unwrap_or(usize::MAX)));
     for arrow in order {
-        let from = pen.camera.place(arrow.at);
-        let along = pen.camera.turn(arrow.effect * scale);
-        let long = libm::hypot(along.0, along.1);
+        let from = canvas.place(arrow.at);
+        let (x, y) = canvas.camera.turn(arrow.effect * metres);
+        let long = libm::hypot(x, y);
         if long < MIN_VISIBLE_ARROW && arrow.number.is_none() {
             continue;
         }
-        let width = width(pen.unit(), arrow.number.is_some());
-        ink.arrow(from, along, width);
-        let outline = straight(from, along, width);
-        let casing = Stroke::new(theme.page, 1.6);
+        let u = (x / long, y / long);
+        let outline = sized(canvas, long, arrow.number.is_some()).outline(from, u);
+        let path = Path::filled(outline, colour(theme, arrow.number.is_some())).cased(theme.page, canvas.mm(0.15));
         let per_step = format_change(plan.kind, arrow.effect.norm() * plan.step);
-        let title = format!("{per_step} for {}", length(&context.analysis.scene, plan.step));
-        let one = Group::with_class("effect").titled(title);
-        let casing = Path::stroked(outline.clone(), casing).with_opacity(0.85);
-        let fill = Path::filled(outline, colour(theme, arrow.number.is_some()));
-        group.items.push(one.with(casing).with(fill).into());
+        let title = format!("{per_step} for {}", length(scene, plan.step));
+        let key = if arrow.number.is_some() { &numbered_key } else { &plain_key };
+        let mark = Mark::new(Layer::Missing, "effect", vec![path]).titled(title).keyed(key);
+        canvas.put(mark.avoided(canvas.mm(0.15)));
         if let Some(number) = arrow.number {
-            let ahead = 2.0 / long.max(MIN_VISIBLE_ARROW);
-            callouts.push(Callout {
-                at: from.moved((1.0 + ahead) * along.0, (1.0 + ahead) * along.1),
-                clear: 2.5,
-                words: number.to_string(),
-                colour: number_colour(theme),
-            });
+            let anchors = vec![along(from, u, long, 0.0), along(from, u, 0.6 * long, 0.0)];
+            let label = Label::new(number.to_string(), number_colour(theme), anchors, 10 + number.min(90) as u8);
+            canvas.label(Label { bold: true, away: Some(u), ..label });
         }
     }
-    callouts.sort_by_key(|callout| callout.words.parse::<usize>().unwrap_or(usize::MAX));
-    group
 }
 
-/// Draws a disc with a number for each numbered change that has a position but no arrow, such as changes of weights,
-/// loads and the friction of one joint.
-fn discs(pen: &Pen<'_>, plan: &Plan, ink: &mut Ink) -> Group {
-    let theme = &pen.context.options.theme;
-    let radius = disc_radius(theme);
-    let mut group = Group::with_class("changes");
-    let loads = &pen.context.marks[pen.number].arrows;
-    let scale = scale(pen.context.analysis, pen.context.unit, pen.context.options);
-    // A number without an empty position may cover other shapes, but not the arrows in `marks`.
-    let mut marks = Ink::default();
-    for load in loads {
-        let (from, along) = (pen.camera.place(load.at), pen.camera.turn(load.vector));
-        marks.arrow(from, along, pen.width(load));
-    }
-    for arrow in plan.arrows.iter().filter(|arrow| arrow.number.is_some()) {
-        let along = arrow.effect * scale;
-        marks.arrow(pen.camera.place(arrow.at), pen.camera.turn(along), 2.0);
-    }
+/// Draws a ring with a number for each numbered change that has a position but no arrow, such as changes of weights,
+/// loads and the friction of one joint. Rings at one place stand side by side.
+fn rings(canvas: &mut Canvas<'_>, plan: &Plan) {
+    let (theme, radius) = (canvas.theme(), canvas.mm(RING_RADIUS));
+    let ring = |at: PagePoint, radius: f64| {
+        let edge = Stroke::new(number_colour(theme), canvas.mm(0.25));
+        vec![Path::filled(Outline::circle(at, radius), theme.page).with_stroke(edge)]
+    };
+    let (small, width) = (0.6 * radius, 1.2 * radius + canvas.mm(0.3));
+    let symbol = ring(PagePoint::new(small + canvas.mm(0.15), 0.0), small);
+    let words = "change of a weight, load or joint, listed".into();
+    let key = Rc::new(Key { rank: 13, words, symbol, width });
+    let mut taken: Vec<PagePoint> = Vec::new();
+    let mut drawn = Vec::new();
     for change in &plan.changes {
-        let Some(at) = plan.mark(change) else {
-            continue;
-        };
-        // The number of a moved load is at the tail of the arrow of this load.
-        let near = 1e-6 * pen.context.unit;
-        let ends_here = |arrow: &&ForceArrow| (arrow.at + arrow.vector - at).norm() < near;
-        let load_arrow = (loads.iter()).find(|arrow| change.is_load && ends_here(arrow));
-        let preferred = match load_arrow {
-            Some(arrow) => {
-                let (x, y) = pen.camera.turn(arrow.vector);
-                let share = (radius + 1.5) / libm::hypot(x, y).max(f64::MIN_POSITIVE);
-                pen.camera.place(arrow.at).moved(-share * x, -share * y)
-            }
-            None => pen.camera.place(at),
-        };
-        // The number of a change of friction is drawn on its joint, so it may cover other shapes.
-        let near = nearest_free_position(ink, preferred, radius, 1.2).filter(|_| !change.is_joint);
-        let at = near.or_else(|| nearest_free_position(&marks, preferred, radius, 3.0));
-        let at = at.unwrap_or(preferred);
-        ink.disc(at, radius + 1.0);
-        marks.disc(at, radius + 1.0);
-        let title = format!("{}: {}", change.number, change.words);
-        let disc = Group::with_class("change").titled(title);
-        let disc = disc.with(numbered(at, change.number, theme));
-        group.items.push(disc.into());
+        let Some(place) = plan.mark(change) else { continue };
+        let mut at = canvas.place(place);
+        if change.is_load {
+            // Leave the tip of the arrow of the load free.
+            at = at.moved(1.3 * radius, -1.3 * radius);
+        }
+        while taken.iter().any(|other| libm::hypot(other.x - at.x, other.y - at.y) < 2.1 * radius) {
+            at = at.moved(0.5 * radius, 0.0);
+        }
+        taken.push(at);
+        drawn.push((at, ring(at, radius), change));
     }
-    group
+    for (at, shapes, change) in drawn {
+        let mark = Mark::new(Layer::Missing, "change", shapes).titled(format!("{}: {}", change.number, change.words));
+        canvas.put(mark.keyed(&key).avoided(canvas.mm(0.2)));
+        let label = Label::new(change.number.to_string(), number_colour(theme), vec![at], 0);
+        canvas.label(Label { bold: true, fixed: Some(at), ..label });
+    }
 }
 
-/// Returns the candidate nearest to `preferred` at which the square around a disc covers nothing in `ink`. The
-/// candidates lie on circles around `preferred`, up to `most` times `radius` away. Returns `None` if no candidate is
-/// free.
-fn nearest_free_position(ink: &Ink, preferred: PagePoint, radius: f64, most: f64) -> Option<PagePoint> {
-    let side = 2.0 * radius;
-    let is_free =
-        |centre: &PagePoint| ink.clear(PageRect { at: centre.moved(-radius, -radius), width: side, height: side });
-    // Candidates lie on circles around `preferred`, twelve on each circle. The radii of the circles are multiples of a
-    // fifth of the disc's radius.
-    let place = |k: usize| {
-        let far = 0.2 * radius * k.div_ceil(12) as f64;
-        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::TAU / 12.0);
-        preferred.moved(far * cos, far * sin)
-    };
-    let last = (12.0 * most / 0.2).round() as usize;
-    (0..=last).map(place).find(is_free)
-}
-
-/// Returns the legend entries of the numbered list of changes.
-fn list(plan: &Plan, theme: &Theme) -> Vec<Entry> {
-    let size = theme.sizes.key;
-    let widths = plan.changes.iter();
-    let widths = widths.map(|change| text::width(&change.words, Face::Sans, size));
-    let column = widths.fold(0.0, f64::max) + 1.9 * size;
-    let entry = |change: &plan::Numbered| {
-        let colour = number_colour(theme);
-        Entry::Numbered(change.number, colour, change.words.clone(), column)
-    };
-    plan.changes.iter().map(entry).collect()
-}
-
-/// Returns the legend entry for the scale of the arrows; `None` if there are no arrows. `pixels` is the length, in
-/// pixels, of an arrow that shows a growth of the margin of 1 per metre.
-fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
+/// Returns the length of the arrow that shows the scale, pixels, and its words; `None` if there are no arrows. `pixels`
+/// is the length of an arrow that shows a growth of the margin of 1 per metre, and `most` the largest length.
+fn scale_words(scene: &Scene, plan: &Plan, pixels: f64, most: f64) -> Option<(f64, String)> {
     // The sample arrow is not longer than the longest arrow of the figure.
     let longest = plan.strongest() * pixels;
-    let amount = round_below(longest.min(MAX_SCALE_ARROW) / pixels * plan.step);
+    let amount = round_below(longest.min(most) / pixels * plan.step);
     let drawn = amount / plan.step * pixels;
     let name = name(plan.kind, plan.is_high);
     let change = format_change(plan.kind, amount);
@@ -272,8 +214,7 @@ fn scale_entry(scene: &Scene, plan: &Plan, pixels: f64) -> Option<Entry> {
         (_, true) => format!("{name} +{change}"),
         (_, false) => format!("{name} −{change}"),
     };
-    let words = format!("{change} for {}", length(scene, plan.step));
-    (amount > 0.0 && drawn.is_finite()).then_some(Entry::Scale(drawn, 2.0, words))
+    (amount > 0.0 && drawn.is_finite()).then(|| (drawn, format!("{change} for {}", length(scene, plan.step))))
 }
 
 /// Formats a change of a margin. A change of a tilt is followed by the degree sign.
@@ -284,49 +225,10 @@ fn format_change(kind: MarginKind, amount: f64) -> String {
     }
 }
 
-/// Returns the width of the shaft of a corner's arrow, in pixels. `unit` is the unit length in pixels.
-fn width(unit: f64, is_numbered: bool) -> f64 {
-    let width = (0.045 * unit).clamp(1.4, 2.6);
-    match is_numbered {
-        true => 1.25 * width,
-        false => 0.8 * width,
-    }
-}
-
 fn colour(theme: &Theme, is_numbered: bool) -> Colour {
-    match is_numbered {
-        true => theme.motion.mixed(theme.ink, 0.15),
-        false => theme.motion.mixed(theme.page, 0.4),
-    }
+    if is_numbered { theme.motion.mixed(theme.ink, 0.15) } else { theme.motion.mixed(theme.page, 0.4) }
 }
 
 fn number_colour(theme: &Theme) -> Colour {
     theme.motion.mixed(theme.ink, 0.45)
-}
-
-fn disc_radius(theme: &Theme) -> f64 {
-    DISC_RADIUS * theme.sizes.amount
-}
-
-/// Draws a disc with the number of a change.
-fn numbered(at: PagePoint, number: usize, theme: &Theme) -> Group {
-    let size = 0.92 * theme.sizes.amount;
-    let disc = Path::filled(Outline::circle(at, disc_radius(theme)), number_colour(theme));
-    let at = at.moved(0.0, 0.36 * size);
-    let words = Text::new(at, number.to_string(), Face::SansBold, size, theme.page);
-    Group::default().with(disc).with(words.anchored(Anchor::Middle))
-}
-
-fn arrow_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    vec![Path::filled(straight(at, (26.0, 0.0), 2.0), colour(theme, false)).into()]
-}
-
-fn numbered_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    vec![Path::filled(straight(at, (26.0, 0.0), 3.0), colour(theme, true)).into()]
-}
-
-fn disc_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let radius = 0.8 * disc_radius(theme);
-    let disc = Outline::circle(at.moved(radius, 0.0), radius);
-    vec![Path::filled(disc, number_colour(theme)).into()]
 }

@@ -420,7 +420,13 @@ impl<'a> Sheet<'a> {
             Some(_) => self.panel,
             None => {
                 let has_list = pictures.all.iter().any(|(_, picture)| !picture.list.0.items.is_empty());
-                let least = if has_list { LIST_WIDTH } else { [72.0, 42.0][usize::from(columns > 1)] };
+                let least = match (has_list, columns) {
+                    (true, 1) => LIST_WIDTH,
+                    // Lists stand beside each other, so each has the width for which it was written.
+                    (true, _) => LIST_WIDTH.min(self.panel / look.mm(1.0)),
+                    (false, 1) => 72.0,
+                    (false, _) => 42.0,
+                };
                 let keys = pictures.all.iter().flat_map(|(_, picture)| &picture.keys);
                 let widest = keys.map(|key| self.key_width(key)).fold(0.0, f64::max) / columns as f64;
                 natural.max(look.mm(least)).max(widest).min(self.panel.max(natural))

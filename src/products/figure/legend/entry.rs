@@ -53,9 +53,6 @@ pub(crate) enum Entry {
     Metres(f64, String),
     /// A note, such as on labels that are left out.
     Note(String),
-    /// An entry of a numbered list: its number, the colour of the number, its meaning, and the width of the list's
-    /// columns in pixels.
-    Numbered(usize, Colour, String, f64),
     /// A symbol: the function that draws it, its width in pixels, and its meaning. The function gets the middle of the
     /// left edge.
     Symbol(fn(PagePoint, &Theme) -> Vec<Item>, f64, String),
@@ -93,7 +90,6 @@ impl Entry {
             (Entry::Line(_, a, what), Entry::Line(_, b, other)) => (a, what) == (b, other),
             (Entry::Scale(a, _, what), Entry::Scale(b, _, other)) => (a, what) == (b, other),
             (Entry::Metres(a, what), Entry::Metres(b, other)) => (a, what) == (b, other),
-            (Entry::Numbered(a, _, what, _), Entry::Numbered(b, _, other, _)) => (a, what) == (b, other),
             (Entry::Note(a), Entry::Note(b)) | (Entry::Symbol(_, _, a), Entry::Symbol(_, _, b)) => a == b,
             _ => false,
         }
@@ -113,17 +109,7 @@ impl Entry {
             Entry::Scale(length, ..) | Entry::Metres(length, _) => length + 7.0,
             Entry::Line(..) => LINE_LENGTH + 7.0,
             Entry::Note(_) => 0.0,
-            Entry::Numbered(..) => 1.9 * theme.sizes.key,
             Entry::Symbol(_, width, _) => width + 7.0,
-        }
-    }
-
-    /// Returns the column width of the numbered list to which the entry belongs, pixels; `None` if it does not belong
-    /// to a numbered list.
-    pub(super) fn column(&self) -> Option<f64> {
-        match self {
-            Entry::Numbered(.., column) => Some(*column),
-            _ => None,
         }
     }
 
@@ -141,7 +127,6 @@ impl Entry {
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)
             | Entry::Metres(_, words)
-            | Entry::Numbered(_, _, words, _)
             | Entry::Note(words)
             | Entry::Symbol(_, _, words) => words.clone(),
         }
@@ -175,10 +160,6 @@ impl Entry {
             Entry::Line(colour, width, _) => vec![symbol::line(*colour, *width, at)],
             Entry::Metres(length, _) => vec![symbol::metres(*length, at, theme)],
             Entry::Note(_) => Vec::new(),
-            Entry::Numbered(number, colour, ..) => {
-                let right = at.moved(1.4 * theme.sizes.key, 0.0);
-                vec![symbol::number(*number, *colour, right, theme)]
-            }
             Entry::Symbol(symbol, ..) => symbol(at, theme),
             Entry::Scale(length, width, _) => {
                 vec![symbol::arrow(at, (*length, *width), theme.faint)]

@@ -24,8 +24,7 @@ impl<'e> WrappedEntry<'e> {
         let left = (room - symbol).max(MIN_TEXT_WIDTH);
         let lines = text::sentence_lines(&words, Face::Sans, size, left, usize::MAX);
         let widths = lines.iter().map(|line| text::width(line, Face::Sans, size));
-        let column = entry.column().unwrap_or(0.0).min(room);
-        let width = (symbol + widths.fold(0.0, f64::max)).max(column);
+        let width = symbol + widths.fold(0.0, f64::max);
         WrappedEntry { entry, lines, width }
     }
 
@@ -53,23 +52,13 @@ struct KeyLine<'e> {
     width: f64,
 }
 
-impl KeyLine<'_> {
-    /// True if the line belongs to a numbered list. Such a line contains no other entries.
-    fn is_list(&self) -> bool {
-        let mut entries = self.entries.iter();
-        entries.any(|laid| laid.entry.column().is_some())
-    }
-}
-
-/// Distributes the entries over lines: each entry goes into the first line that has space for it. Entries of a numbered
-/// list and other entries are in separate lines. A line is at most `room` pixels wide, unless a single entry is wider.
+/// Distributes the entries over lines: each entry goes into the first line that has space for it.  A line is at most `room` pixels wide, unless a single entry is wider.
 /// `gap` is the space between two entries, pixels.
 fn lines<'e>(entries: &'e [Entry], room: f64, gap: f64, theme: &Theme) -> Vec<KeyLine<'e>> {
     let mut lines: Vec<KeyLine<'e>> = Vec::new();
     for entry in entries {
         let laid = WrappedEntry::new(entry, room, theme);
-        let is_listed = entry.column().is_some();
-        let fits = |line: &&mut KeyLine<'e>| line.is_list() == is_listed && line.width + gap + laid.width <= room;
+        let fits = |line: &&mut KeyLine<'e>| line.width + gap + laid.width <= room;
         match lines.iter_mut().find(fits) {
             Some(line) => {
                 line.width += gap + laid.width;
@@ -94,14 +83,10 @@ pub(crate) fn draw(
     let mut group = Group::with_class("key");
     let mut height = 0.0;
     let lines = lines(entries, room, gap, theme);
-    let list = lines.iter().filter(|line| line.is_list());
-    let list = list.map(|line| line.width).fold(0.0, f64::max);
     for key_line in lines {
         let extra = key_line.entries.iter().map(|e| e.extra_height(theme));
         let high = line * theme.sizes.key + extra.fold(0.0, f64::max);
-        // All lines of a numbered list begin at the same x coordinate, so that its columns are aligned.
-        let width = if key_line.is_list() { list } else { key_line.width };
-        let mut at = PagePoint::new(middle - width / 2.0, top + height + high / 2.0);
+        let mut at = PagePoint::new(middle - key_line.width / 2.0, top + height + high / 2.0);
         for entry in &key_line.entries {
             group.items.extend(entry.draw(at, theme));
             at = at.moved(entry.width + gap, 0.0);

@@ -1,9 +1,7 @@
 //! Draws the symbols of the legend. In each function, `at` is the middle of the left edge of the symbol on the page.
 
 use crate::pictures::drawing::arrow::straight;
-use crate::pictures::drawing::{
-    Anchor, Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
-};
+use crate::pictures::drawing::{Colour, Face, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text};
 use crate::products::figure::pen::{CENTROID_RADIUS, DOT_RADIUS};
 
 /// Length of a sample arrow, pixels.
@@ -99,15 +97,6 @@ pub(super) fn amplitudes(
     let end = at.moved(start + bar + 7.0, 0.0);
     items.push(written(high, end, theme));
     items
-}
-
-/// Draws the number of a numbered list entry in bold type. `right` is the right end of the number, at half the height
-/// of its line.
-pub(super) fn number(number: usize, colour: Colour, right: PagePoint, theme: &Theme) -> Item {
-    let size = theme.sizes.key;
-    let at = right.moved(0.0, 0.36 * size);
-    let text = Text::new(at, number.to_string(), Face::SansBold, size, colour);
-    text.anchored(Anchor::End).into()
 }
 
 /// Draws a short horizontal line of this width (pixels).

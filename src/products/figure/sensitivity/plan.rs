@@ -52,8 +52,6 @@ pub(super) struct Numbered {
     pub at: Option<Point>,
     /// Whether a load is moved.
     pub is_load: bool,
-    /// Whether the friction of one joint is changed.
-    pub is_joint: bool,
     /// A description of the change, and the value of the margin after it.
     pub words: String,
 }
@@ -107,31 +105,11 @@ impl Plan {
         effects.fold(0.0, f64::max)
     }
 
-    /// Returns the tip of an arrow, metres. `scale` is the length in metres of an arrow that shows a growth of 1 per
-    /// metre.
-    pub fn tip(arrow: &CornerArrow, scale: f64) -> Point {
-        arrow.at + arrow.effect * scale
-    }
-
-    /// Returns a box around all arrows, metres; `None` if there are no arrows. `scale` is as in [`Plan::tip`].
-    pub fn bounds(&self, scale: f64) -> Option<Bounds> {
-        let ends = self.arrows.iter();
-        Bounds::from_points(ends.flat_map(|arrow| [arrow.at, Plan::tip(arrow, scale)]))
-    }
-
-    /// True if a numbered change has no arrow, so that its number is drawn in a disc.
-    pub fn has_marks(&self) -> bool {
-        self.changes.iter().any(|change| self.mark(change).is_some())
-    }
-
     /// Returns the position of the number of a change in the scene. Returns `None` if an arrow has the number, or if
     /// the change has no position.
     pub fn mark(&self, change: &Numbered) -> Option<Point> {
         let mut arrows = self.arrows.iter();
-        match arrows.any(|arrow| arrow.number == Some(change.number)) {
-            true => None,
-            false => change.at,
-        }
+        if arrows.any(|arrow| arrow.number == Some(change.number)) { None } else { change.at }
     }
 }
 
@@ -207,7 +185,6 @@ impl Sketch<'_> {
             number,
             at,
             is_load: matches!(change.target, Target::Load(..)),
-            is_joint: matches!(change.target, Target::Friction(_)),
             words: format!("{done} → about {after}"),
         }
     }
