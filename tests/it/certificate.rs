@@ -146,7 +146,7 @@ fn both_sides_of_margins_and_capacities_are_exact() {
         texts.push((certificate.to_json(), proved(&checked)));
     }
     assert!(sides > 200 && exact * 100 >= sides * 96, "{exact} of {sides} sides are exact");
-    for kind in ["friction low", "tilt high", "horizontal_load low", "kernel high", "load_factor high", "arm fy low"] {
+    for kind in ["friction low", "tilt high", "horizontal_load low", "kernel high", "load_factor high", "r0 fy low"] {
         assert!(kinds.contains(kind), "{kind}: {kinds:?}");
     }
     let Some(pages) = by_python(&texts.iter().map(|(text, _)| text.clone()).collect::<Vec<_>>()) else { return };

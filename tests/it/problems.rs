@@ -102,7 +102,7 @@ fn every_code_of_a_problem_occurs() {
         })
         .collect();
     let text = format!(
-        r#"{{ "drystone": 1, "shapes": {{ "round": [{}] }}, "blocks": [{}] }}"#,
+        r#"{{ "drystone": 1, "shapes": {{ "round": {{ "polygon": [{}] }} }}, "blocks": [{}] }}"#,
         corners.join(","),
         vec![r#"{ "shape": "round" }"#; 700].join(",")
     );

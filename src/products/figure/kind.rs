@@ -100,7 +100,7 @@ impl Kind {
     /// Returns what draws a figure of this kind.
     pub(crate) fn drawer(self, options: &Options) -> Drawer {
         match self {
-            Kind::Forces | Kind::Build if options.theme.forces == ForceMarks::Joints => Drawer::Canvas(&JointForces),
+            Kind::Forces | Kind::Build if options.theme.forces != ForceMarks::Blocks => Drawer::Canvas(&JointForces),
             Kind::Forces => Drawer::Panels(&FORCES),
             Kind::Flow => Drawer::Panels(&ForceFlow),
             Kind::Mechanism => Drawer::Panels(&Mechanism),

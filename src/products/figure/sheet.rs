@@ -176,8 +176,7 @@ struct Pictures {
 
 /// Draws all frames on one page.
 pub(crate) fn page(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> Drawing {
-    let sheet = Sheet::new(analysis, figure, options, None);
-    let pictures = sheet.pictures(&sheet.subject.frames);
+    let (sheet, pictures) = Sheet::filled(analysis, figure, options);
     sheet.write(&pictures, &sheet.subject.frames)
 }
 
@@ -239,9 +238,8 @@ fn same_size(mut pages: Vec<Drawing>) -> Vec<Drawing> {
 /// Draws all frames on several pages with the same scale. The height of a page is at most `ratio` times its width, unless
 /// one row is higher.
 pub(crate) fn split(analysis: &Analysis, figure: &'static dyn Figure, options: &Options, ratio: f64) -> Vec<Drawing> {
-    let sheet = Sheet::new(analysis, figure, options, None);
+    let (sheet, pictures) = Sheet::filled(analysis, figure, options);
     let frames = &sheet.subject.frames;
-    let pictures = sheet.pictures(frames);
     let mut pages = Vec::new();
     let mut rest = &frames[..];
     while !rest.is_empty() {
@@ -286,6 +284,25 @@ impl<'a> Sheet<'a> {
         sheet.columns = sheet.fitting_columns(count);
         sheet.panel = sheet.panel_width(sheet.columns);
         sheet
+    }
+
+    /// Creates the arrangement of one page with all panels, and draws them. If the labels make the pictures too wide for
+    /// their columns at every scale, there are fewer columns, unless the options give their number.
+    fn filled(
+        analysis: &'a Analysis,
+        figure: &'static dyn Figure,
+        options: &'a Options,
+    ) -> (Sheet<'a>, Pictures) {
+        let mut sheet = Sheet::new(analysis, figure, options, None);
+        loop {
+            let pictures = sheet.pictures(&sheet.subject.frames);
+            let fits = pictures.sides.1 - pictures.sides.0 <= sheet.panel + sheet.look.mm(MARGIN);
+            if fits || sheet.columns <= 1 || options.columns.is_some() {
+                return (sheet, pictures);
+            }
+            sheet.columns -= 1;
+            sheet.panel = sheet.panel_width(sheet.columns);
+        }
     }
 
     fn panel_width(&self, columns: usize) -> f64 {

@@ -110,7 +110,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                         self.add_body(path, &around, Role::Block, name);
                     }
                 }
-                "robots" => self.read_groups(child, &around),
+                "robots" | "symbols" => self.read_groups(child, &around),
                 "robot" => {
                     let name = title.strip_prefix("Robot ").unwrap_or(&title);
                     let name = name.split_once(" holds block ").map_or(name, |n| n.0);
