@@ -63,7 +63,11 @@ fn by_python(certificates: &[String]) -> Option<Vec<Vec<String>>> {
     }
     let Ok(output) = command.output() else {
         assert!(std::env::var_os("CI").is_none(), "python3 is needed");
-        eprintln!("skipped: python3 is not there");
+        // The one place where a test says that it leaves something out.
+        #[allow(clippy::print_stderr, reason = "a skipped test says so")]
+        {
+            eprintln!("skipped: python3 is not there");
+        }
         return None;
     };
     let text = String::from_utf8(output.stdout).expect("text");
@@ -129,6 +133,7 @@ fn both_sides_of_margins_and_capacities_are_exact() {
     let robot = Scene::from_json(ROBOT).expect("a scene");
     let mut texts = Vec::new();
     let (mut sides, mut exact, mut kinds) = (0, 0, std::collections::BTreeSet::new());
+    let mut inexact = Vec::new();
     let all = scenes(3_000).into_iter().filter(|(name, scene)| {
         !AT_THEIR_LIMIT.contains(&name.as_str()) && scene.frames().len() == 1 && scene.blocks().len() <= 9
     });
@@ -140,12 +145,12 @@ fn both_sides_of_margins_and_capacities_are_exact() {
             exact += usize::from(limit.faults.is_empty());
             kinds.insert(limit.of.rsplit_once(' ').expect("a value").0.to_owned());
             if !limit.faults.is_empty() {
-                eprintln!("{name}: {limit:?}");
+                inexact.push(format!("{name}: {limit:?}"));
             }
         }
         texts.push((certificate.to_json(), proved(&checked)));
     }
-    assert!(sides > 200 && exact * 100 >= sides * 96, "{exact} of {sides} sides are exact");
+    assert!(sides > 200 && exact * 100 >= sides * 96, "{exact} of {sides} sides are exact: {inexact:#?}");
     for kind in ["friction low", "tilt high", "horizontal_load low", "kernel high", "load_factor high", "r0 fy low"] {
         assert!(kinds.contains(kind), "{kind}: {kinds:?}");
     }

@@ -43,10 +43,7 @@ pub fn pair(
     let differences = differences(first, second);
     let mut frames = vec![first.frames[before.1].clone(), new_indices.frame(&second.frames[after.1])];
     frames[0].title = title;
-    frames[1].title = match differences.is_empty() {
-        true => later,
-        false => format!("{later}: {}", differences.join(", ")),
-    };
+    frames[1].title = if differences.is_empty() { later } else { format!("{later}: {}", differences.join(", ")) };
     scene.frames = frames;
     let found = vec![before.0.frames[before.1].clone(), new_indices.frame_analysis(&after.0.frames[after.1])];
     Ok((scene, found))

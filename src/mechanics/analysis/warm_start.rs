@@ -113,10 +113,7 @@ impl WarmStart {
     /// nor a motion are proved.
     fn decide_verdict(&mut self, assembly: &Assembly, options: Options) -> Option<Verdict> {
         // Without an active set from an earlier frame, the warm start is fast only for few bodies.
-        let most = match self.columns.is_empty() {
-            true => MAX_NEW_BODIES,
-            false => MAX_BODIES,
-        };
+        let most = if self.columns.is_empty() { MAX_NEW_BODIES } else { MAX_BODIES };
         if assembly.bodies.len() > most {
             *self = WarmStart::default();
             return None;

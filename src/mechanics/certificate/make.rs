@@ -376,8 +376,8 @@ fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]], bodies: us
             heap.push((Slack(slack), link, body));
         }
     };
-    for body in 0..count {
-        for link in links_of[body].iter().filter(|link| other(**link, body).is_none()) {
+    for (body, links) in links_of.iter().enumerate() {
+        for link in links.iter().filter(|link| other(**link, body).is_none()) {
             reach(&mut heap, *link, body);
         }
     }

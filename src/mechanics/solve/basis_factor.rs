@@ -105,10 +105,8 @@ impl BasisFactor {
     pub fn replace(&mut self, position: usize, solution: &[f64]) -> usize {
         let pivot = solution[position];
         let entries = solution.iter().enumerate().filter(|(_, v)| **v != 0.0);
-        let inverse = entries.map(|(other, v)| match other == position {
-            true => (other, 1.0 / pivot),
-            false => (other, -v / pivot),
-        });
+        let inverse =
+            entries.map(|(other, v)| if other == position { (other, 1.0 / pivot) } else { (other, -v / pivot) });
         self.replacements.push((position, inverse.collect()));
         self.replacements.len()
     }

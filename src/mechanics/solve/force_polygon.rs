@@ -295,10 +295,7 @@ impl Walk<'_> {
             let turn = libm::atan2(across, tangent.dot(&change.force));
             // The edge that has just been walked, in the opposite direction, has an angle of 180°. Rounding can turn
             // this angle into −180°, and make the angle of another edge slightly negative.
-            match turn < -FRAC_PI_2 {
-                true => (turn + TAU, change),
-                false => (turn.max(0.0), change),
-            }
+            if turn < -FRAC_PI_2 { (turn + TAU, change) } else { (turn.max(0.0), change) }
         });
         let turns: Vec<(f64, Change)> = turns.collect();
         let least = turns.iter().map(|(turn, _)| *turn).reduce(f64::min)?;

@@ -10,11 +10,11 @@
 /// The lower triangular factor L of the matrix L·Lᵀ.
 #[derive(Clone, Debug, Default)]
 pub(super) struct IncrementalCholesky {
-    rows: Vec<Row>,
+    rows: Vec<FactorRow>,
 }
 
 #[derive(Clone, Debug)]
-struct Row {
+struct FactorRow {
     /// The column of the first stored entry. The last entry is on the diagonal.
     first: usize,
     entries: Vec<f64>,
@@ -65,7 +65,7 @@ impl IncrementalCholesky {
             return false;
         }
         entries.push(pivot.sqrt());
-        self.rows.push(Row { first, entries });
+        self.rows.push(FactorRow { first, entries });
         true
     }
 
@@ -89,7 +89,7 @@ impl IncrementalCholesky {
     }
 }
 
-impl Row {
+impl FactorRow {
     /// Returns the entries to the left of the diagonal, and the diagonal entry.
     fn split_diagonal(&self) -> (&[f64], f64) {
         match self.entries.split_last() {

@@ -143,10 +143,8 @@ pub(super) fn with_least_squares(face: Face, force_size: f64, settings: SolverSe
     let (loads, columns) = (&face.loads, &face.columns);
     let balances = |amounts: &Vec<f64>| balances_every_body(loads, columns, amounts, force_size);
     let found = least_squares_amounts(loads, columns, settings, effort);
-    let found = found.map(|amounts| match balances(&amounts) {
-        true => amounts,
-        false => refine_balance(loads, columns, amounts, effort),
-    });
+    let found =
+        found.map(|amounts| if balances(&amounts) { amounts } else { refine_balance(loads, columns, amounts, effort) });
     match found.filter(balances) {
         Some(amounts) => face.with_amounts(amounts),
         None => face,
@@ -341,9 +339,10 @@ pub(super) fn precise_optimum(
         Some((found, force_size))
     };
     let (found, force_size) = refined(first)?;
-    match whole.adhesion_sum(&found.amounts) < REFINE_AGAIN_RATIO * force_size {
-        true => refined(&found).or(Some((found, force_size))),
-        false => Some((found, force_size)),
+    if whole.adhesion_sum(&found.amounts) < REFINE_AGAIN_RATIO * force_size {
+        refined(&found).or(Some((found, force_size)))
+    } else {
+        Some((found, force_size))
     }
 }
 
@@ -410,10 +409,7 @@ fn concentrate(mut face: Face, force_size: f64, settings: SolverSettings, effort
         // is at most about a thousand times the cost of the column with the largest share.
         let columns = face.columns.iter().zip(&face.amounts);
         let shares: Vec<f64> = columns
-            .map(|(column, amount)| match column.force.is_adhesion() {
-                true => amount / lighter_load(column),
-                false => 0.0,
-            })
+            .map(|(column, amount)| if column.force.is_adhesion() { amount / lighter_load(column) } else { 0.0 })
             .collect();
         let largest_share = largest(&shares);
         for (column, share) in face.columns.iter_mut().zip(&shares) {

@@ -90,10 +90,8 @@ fn ray_amounts(program: &Program, list: &[Column], amounts: &Amounts) -> Vec<f64
             let mu = program.contacts[contact].friction;
             let [first, second] = amounts.normal[contact];
             let friction_limit = mu * (first + second);
-            let friction_use = match friction_limit > 0.0 {
-                true => (amounts.friction[contact] / friction_limit).clamp(-1.0, 1.0),
-                false => 0.0,
-            };
+            let friction_use =
+                if friction_limit > 0.0 { (amounts.friction[contact] / friction_limit).clamp(-1.0, 1.0) } else { 0.0 };
             let share = if mu == 0.0 {
                 1.0
             } else if friction == 0.0 {

@@ -116,18 +116,12 @@ impl Simplex {
         }
         self.factor.solve(&mut change);
         let own = &self.variables[variable];
-        let own_range = match sign > 0.0 {
-            true => own.upper - own.amount,
-            false => own.amount - own.lower,
-        };
+        let own_range = if sign > 0.0 { own.upper - own.amount } else { own.amount - own.lower };
         match self.ratio_test(&change, -sign) {
             Some((step, position)) if step < own_range => {
                 let leaving = self.basis[position];
                 let bounded = &mut self.variables[leaving];
-                bounded.amount = match sign * change[position] > 0.0 {
-                    true => bounded.lower,
-                    false => bounded.upper,
-                };
+                bounded.amount = if sign * change[position] > 0.0 { bounded.lower } else { bounded.upper };
                 self.variables[variable].amount += sign * step;
                 self.replace(position, variable, &change)?;
             }
@@ -156,10 +150,7 @@ impl Simplex {
         let approaching = change.iter().enumerate().filter_map(|(position, change)| {
             let rate = sign * change;
             let basic = &self.variables[self.basis[position]];
-            let distance = match rate < 0.0 {
-                true => basic.amount - basic.lower,
-                false => basic.upper - basic.amount,
-            };
+            let distance = if rate < 0.0 { basic.amount - basic.lower } else { basic.upper - basic.amount };
             (rate.abs() > MIN_PIVOT && distance < f64::INFINITY).then_some((distance.max(0.0), rate.abs(), position))
         });
         let steps = approaching.clone().map(|(distance, rate, _)| (distance + BOUND_TOL) / rate);

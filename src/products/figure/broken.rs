@@ -179,10 +179,7 @@ fn problem_in_words(problem: &Problem, is_marked: bool) -> String {
         "" => String::new(),
         path => format!("{path}: "),
     };
-    let note = match is_marked {
-        true => "",
-        false => " (not marked in the picture)",
-    };
+    let note = if is_marked { "" } else { " (not marked in the picture)" };
     format!("{line}{path}{}{note}.", problem.message)
 }
 

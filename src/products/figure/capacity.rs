@@ -80,9 +80,10 @@ impl PanelContent for CarriedForces {
         let Some(first) = plans.first() else {
             return legend::robots(context);
         };
-        let area = match first.is_apart {
-            true => "tips of the forces that the block can carry",
-            false => "tips of the forces that the block can carry; all tails are at the dot",
+        let area = if first.is_apart {
+            "tips of the forces that the block can carry"
+        } else {
+            "tips of the forces that the block can carry; all tails are at the dot"
         };
         entries.push(Entry::Symbol(area_symbol, 20.0, area.into()));
         if !first.is_apart {

@@ -72,19 +72,13 @@ pub(crate) fn shared_forces<'a>([then, now]: [(&Scene, &'a [Contact]); 2]) -> Ve
 /// Returns the two bodies of a contact, sorted by their names, so that the order is the same in all frames.
 pub(crate) fn bodies(scene: &Scene, contact: &Contact) -> [BodyId; 2] {
     let [a, b] = contact.interface.bodies;
-    match scene.name(a) <= scene.name(b) {
-        true => [a, b],
-        false => [b, a],
-    }
+    if scene.name(a) <= scene.name(b) { [a, b] } else { [b, a] }
 }
 
 /// Returns the force of a contact on the first body of [`bodies`], N.
 fn force(scene: &Scene, contact: &Contact) -> Vector {
     let resultant = &contact.resultant;
-    match resultant.on == bodies(scene, contact)[0] {
-        true => resultant.force,
-        false => -resultant.force,
-    }
+    if resultant.on == bodies(scene, contact)[0] { resultant.force } else { -resultant.force }
 }
 
 fn is_same_place(a: &Contact, b: &Contact) -> bool {

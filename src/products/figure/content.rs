@@ -178,10 +178,8 @@ fn scaled_marks(analysis: &Analysis, options: &Options, content: &dyn PanelConte
     let own: Vec<f64> = frames.map(|frame| content.largest_force(source(frame))).collect();
     let shared = own.iter().copied().fold(0.0, f64::max);
     let zoomed = options.zoom.map(|block| view::zoomed_view(&analysis.scene, block));
-    let (stretch, least_load) = match about.stretches_arrows && !options.printed() {
-        true => stretch(analysis, options),
-        false => (1.0, 0.0),
-    };
+    let (stretch, least_load) =
+        if about.stretches_arrows && !options.printed() { stretch(analysis, options) } else { (1.0, 0.0) };
     let scaled = |(frame, own): (usize, f64)| {
         let newtons_per_unit = match options.scale {
             ArrowScale::Panel => own / stretch,
@@ -241,21 +239,16 @@ fn stretch(analysis: &Analysis, options: &Options) -> (f64, f64) {
     let placed = analysis.scene.frames.iter().map(|f| f.placed.len());
     // Longer arrows need the space around one panel. Several panels are too narrow for them.
     let one_panel = options.is_column() && analysis.frames.len() == 1;
-    let (least, (few, many)) = match one_panel {
-        true => (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_LENGTHS),
-        false => (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_LENGTHS),
+    let (least, (few, many)) = if one_panel {
+        (MIN_LONGEST_ARROW.0, MAX_COLUMN_ARROW_UNIT_LENGTHS)
+    } else {
+        (MIN_LONGEST_ARROW.1, MAX_ARROW_UNIT_LENGTHS)
     };
-    let most = match placed.max().unwrap_or(0) > FEW_BLOCKS {
-        true => many,
-        false => few,
-    };
+    let most = if placed.max().unwrap_or(0) > FEW_BLOCKS { many } else { few };
     let longest = MAX_ARROW_SHARE * bare.view.width().max(bare.view.height());
     let stretch = (least / (unit * scale)).min(longest / unit).min(most);
     let load = (MIN_LONGEST_LOAD_ARROW / scale).min(longest);
-    match stretch.is_finite() && load.is_finite() {
-        true => (stretch.max(1.0), load),
-        false => (1.0, 0.0),
-    }
+    if stretch.is_finite() && load.is_finite() { (stretch.max(1.0), load) } else { (1.0, 0.0) }
 }
 
 /// A content without arrows, to compute the scale of a figure before its arrows are known.

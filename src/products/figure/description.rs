@@ -88,8 +88,9 @@ pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     let turning = motion.spin.abs().to_degrees();
     let sense = if motion.spin > 0.0 { "anticlockwise" } else { "clockwise" };
     let begins = format!("Block {name} begins to move at {degrees:.0}°");
-    match turning < 5e-4 {
-        true => format!("{begins}, without turning"),
-        false => format!("{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves"),
+    if turning < 5e-4 {
+        format!("{begins}, without turning")
+    } else {
+        format!("{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves")
     }
 }

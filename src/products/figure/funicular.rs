@@ -315,10 +315,7 @@ impl BlockForces<'_> {
             Some(ThrustSegment { through: false, leaves: false, ..segment })
         };
         if let [one, other] = given[..] {
-            let [strong, weak] = match one.force.norm() < other.force.norm() {
-                true => [other, one],
-                false => [one, other],
-            };
+            let [strong, weak] = if one.force.norm() < other.force.norm() { [other, one] } else { [one, other] };
             if strong.force.norm() <= SIMILAR_RATIO * weak.force.norm() {
                 return piece(strong, weak.entry).into_iter().collect();
             }

@@ -38,9 +38,10 @@ fn have_same_names(a: &Contact, b: &Contact) -> bool {
 /// others`. Returns `None` if there is only one joint, or if all are at one place.
 fn side(middles: &[Point], at: Point) -> Option<&'static str> {
     let bounds = Bounds::from_points(middles.iter().copied())?;
-    let (across, position, [first, last]) = match bounds.width() >= bounds.height() {
-        true => (bounds.width(), at.x - bounds.min.x, ["left", "right"]),
-        false => (bounds.height(), at.y - bounds.min.y, ["lower", "upper"]),
+    let (across, position, [first, last]) = if bounds.width() >= bounds.height() {
+        (bounds.width(), at.x - bounds.min.x, ["left", "right"])
+    } else {
+        (bounds.height(), at.y - bounds.min.y, ["lower", "upper"])
     };
     if across <= 0.0 {
         return None;

@@ -110,10 +110,7 @@ impl MarkedJoint<'_> {
     /// Returns the diamond that marks the joint at `at`: filled if the joint is at its limit, otherwise open. `radius`
     /// is in pixels.
     pub(crate) fn symbol(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
-        match self.reached {
-            true => symbol(at, radius, theme),
-            false => open_symbol(at, radius, theme),
-        }
+        if self.reached { symbol(at, radius, theme) } else { open_symbol(at, radius, theme) }
     }
 }
 

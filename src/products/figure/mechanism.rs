@@ -56,10 +56,7 @@ impl PanelContent for Mechanism {
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
         let falls = |frame: &FrameAnalysis| frame.verdict == Verdict::Unstable;
-        match analysis.frames.iter().any(falls) {
-            true => &[MarginKind::LoadFactor, MarginKind::Friction],
-            false => &[],
-        }
+        if analysis.frames.iter().any(falls) { &[MarginKind::LoadFactor, MarginKind::Friction] } else { &[] }
     }
 
     fn course(&self, analysis: &Analysis, frame: usize, unit: f64) -> Course {
@@ -106,9 +103,10 @@ impl PanelContent for Mechanism {
         let mut entries = Vec::new();
         let joints: Vec<Joint> = falling.clone().flat_map(|f| joints(analysis, f)).collect();
         if falling.clone().any(|f| !analysis.frames[f].mechanism.is_empty()) {
-            let [stood, goes] = match context.options.is_column() {
-                true => ["blocks now", "how blocks begin to move, enlarged"],
-                false => ["where the blocks stand now", "how the blocks begin to move, enlarged"],
+            let [stood, goes] = if context.options.is_column() {
+                ["blocks now", "how blocks begin to move, enlarged"]
+            } else {
+                ["where the blocks stand now", "how the blocks begin to move, enlarged"]
             };
             entries.push(Entry::Symbol(ghost_symbol, SYMBOL_WIDTH, stood.to_owned()));
             entries.push(Entry::Symbol(moved_symbol, SYMBOL_WIDTH, goes.to_owned()));

@@ -47,12 +47,11 @@ pub(crate) fn picture(pen: &Pen<'_>, view: Bounds) -> Group {
         group.items.push(limits(pen, &mut ink).into());
     }
     // If the arrows are left out because they are too small, a label at a joint states the largest contact force.
-    let callouts = match too_small && context.analysis.frames.len() == 1 {
-        true => {
-            let found = &context.analysis.frames[pen.number];
-            largest::callout(pen, found, 4.0, context.options.theme.ink)
-        }
-        false => Vec::new(),
+    let callouts = if too_small && context.analysis.frames.len() == 1 {
+        let found = &context.analysis.frames[pen.number];
+        largest::callout(pen, found, 4.0, context.options.theme.ink)
+    } else {
+        Vec::new()
     };
     group.items.push(label::labels(pen, view, callouts, || ink).into());
     group.items.retain(|item| !matches!(item, Item::Group(g) if g.items.is_empty() && g.description.is_empty()));

@@ -288,11 +288,7 @@ impl<'a> Sheet<'a> {
 
     /// Creates the arrangement of one page with all panels, and draws them. If the labels make the pictures too wide for
     /// their columns at every scale, there are fewer columns, unless the options give their number.
-    fn filled(
-        analysis: &'a Analysis,
-        figure: &'static dyn Figure,
-        options: &'a Options,
-    ) -> (Sheet<'a>, Pictures) {
+    fn filled(analysis: &'a Analysis, figure: &'static dyn Figure, options: &'a Options) -> (Sheet<'a>, Pictures) {
         let mut sheet = Sheet::new(analysis, figure, options, None);
         loop {
             let pictures = sheet.pictures(&sheet.subject.frames);

@@ -48,10 +48,7 @@ impl PanelContent for ThrustLine {
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
         let mut frames = 0..analysis.frames.len();
-        match frames.any(|frame| analysis.thrust_states(frame).least.is_some()) {
-            true => &[MarginKind::Kernel],
-            false => &[],
-        }
+        if frames.any(|frame| analysis.thrust_states(frame).least.is_some()) { &[MarginKind::Kernel] } else { &[] }
     }
 
     fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
@@ -85,10 +82,8 @@ impl PanelContent for ThrustLine {
         let dots = dots(pen, frame_analysis, &mut |at, radius| ink.disc(at, radius + 1.0));
         let lines = lines(pen, scene, frame_analysis, &segments);
         let loads = pen.arrows(false);
-        let fans = match context.options.with_polygon {
-            true => fans(context.analysis, frame, family, context.unit),
-            false => None,
-        };
+        let fans =
+            if context.options.with_polygon { fans(context.analysis, frame, family, context.unit) } else { None };
         let theme = &context.options.theme;
         let polygon = fans.map(|fans| fans.draw(scene, frame_analysis, camera, theme, &mut ink));
         let marks = [seams, least, greatest, lines, dots, loads];
@@ -129,10 +124,7 @@ impl PanelContent for ThrustLine {
             entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
         }
         if through || schematic || falls {
-            let dot = match context.options.is_column() {
-                true => "resultant",
-                false => "where a joint's resultant acts",
-            };
+            let dot = if context.options.is_column() { "resultant" } else { "where a joint's resultant acts" };
             entries.push(Entry::Symbol(dot_symbol, 8.0, dot.to_owned()));
             entries.extend(limit_entries(context));
         }
@@ -180,9 +172,10 @@ impl PanelContent for ThrustLine {
 /// `None` if another entry states it.
 fn schematic_text(context: &FigureContext<'_>, largest: Option<&str>) -> String {
     let shows = largest.map_or_else(String::new, |largest| format!(" (this width shows {largest})"));
-    match context.options.is_column() {
-        true => format!("schematic{shows}: no single line of action in the block"),
-        false => format!("schematic{shows}: no single line of action runs through the block"),
+    if context.options.is_column() {
+        format!("schematic{shows}: no single line of action in the block")
+    } else {
+        format!("schematic{shows}: no single line of action runs through the block")
     }
 }
 
@@ -238,8 +231,9 @@ fn polygon_note(context: &FigureContext<'_>) -> &'static str {
         let states = context.thrust_states(frame);
         fans(context.analysis, frame, states, context.unit).is_some()
     });
-    match any {
-        true => "force polygon: each ray from the pole O is the force in the joint with the same number",
-        false => "no force polygon: no chain of blocks in a standing frame has a horizontal thrust",
+    if any {
+        "force polygon: each ray from the pole O is the force in the joint with the same number"
+    } else {
+        "no force polygon: no chain of blocks in a standing frame has a horizontal thrust"
     }
 }

@@ -81,10 +81,7 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
             let turned = (down * cos + quarter_turn(down) * sin) * strength;
             let pull = turned + quarter_turn(turned) * *share;
             let is_given = degrees == 0.0 && *share == 0.0 && strength == 1.0;
-            all.push(match is_given {
-                true => base.clone(),
-                false => base.clone().with_gravity(pull),
-            });
+            all.push(if is_given { base.clone() } else { base.clone().with_gravity(pull) });
         }
     }
     Ok(all)

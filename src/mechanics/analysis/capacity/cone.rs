@@ -112,9 +112,10 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
         let shares = NEAR_OUTER.into_iter().chain(inner);
         let shares = shares.chain(NEAR_OUTER.into_iter().rev().map(|share| 1.0 - share));
         let angles = shares.map(|share| from + (to - from) * share);
-        let mut inside: Vec<Sample> = match to - from > SAME_ANGLE {
-            true => angles.filter_map(|a| sample(probe, unit(a), None)).collect(),
-            false => Vec::new(),
+        let mut inside: Vec<Sample> = if to - from > SAME_ANGLE {
+            angles.filter_map(|a| sample(probe, unit(a), None)).collect()
+        } else {
+            Vec::new()
         };
         let norms = inside.iter().map(|s| s.carried.force.norm());
         let largest = norms.fold(size(&inside).max(around), f64::max);

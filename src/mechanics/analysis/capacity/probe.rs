@@ -225,15 +225,16 @@ impl Probe {
             Support::At { forces, motion } => {
                 let near = forces.grip[grip];
                 let near = Vector::new(near[0], near[1]) * self.program.scale.force;
-                match self.proves {
-                    true => Farthest::At {
+                if self.proves {
+                    Farthest::At {
                         carried: match self.carried(&forces) {
                             None if is_retry => self.carried_near(near, direction),
                             carried => carried,
                         },
                         half_plane: self.half_plane(near, direction, &motion),
-                    },
-                    false => Farthest::At { carried: Some(self.unproved(near)), half_plane: None },
+                    }
+                } else {
+                    Farthest::At { carried: Some(self.unproved(near)), half_plane: None }
                 }
             }
             Support::Unbounded => Farthest::Unbounded,
@@ -265,10 +266,7 @@ impl Probe {
             let (forces, proof) = self.decided(&self.with_force(force))?;
             Some(CarriedForce { force, torque: 0.0, forces, proof })
         };
-        let near = match self.has_torque {
-            true => None,
-            false => SHARES_INSIDE_LIMIT.into_iter().find_map(under),
-        };
+        let near = if self.has_torque { None } else { SHARES_INSIDE_LIMIT.into_iter().find_map(under) };
         near.or_else(|| {
             let (mut forces, proof) = self.decided(&self.held)?;
             let own = forces.grips.pop()?;
@@ -309,9 +307,10 @@ impl Probe {
     /// Returns the component with an additional force at the point, N. If the probe is a contact, an unlimited torque
     /// also acts on the body, so that the body cannot rotate.
     fn with_force(&self, force: Vector) -> Assembly {
-        let mut assembly = match self.has_torque {
-            true => with_grip(&self.given, self.body, self.at, [0.0, 0.0, f64::INFINITY]),
-            false => self.given.clone(),
+        let mut assembly = if self.has_torque {
+            with_grip(&self.given, self.body, self.at, [0.0, 0.0, f64::INFINITY])
+        } else {
+            self.given.clone()
         };
         let factor = assembly.load_factor;
         let body = &mut assembly.bodies[self.body];

@@ -67,10 +67,7 @@ pub(super) fn sample(probe: &Probe, direction: Vector, reach: Option<f64>) -> Op
 /// too.
 pub(super) fn refine(probe: &Probe, start: Vec<Sample>, is_closed: bool, reach: Option<f64>) -> Vec<Sample> {
     let mut search = Search { probe, reach, tolerance: tolerance(probe, size(&start)), count: 0, samples: Vec::new() };
-    let pairs = match is_closed {
-        true => start.len(),
-        false => start.len().saturating_sub(1),
-    };
+    let pairs = if is_closed { start.len() } else { start.len().saturating_sub(1) };
     for (k, first) in start.iter().enumerate() {
         search.samples.push(first.clone());
         if k < pairs {

@@ -144,10 +144,7 @@ pub(super) fn corners(forces: &[Vector], rays: &[Vector], tolerance: f64) -> Vec
         order.sort_by(|a, b| height(a).total_cmp(&height(b)));
         let (lowest, highest) = (order[0], order[order.len() - 1]);
         let is_strip = rays.len() == 2 && height(&highest) - height(&lowest) > tolerance;
-        return match is_strip {
-            true => vec![lowest, highest],
-            false => vec![lowest],
-        };
+        return if is_strip { vec![lowest, highest] } else { vec![lowest] };
     }
     let extent = forces.iter().map(|f| (f - forces[0]).norm());
     let far = RAY_LENGTH_PER_SIZE * extent.fold(1e6 * tolerance, f64::max);

@@ -45,10 +45,7 @@ fn unknown(scene: &Scene, name: &str) -> String {
 /// Parses one point `x,y`, or two different points `x,y..x,y`, in the unit `unit`. The error is a message for the user.
 fn force_at(places: &str, unit: Unit) -> Result<ForceAt, String> {
     let wrong = || {
-        let unit = match unit.is_chosen {
-            true => unit.symbol(),
-            false => "metres".into(),
-        };
+        let unit = if unit.is_chosen { unit.symbol() } else { "metres".into() };
         format!(
             "--capacity: {} is not a point; write x,y in {unit}, such as 1.5,2, or two points, such as 1,2..3,2",
             line(places)

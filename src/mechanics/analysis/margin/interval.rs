@@ -261,10 +261,7 @@ mod tests {
     use super::*;
 
     fn between(low: f64, high: f64) -> Interval {
-        let end = |value: f64| match value.is_finite() {
-            true => End::natural(value),
-            false => End::Unbounded,
-        };
+        let end = |value: f64| if value.is_finite() { End::natural(value) } else { End::Unbounded };
         Interval::Between { low: end(low), high: end(high) }
     }
 

@@ -156,15 +156,14 @@ fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut 
         return;
     }
     let setting = |value: f64| Setting { limits: LimitChange::Replace { first, end, value }, ..Setting::default() };
-    let settled = match stands {
-        true => {
-            let verdict = trial.decide(&setting(0.0)).0;
-            (verdict == Verdict::Stable).then(|| Interval::Between { low: End::natural(0.0), high: End::Unbounded })
-        }
-        false => match trial.decide(&setting(f64::INFINITY)) {
+    let settled = if stands {
+        let verdict = trial.decide(&setting(0.0)).0;
+        (verdict == Verdict::Stable).then(|| Interval::Between { low: End::natural(0.0), high: End::Unbounded })
+    } else {
+        match trial.decide(&setting(f64::INFINITY)) {
             (Verdict::Unstable, motion) => Some(Interval::excluded_by(motion)),
             _ => None,
-        },
+        }
     };
     match settled {
         Some(interval) => found.extend(std::iter::repeat_n(interval, count)),

@@ -14,10 +14,7 @@ use super::{ComponentIntervals, tilt};
 /// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
 /// computed.
 pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> ComponentIntervals {
-    let robots = match kinds.has(MarginKind::Robots) {
-        true => robots(trial, stands),
-        false => Vec::new(),
-    };
+    let robots = if kinds.has(MarginKind::Robots) { robots(trial, stands) } else { Vec::new() };
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
     // margins is requested.
     let horizontal = [MarginKind::HorizontalLoad, MarginKind::Tilt];

@@ -269,9 +269,8 @@ impl Path<'_> {
                 .filter(|value| (self.min_value..=self.max_value).contains(value))
         };
         // If the loads are linear in the parameter, one proof from far away shows where the component stands or falls.
-        let cached = |trial: &Trial, value: f64| match is_plane {
-            true => trial.cached_verdict(&(self.setting)(value)),
-            false => (Verdict::Undecided, Vec::new()),
+        let cached = |trial: &Trial, value: f64| {
+            if is_plane { trial.cached_verdict(&(self.setting)(value)) } else { (Verdict::Undecided, Vec::new()) }
         };
         let is_within = |bracket: &Bracket, value: f64| {
             let is_before = bracket.beyond.as_ref().is_none_or(|known| (known.from - value) * outward > 0.0);

@@ -28,9 +28,12 @@ pub(super) fn threshold(trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, max
         load_ratio: 0.0,
     };
     let is_upper = outward > 0.0;
-    let interval = |end: End| match is_upper {
-        true => Interval::Between { low: End::natural(0.0), high: end },
-        false => Interval::Between { low: end, high: End::Unbounded },
+    let interval = |end: End| {
+        if is_upper {
+            Interval::Between { low: End::natural(0.0), high: end }
+        } else {
+            Interval::Between { low: end, high: End::Unbounded }
+        }
     };
     let mut last = (0.0, trial.decide(&setting(0.0)));
     let stands_at_zero = last.1.0 == Verdict::Stable;

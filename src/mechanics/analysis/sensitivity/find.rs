@@ -248,9 +248,10 @@ impl Slope {
 
     /// Returns the mean as a unique slope if both derivatives differ by at most `tolerance`. Otherwise returns both.
     fn one_sided(backward: f64, forward: f64, tolerance: f64) -> Slope {
-        match (backward - forward).abs() <= tolerance {
-            true => Slope::Unique(0.5 * (backward + forward)),
-            false => Slope::OneSided { backward, forward },
+        if (backward - forward).abs() <= tolerance {
+            Slope::Unique(0.5 * (backward + forward))
+        } else {
+            Slope::OneSided { backward, forward }
         }
     }
 }

@@ -92,10 +92,7 @@ impl Sensitivity {
     /// otherwise the tilt.
     pub fn default_kind(scene: &Scene) -> MarginKind {
         let placed = |block| scene.frames.iter().any(|f| f.placed.contains(&block));
-        match scene.loads.iter().any(|load| placed(load.block)) {
-            true => MarginKind::LoadFactor,
-            false => MarginKind::Tilt,
-        }
+        if scene.loads.iter().any(|load| placed(load.block)) { MarginKind::LoadFactor } else { MarginKind::Tilt }
     }
 
     /// Returns the derivatives of the end of the interval that a figure shows. This is the end nearer to 0; for the
@@ -108,10 +105,7 @@ impl Sensitivity {
             (Err(_), Ok(high)) => Some((true, high)),
             (Ok(low), Ok(high)) => {
                 let is_nearer = low.value.abs() < (1.0 - 1e-6) * high.value.abs();
-                match is_nearer && self.kind != MarginKind::LoadFactor {
-                    true => Some((false, low)),
-                    false => Some((true, high)),
-                }
+                if is_nearer && self.kind != MarginKind::LoadFactor { Some((false, low)) } else { Some((true, high)) }
             }
         }
     }

@@ -122,10 +122,7 @@ impl Rates {
         }
         // The application points are the ends of the contact, moved inward by the same fraction of its length.
         let length = (contact.ends[1] - contact.ends[0]).norm();
-        let inward = match length > 0.0 {
-            true => (contact.points[0] - contact.ends[0]).norm() / length,
-            false => 0.0,
-        };
+        let inward = if length > 0.0 { (contact.points[0] - contact.ends[0]).norm() / length } else { 0.0 };
         let [first, second] = [at_point(0), at_point(1)];
         self.corners[place.ends[0]] += first * (1.0 - inward) + second * inward;
         self.corners[place.ends[1]] += second * (1.0 - inward) + first * inward;

@@ -122,10 +122,7 @@ impl EndState {
         if motions.null_space.is_empty() && balances.is_empty() {
             return;
         }
-        let extreme = match balances.is_empty() {
-            true => extreme_motions(reduced, &changed, motions),
-            false => None,
-        };
+        let extreme = if balances.is_empty() { extreme_motions(reduced, &changed, motions) } else { None };
         if let Some(all) = extreme {
             self.freedom = Freedom::Mechanisms;
             let states = all.iter().map(|motion| state(motion, amounts));

@@ -80,10 +80,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
     for joint in &joints {
         // If the body below moves, the joint stays closed, and the body above moves with the body below.
         let rests = joint.below.is_none_or(|(below, _)| !moves[below]);
-        let (opens, slides) = match rests {
-            true => split.speeds(joint),
-            false => ([0.0; 2], 0.0),
-        };
+        let (opens, slides) = if rests { split.speeds(joint) } else { ([0.0; 2], 0.0) };
         moves[joint.body] = !rests || opens != [0.0; 2] || slides != 0.0;
         speeds.push((opens, slides));
     }
@@ -117,10 +114,7 @@ fn motion(program: &Program, joints: &[Joint], speeds: &[JointSpeeds]) -> Option
     }
     let fastest = plain.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let opened_more = opened(EXTRA_OPENING * fastest);
-    match power(&opened_more) > 0.5 * power(&plain) {
-        true => Some(opened_more),
-        false => Some(plain),
-    }
+    if power(&opened_more) > 0.5 * power(&plain) { Some(opened_more) } else { Some(plain) }
 }
 
 /// The forces that balance the loads, split into the part that contacts can exert and the part that needs adhesion.
@@ -173,15 +167,10 @@ impl SplitForces {
         let (pull, missing) = (self.adhesion.normal[joint.number], self.adhesion.friction[joint.number]);
         let [first, second] = self.forces.normal[joint.number];
         let is_above_rounding = |v: f64| v.abs() > ROUNDING_TOL * (first + second + v.abs());
-        let slides = match is_above_rounding(missing) {
-            true => -missing.signum(),
-            false => 0.0,
-        };
+        let slides = if is_above_rounding(missing) { -missing.signum() } else { 0.0 };
         // The flow rule is associated: a sliding face also opens, at μ times the sliding speed.
-        let opens = pull.map(|pull| match is_above_rounding(pull) {
-            true => 1.0,
-            false => joint.contact.friction * f64::abs(slides),
-        });
+        let opens =
+            pull.map(|pull| if is_above_rounding(pull) { 1.0 } else { joint.contact.friction * f64::abs(slides) });
         (opens, slides)
     }
 }

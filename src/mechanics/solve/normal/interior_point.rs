@@ -88,9 +88,10 @@ pub(super) fn solve(lp: &LinearProgram, factor: &mut Cholesky, criteria: Stoppin
             restorations += 1;
             continue;
         }
-        let max_iterations = match optimality.tau < CERTIFICATE_RATIO * optimality.kappa {
-            true => criteria.iterations + EXTRA_ITERATIONS,
-            false => criteria.iterations,
+        let max_iterations = if optimality.tau < CERTIFICATE_RATIO * optimality.kappa {
+            criteria.iterations + EXTRA_ITERATIONS
+        } else {
+            criteria.iterations
         };
         let is_over = iterations >= max_iterations || is_late || !optimality.mu.is_finite();
         if is_over || !run.step(&optimality) {

@@ -262,10 +262,7 @@ fn cut(analysis: &Analysis) -> f64 {
 /// Returns the largest magnitude of a drawn force in all frames, N: `cut` if the set of any frame is unbounded.
 fn farthest(analysis: &Analysis, cut: f64) -> f64 {
     let is_open = capacities(analysis).any(|(_, capacity)| !capacity.rays.is_empty());
-    match is_open {
-        true => cut,
-        false => largest(analysis),
-    }
+    if is_open { cut } else { largest(analysis) }
 }
 
 /// Returns the corners of the set of forces, N. An unbounded set is cut off at a circle of radius `cut`.

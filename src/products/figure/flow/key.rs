@@ -28,19 +28,17 @@ pub(super) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     entries.extend(bands(context, unit, &all));
     let most = scene.frames.iter().map(|f| f.placed.len()).max();
     if !all.is_empty() && most.unwrap_or(0) <= MAX_SINGLE_STRANDS {
-        let words = match context.options.is_column() {
-            true => "resultant",
-            false => "resultant of a joint",
-        };
+        let words = if context.options.is_column() { "resultant" } else { "resultant of a joint" };
         entries.push(Entry::Symbol(dot_symbol, 8.0, words.to_owned()));
         entries.extend(legend::limits(context));
     }
     entries.extend(legend::loads(context));
     entries.extend(legend::robots(context));
     if all.iter().any(|s| !s.1.exact) {
-        let words = match context.options.is_column() {
-            true => "paths inside blocks are schematic, widths to scale",
-            false => "inside a block, paths are schematic and widths are to scale",
+        let words = if context.options.is_column() {
+            "paths inside blocks are schematic, widths to scale"
+        } else {
+            "inside a block, paths are schematic and widths are to scale"
         };
         entries.push(Entry::Note(words.to_owned()));
     }

@@ -185,10 +185,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
     };
     // The path begins at the joint whose force has the larger downward component.
     let along = |f: &ForceOnBlock| f.force.dot(&scene.down());
-    let (first, second) = match along(one) < along(other) {
-        true => (other, one),
-        false => (one, other),
-    };
+    let (first, second) = if along(one) < along(other) { (other, one) } else { (one, other) };
     let loads: Vec<LineOfAction> = forces.iter().filter(given).map(line_of_action).collect();
     if loads.len() + 2 != forces.len() || scene.loads.iter().any(turned) {
         return None;

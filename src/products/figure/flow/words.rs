@@ -48,9 +48,10 @@ pub(super) fn joint(scene: &Scene, contact: &Contact) -> String {
 pub(super) fn reason(context: &FigureContext<'_>, frame: usize) -> String {
     let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
     let why = verdict::reason(scene, frame_analysis);
-    let largest = match context.options.is_column() && context.options.labels {
-        true => String::new(),
-        false => largest::sentence(scene, frame_analysis),
+    let largest = if context.options.is_column() && context.options.labels {
+        String::new()
+    } else {
+        largest::sentence(scene, frame_analysis)
     };
     let parts = [why, largest, limit::sentence(context, frame)];
     let parts: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();

@@ -71,10 +71,7 @@ pub(super) fn amounts(pen: &Pen<'_>, few: bool) -> Vec<Label> {
     if options.amounts {
         straight.sort_by(|a, b| by_importance(a, b));
     }
-    let straight = largest(straight, |arrow| match is_first(arrow) {
-        true => f64::INFINITY,
-        false => arrow.force.norm(),
-    });
+    let straight = largest(straight, |arrow| if is_first(arrow) { f64::INFINITY } else { arrow.force.norm() });
     let is_robot = |arrow: &&ForceArrow| matches!(arrow.kind, ArrowKind::Robot(_));
     let robots = marks.arrows.iter().filter(is_robot).count();
     let straight = straight.into_iter().map(|arrow| {

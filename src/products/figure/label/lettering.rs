@@ -65,9 +65,10 @@ pub(super) fn broken(label: Label, across: f64) -> Label {
     if label.request.size.0 <= across {
         return label;
     }
-    let (name, most) = match name.contains(CODE_POINT_PREFIX) {
-        true => (name.replace(text::NO_BREAK, " "), 2 * MAX_LINES),
-        false => (name, MAX_LINES),
+    let (name, most) = if name.contains(CODE_POINT_PREFIX) {
+        (name.replace(text::NO_BREAK, " "), 2 * MAX_LINES)
+    } else {
+        (name, MAX_LINES)
     };
     let lines = text::balanced(&name, label.face, label.size, across, most + 1);
     // `balanced` splits a word that is too wide for a line. A name with a split word is hard to read, so it stays in

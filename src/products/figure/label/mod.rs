@@ -139,9 +139,10 @@ fn leaves_row(label: &Label, rect: PageRect) -> bool {
 /// Adds a leader line to the position of a name that a reader could otherwise mistake for the name of another block.
 fn with_needed_leader(pen: &Pen<'_>, label: &Label, placed: Placed) -> Placed {
     let anchor = label.request.anchor;
-    match placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
-        true => Placed { leader: Some([nearest(placed.rect, anchor), anchor]), ..placed },
-        false => placed,
+    if placed.leader.is_none() && is_ambiguous(pen, label, placed.rect) {
+        Placed { leader: Some([nearest(placed.rect, anchor), anchor]), ..placed }
+    } else {
+        placed
     }
 }
 
@@ -210,10 +211,7 @@ fn all_labels(pen: &Pen<'_>, view: Bounds) -> Vec<Label> {
     let amounts = amounts(pen, few).into_iter();
     let in_row = |label: &Label| !label.request.with_leader.is_empty();
     let (mut labels, amounts): (Vec<Label>, Vec<Label>) = amounts.partition(in_row);
-    let first = match options.labels {
-        true => mentioned(pen.context, pen.number),
-        false => Vec::new(),
-    };
+    let first = if options.labels { mentioned(pen.context, pen.number) } else { Vec::new() };
     let names = first.iter().filter_map(|id| name(pen, *id, view));
     labels.extend(names.map(|label| Label { named: true, ..label }));
     if options.labels {

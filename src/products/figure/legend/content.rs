@@ -40,10 +40,7 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     // The arrow of a weight has a small circle at its tail. Small figures omit this circle, so their legend does not
     // explain it.
     if !options.printed() && unit >= MIN_READABLE_UNIT_LENGTH && drawn.any(|kind| kind == ArrowKind::Weight) {
-        let words = match options.is_column() {
-            true => "weight",
-            false => "weight, from the centroid",
-        };
+        let words = if options.is_column() { "weight" } else { "weight, from the centroid" };
         let weight = Entry::Symbol(weight_symbol, SAMPLE_LENGTH, words.to_owned());
         entries.push(weight);
     }
@@ -60,9 +57,10 @@ pub(crate) fn entries(context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
     let mut blocks = context.analysis.scene.blocks.iter();
     if blocks.any(|b| b.body.fill.is_none()) && context.fills.vary() {
         let (ends, what) = context.fills.key();
-        let (what, bar) = match options.is_column() {
-            true => (what.trim_end_matches(OF_A_BLOCK).to_owned(), NARROW_BAR),
-            false => (what, BAR_LENGTH),
+        let (what, bar) = if options.is_column() {
+            (what.trim_end_matches(OF_A_BLOCK).to_owned(), NARROW_BAR)
+        } else {
+            (what, BAR_LENGTH)
         };
         entries.push(Entry::Amplitudes(ends, what, context.fills.ramp(), bar));
     }
@@ -214,9 +212,10 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
     };
     let counts: Vec<usize> = scene.frames.iter().map(in_frame).collect();
     let most_in_frame = counts.iter().copied().max().unwrap_or(0);
-    let number = match counts.iter().all(|count| *count == most_in_frame || *count == 0) {
-        true => format!("{most_in_frame} "),
-        false => String::new(),
+    let number = if counts.iter().all(|count| *count == most_in_frame || *count == 0) {
+        format!("{most_in_frame} ")
+    } else {
+        String::new()
     };
     let least = amounts.iter().copied().fold(f64::INFINITY, f64::min);
     let most = amounts.iter().copied().fold(0.0, f64::max);
@@ -231,13 +230,11 @@ pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {
         2 => format!("{number}loads of {least} and {most}"),
         _ => format!("{number}loads of {least} to {most}"),
     };
-    let words = match own_scale(context) {
-        true => format!("{words}, drawn larger than other forces"),
-        false => words,
-    };
-    let words = match context.options.labels && has_too_many_loads(context) {
-        true => format!("{words}, amounts at the largest {MAX_AMOUNTS}"),
-        false => words,
+    let words = if own_scale(context) { format!("{words}, drawn larger than other forces") } else { words };
+    let words = if context.options.labels && has_too_many_loads(context) {
+        format!("{words}, amounts at the largest {MAX_AMOUNTS}")
+    } else {
+        words
     };
     let words = if turns { format!("{words}; {TURN_TEXT}") } else { words };
     Some(Entry::Symbol(load_symbol, SAMPLE_LENGTH, words))

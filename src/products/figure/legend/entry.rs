@@ -171,8 +171,9 @@ impl Entry {
 /// Returns the text for a robot in the legend: `robot` followed by its name, or only its name if this begins with
 /// `robot`.
 fn robot(id: &str) -> String {
-    match id.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("robot")) {
-        true => id.to_owned(),
-        false => format!("robot {id}"),
+    if id.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("robot")) {
+        id.to_owned()
+    } else {
+        format!("robot {id}")
     }
 }

@@ -132,10 +132,8 @@ fn both_ends(edge: f64, interval: &Interval, amount: impl Fn(f64) -> String) -> 
     // An end at 0 has no sign, so its side follows from which of the two ends it is.
     let [low, high] = [interval.low(), interval.high()].map(|end| end.and_then(End::value));
     let distance = |end: Option<f64>| end.map_or(f64::INFINITY, |value| (value - edge).abs());
-    let (side, other_side, other) = match distance(low) <= distance(high) {
-        true => ("left", "right", high),
-        false => ("right", "left", low),
-    };
+    let (side, other_side, other) =
+        if distance(low) <= distance(high) { ("left", "right", high) } else { ("right", "left", low) };
     let near = amount(edge);
     match other.map(amount) {
         Some(far) if far == near => format!("{near} to either side"),

@@ -46,10 +46,7 @@ impl ArrowMaker<'_> {
                 let vector = self.missing_vector(&scale, block, force);
                 let width = self.width(look.1, vector);
                 // In printed figures, as in the thesis, every arrow begins at the point where its force acts.
-                let at = match self.options.printed() {
-                    true => at,
-                    false => self.start_on_block(kind, block, at, vector, width),
-                };
+                let at = if self.options.printed() { at } else { self.start_on_block(kind, block, at, vector, width) };
                 marks.arrows.push(ForceArrow { on, at, vector, force, colour: look.0, width, head: self.head(), kind });
             }
         }
@@ -107,10 +104,7 @@ impl ArrowMaker<'_> {
                 let left = quarter_turn(vector) / vector.norm();
                 let across = left * (0.5 * (1.0 + parallel_arrows::ARROW_GAP) * width);
                 let polygon = &self.scene.blocks[block.0].body.polygon;
-                match polygon.contains(at + across * 0.1) {
-                    true => at + across,
-                    false => at - across,
-                }
+                if polygon.contains(at + across * 0.1) { at + across } else { at - across }
             }
             _ => at,
         }

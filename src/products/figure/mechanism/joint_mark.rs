@@ -35,10 +35,7 @@ pub(crate) fn joint_marks(pen: &Pen<'_>, analysis: &Analysis, ink: &mut Ink) -> 
             }
         }
     }
-    match pen.many() {
-        true => [joined(slips), joined(hinges)],
-        false => [slips, hinges],
-    }
+    if pen.many() { [joined(slips), joined(hinges)] } else { [slips, hinges] }
 }
 
 /// Returns the legend entries for the symbols of these joints.

@@ -123,10 +123,7 @@ pub(super) fn scale(analysis: &Analysis, unit: f64, options: &Options) -> f64 {
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
     let structure = placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
     let size = structure.map_or(0.0, |b| b.width().max(b.height()));
-    match strongest > 0.0 {
-        true => (MAX_ARROW_SHARES.0 * size).max(MAX_ARROW_SHARES.1 * unit) / strongest,
-        false => 0.0,
-    }
+    if strongest > 0.0 { (MAX_ARROW_SHARES.0 * size).max(MAX_ARROW_SHARES.1 * unit) / strongest } else { 0.0 }
 }
 
 /// True if the margin has no unique derivatives with respect to the position of a corner.
@@ -155,10 +152,8 @@ impl Sketch<'_> {
         let (at, done) = match change.target {
             Target::Corner(corner, direction) => {
                 let corner = &self.end.corners[corner];
-                let done = match is_kink(corner.moves) {
-                    true => format!("{by} {}", words::toward(direction)),
-                    false => format!("+{by}"),
-                };
+                let done =
+                    if is_kink(corner.moves) { format!("{by} {}", words::toward(direction)) } else { format!("+{by}") };
                 (Some(corner.at), done)
             }
             Target::Load(load, direction) => {

@@ -35,23 +35,24 @@ impl Gaps {
     /// Returns the gaps between the parts of a page. The gaps are smaller in a column of print, because title and
     /// legend need more lines there.
     fn new(options: &Options) -> Gaps {
-        match options.is_column() {
-            true => Gaps {
+        if options.is_column() {
+            Gaps {
                 below_title: 10.0,
                 above_rule: 9.0,
                 below_rule: 3.0,
                 below_key: 6.0,
                 key_line: legend::NARROW_LINE_HEIGHT,
                 key_entries: legend::NARROW_ENTRY_GAP,
-            },
-            false => Gaps {
+            }
+        } else {
+            Gaps {
                 below_title: 18.0,
                 above_rule: 20.0,
                 below_rule: 8.0,
                 below_key: 10.0,
                 key_line: legend::LINE_HEIGHT,
                 key_entries: legend::ENTRY_GAP,
-            },
+            }
         }
     }
 }

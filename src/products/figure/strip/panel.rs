@@ -93,10 +93,7 @@ impl Strip<'_> {
         let size = theme.sizes.verdict;
         let (word, _) = self.headline(frame);
         let wide = text::width(&word, Face::SansBold, size);
-        let lead = match options.verdicts {
-            true => 2.0 * mark_radius(size) + MARK_GAP + wide + SCALE_GAP,
-            false => 0.0,
-        };
+        let lead = if options.verdicts { 2.0 * mark_radius(size) + MARK_GAP + wide + SCALE_GAP } else { 0.0 };
         let scale = self.scale_of_panel(frame);
         let scale_width = scale.as_ref().map_or(0.0, |scale| legend::widest(std::slice::from_ref(scale), theme));
         let alone = (lead - SCALE_GAP).max(0.0);
@@ -164,10 +161,7 @@ impl Strip<'_> {
         let notes: Vec<String> = unseen.into_iter().chain(cramped).collect();
         let joined = notes.join("; ");
         // Two notes share a line if it has room for both.
-        let notes = match text::width(&joined, Face::Sans, size) <= layout.panel {
-            true => vec![joined.clone()],
-            false => notes,
-        };
+        let notes = if text::width(&joined, Face::Sans, size) <= layout.panel { vec![joined.clone()] } else { notes };
         let notes = notes.iter().filter(|note| !note.is_empty());
         let notes = notes.flat_map(|note| broken(note, 2));
         let mut lines = broken(&reason, MAX_REASON_LINES);
