@@ -16,7 +16,7 @@ use super::sheet::{Figure, View};
 use super::stage;
 use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion, Verdict};
+use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
@@ -382,7 +382,8 @@ enum Gives {
 fn collapse(canvas: &mut Canvas<'_>) {
     let (found, look, theme) = (canvas.found(), canvas.look, canvas.theme());
     let governing = governing(canvas.scene(), canvas.number, found);
-    let when_falls = if found.verdict == Verdict::Unstable { "hinge" } else { "hinge when it falls" };
+    // The marks of a frame that stands belong to the margin that the line names first.
+    let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
     let gives: Vec<(&Contact, Gives)> = giving(canvas.scene(), found, governing.mechanism);
     if gives.len() > MAX_COLLAPSE_MARKS {
         return;
@@ -408,9 +409,9 @@ fn collapse(canvas: &mut Canvas<'_>) {
     };
     let start = PagePoint::new(0.0, 0.0);
     let symbol = hinge(start.moved(look.mm(0.95), 0.0));
-    let hinge_key = Rc::new(Key { rank: 60, words: when_falls.to_owned(), symbol, width: look.mm(1.9) });
+    let hinge_key = Rc::new(Key { rank: 60, words: format!("hinge{at}"), symbol, width: look.mm(1.9) });
     let symbol = slip([start.moved(-look.mm(0.9), 0.0), start.moved(look.mm(4.1), 0.0)], 1.0);
-    let slip_key = Rc::new(Key { rank: 61, words: "slides".to_owned(), symbol, width: look.mm(3.2) });
+    let slip_key = Rc::new(Key { rank: 61, words: format!("slides{at}"), symbol, width: look.mm(3.2) });
     for (contact, give) in gives {
         let pair = pair(canvas.scene(), contact.interface.bodies);
         let (class, shapes, key, title) = match give {
@@ -459,7 +460,4 @@ pub(crate) fn asks_for_source_look(options: &Options) -> bool {
     options.style == ForceStyle::Components
         || options.normalisation == Normalisation::Source
         || matches!(options.fill, Fill::Stress | Fill::Friction | Fill::Source)
-        || options.zoom.is_some()
-        || options.dimensions
-        || options.scale_bar
 }

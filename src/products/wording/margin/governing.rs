@@ -16,6 +16,8 @@ const NEAR_FRICTION: f64 = 0.8;
 pub struct Governing<'a> {
     /// The margins in words, the headline margin first: `carries 2.8 × its loads`. Rounded to the safe side.
     pub words: Vec<String>,
+    /// What the first margin is a value of: `this load`, `this tilt`. Empty for a frame that falls.
+    pub at: &'static str,
     /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
     pub mechanism: &'a [Motion],
 }
@@ -27,7 +29,11 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
     let loads = scene.loads.iter().filter(|load| placed.contains(&load.block)).count();
     match found.verdict {
         Verdict::Undecided => Governing::default(),
-        Verdict::Unstable => Governing { words: lack(scene, found).into_iter().collect(), mechanism: &found.mechanism },
+        Verdict::Unstable => Governing {
+            words: lack(scene, found).into_iter().collect(),
+            mechanism: &found.mechanism,
+            ..Governing::default()
+        },
         Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
     }
 }
@@ -48,6 +54,14 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
             && let Some(End::At { mechanism, .. }) = end
         {
             governing.mechanism = mechanism;
+            governing.at = match margin.parameter {
+                Parameter::LoadFactor => "this load",
+                Parameter::Tilt => "this tilt",
+                Parameter::HorizontalLoad => "this push",
+                Parameter::Friction => "this friction",
+                Parameter::Kernel => "this kernel",
+                Parameter::RobotForce(_) | Parameter::RobotTorque(_) => "this limit",
+            };
         }
         governing.words.push(words);
     }
