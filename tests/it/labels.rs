@@ -275,6 +275,11 @@ fn a_figure_zoomed_to_a_block_names_it_and_draws_its_forces() {
     assert!(!layers.is_empty() && layers.iter().all(|layer| layer.clip.is_some()));
     let labels: Vec<String> = classes(&drawing.items, &["name"]).into_iter().flat_map(texts).map(|t| t.words).collect();
     assert!(labels.contains(&"pebble".to_owned()), "{labels:?}");
+    // The block and its name lie on the page.
+    let block = classes(&drawing.items, &["block"])[0];
+    let corners = pieces(block).concat();
+    let is_on_page = |at: &PagePoint| (0.0..=drawing.width).contains(&at.x) && (0.0..=drawing.height).contains(&at.y);
+    assert!(corners.iter().all(is_on_page), "{corners:?}");
     let forces = classes(&drawing.items, &["force"]);
     assert!(forces.iter().any(|f| f.title.contains("between pebble") || f.title.contains("and pebble")));
     let page = Group { items: drawing.items.clone(), ..Group::default() };

@@ -140,7 +140,13 @@ impl<'a> Canvas<'a> {
                 let rect = around(mark.shapes.iter().flat_map(|path| path.outline.points()));
                 mark.layer == Layer::Around || rect.is_some_and(|rect| overlaps(window, rect))
             });
-            labels.retain(|label| label.anchors.iter().any(seen) || label.fixed.is_some());
+            // Labels beside the window belong to its dimensions.
+            let near = self.mm(12.0);
+            let beside = |p: &PagePoint| {
+                let at = PagePoint::new(p.x - near, p.y - near);
+                overlaps(window, PageRect { at, width: 2.0 * near, height: 2.0 * near })
+            };
+            labels.retain(|label| label.anchors.iter().any(seen) || label.fixed.as_ref().is_some_and(beside));
         }
         let surroundings = Surroundings::new(&self.marks, self.structure);
         let placed = placing::labels(labels, &surroundings, self.look, self.options);
