@@ -189,6 +189,8 @@ def form(file, frame):
     blocks = [k for k, body in enumerate(bodies) if not body["ground"]]
     if file["drystone_certificate"] != 1 or min(file["distance"], file["shortest"]) < 0:
         yield "the version or a distance is wrong"
+    if any(sum(cross(p, q) for p, q in edges(body)) == 0 for body in bodies):
+        yield "an outline has no area"
     if any(body["weight"] < 0 for body in bodies) or not set(placed) <= set(blocks) or len(set(placed)) != len(placed):
         yield "a weight is negative, or a placed body is no block"
     for k, c in enumerate(frame["contacts"]):
@@ -233,8 +235,10 @@ def main(path):
             base = next(frame for frame in file["frames"] if frame["frame"] == entry["frame"])
             frame = {**changed(base, entry["change"]), **entry}
             name += f", just {'inside' if entry['verdict'] == 'stable' else 'beyond'} {entry['of']}"
-            if "gravity" in entry["change"]:
-                name += f" (gravity turned by {turned(base['gravity'], frame['gravity']):.9f}°)"
+            angle = turned(base["gravity"], frame["gravity"]) if "gravity" in entry["change"] else None
+            name += f" ({json.dumps(entry['change'])}{'' if angle is None else f', gravity turned by {angle:.9f}°'})"
+            if not 0 <= entry["change"].get("kernel", 0) <= 1:
+                faults = ["a kernel is not between 0 and 1"]
         elif not file["listed"]:
             faults = list(places(file, frame, edges_of, farthest))
         faults += form(file, frame)

@@ -171,7 +171,7 @@ fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
         .iter()
         .filter(|(_, scene)| scene.frames().len() == 1 && scene.blocks().len() <= 5)
         .take(12)
-        .map(|(_, scene)| certificate(scene, &Options::default()).to_json())
+        .map(|(_, scene)| certificate(scene, &Options::default().margins(true)).to_json())
         .collect();
     let mut mutants = Vec::new();
     while mutants.len() < 400 {
@@ -202,7 +202,10 @@ fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
     assert!(refused > 100 && refused < 400, "{refused} of 400 are refused");
     let Some(pages) = by_python(&mutants) else { return };
     for ((text, rust), page) in mutants.iter().zip(&rust).zip(&pages) {
-        assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
+        let python = proved_by_python(page);
+        // A certificate that is not one is refused as a whole by us, and in each frame that shows it by Python.
+        let agree = if *rust == [false] { python.contains(&false) } else { *rust == python };
+        assert!(agree, "{text}\n{rust:?}\n{page:#?}");
     }
 }
 

@@ -84,10 +84,12 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
     for frame in &checked.frames {
         line(format!("frame {}", frame.frame), &frame.verdict, &frame.faults);
     }
-    for limit in &checked.limits {
+    for (limit, form) in checked.limits.iter().zip(&certificate.limits) {
         let side = if limit.verdict == Verdict::Stable.word() { "inside" } else { "beyond" };
-        let turned = limit.turned.map(|angle| format!(" (gravity turned by {angle:.9}°)")).unwrap_or_default();
-        line(format!("frame {}, just {side} {}{turned}", limit.frame, limit.of), &limit.verdict, &limit.faults);
+        // The change is what is proved; the words before it are only what the certificate says about it.
+        let turned = limit.turned.map(|angle| format!(", gravity turned by {angle:.9}°")).unwrap_or_default();
+        let name = format!("frame {}, just {side} {} ({}{turned})", limit.frame, limit.of, form.change.to_json());
+        line(name, &limit.verdict, &limit.faults);
     }
     if certificate.listed {
         page.line("The scene gives the contacts; their positions are not checked against the outlines.");

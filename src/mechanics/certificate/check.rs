@@ -101,6 +101,9 @@ impl Certificate {
         };
         let mut faults =
             Certificate { frames: vec![changed.clone()], limits: Vec::new(), ..self.clone() }.form_errors();
+        if matches!(limit.change, Change::Kernel(kernel) if !(0.0..=1.0).contains(&kernel)) {
+            faults.push("a kernel is not between 0 and 1".to_owned());
+        }
         if faults.is_empty() {
             faults = self.proof_faults(&changed);
         }
@@ -134,6 +137,7 @@ impl Certificate {
             need(rings.clone().all(|ring| ring.len() >= 3), &|| {
                 format!("an outline of {} has fewer than 3 corners", body.id)
             });
+            need(centroid(body).is_some(), &|| format!("the outline of {} has no area", body.id));
             need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
         }
         let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
@@ -336,7 +340,8 @@ impl Certificate {
         if body.ground {
             return Wrench::zero();
         }
-        let centre = body.centre.map_or_else(|| centroid(body), Vector::new);
+        let centre =
+            body.centre.map_or_else(|| centroid(body).expect("form_errors refuses bodies without area"), Vector::new);
         let gravity = Vector::new(frame.gravity);
         let weight = exact(body.weight);
         let mut sum = Wrench::of_force(&Vector { x: &gravity.x * &weight, y: &gravity.y * &weight }, &centre);
@@ -616,8 +621,8 @@ fn square_length(vector: &Vector) -> Rational {
     vector.dot(vector)
 }
 
-/// The centroid of an outline without its holes, whatever the direction of the rings.
-fn centroid(body: &BodyForm) -> Vector {
+/// The centroid of an outline without its holes, whatever the direction of the rings; `None` if it has no area.
+fn centroid(body: &BodyForm) -> Option<Vector> {
     let (mut area, mut x, mut y) = (zero(), zero(), zero());
     for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
         let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
@@ -634,11 +639,8 @@ fn centroid(body: &BodyForm) -> Vector {
         x += own_x * &sign;
         y += own_y * &sign;
     }
-    if area == zero() {
-        return Vector::new(body.outline[0]);
-    }
     let three = area * Rational::from(3);
-    Vector { x: x / &three, y: y / three }
+    (three != zero()).then(|| Vector { x: x / &three, y: y / &three })
 }
 
 /// The normal of a contact, which points into its first body.

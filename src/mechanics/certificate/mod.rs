@@ -221,6 +221,11 @@ pub enum Change {
 }
 
 impl Change {
+    /// Writes the change as in the file, such as `{"load_factor":2.5}`.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a change has finite numbers")
+    }
+
     /// Returns the changed frame, without proof.
     pub fn of(&self, frame: &FrameForm) -> FrameForm {
         let mut changed = FrameForm { forces: None, motion: None, ..frame.clone() };

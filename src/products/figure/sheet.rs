@@ -27,8 +27,9 @@ const SCREEN_WIDTH: f64 = 150.0;
 const COLUMN_WIDTH: f64 = 100.0;
 /// Largest height of a picture in a column and on a wider page, mm.
 const HIGH: [f64; 2] = [66.0, 100.0];
-/// Largest size of a typical block, mm, and of the block in the centre of a zoomed picture.
+/// Largest size of a typical block in a picture, mm.
 const LARGEST_BLOCK: f64 = 16.0;
+/// Largest size of the block that a zoomed picture shows, mm.
 const LARGEST_ZOOMED_BLOCK: f64 = 40.0;
 /// From this size of a typical block on, a frame of at most [`FEW`] blocks is drawn with large marks and weights, mm.
 const LARGE_BLOCK: f64 = 9.0;

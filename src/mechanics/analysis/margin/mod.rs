@@ -6,11 +6,11 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`search`] finds an end from a prediction and confirms it by verdicts. The prediction is one linear program if a
-//! parameter enters linearly ([`mod@linear`], also for the limits of robots), or Newton's method for
-//! friction and kernel ([`mod@threshold`]). [`tilt`] and [`nearest_tilt`] find the ends for the rotation of gravity. An end is accepted only if it is proved
-//! that the changed frame stands just inside it and falls just beyond it. The mechanism of an end is the collapse
-//! mechanism just beyond it. [`Margins`] are derived from the intervals.
+//! [`search`] finds an end from a prediction and confirms it by verdicts. If the forces depend linearly on a parameter,
+//! one linear program gives the prediction ([`mod@linear`]); this includes the limits of robots. For friction and kernel,
+//! Newton's method gives it ([`mod@threshold`]). [`tilt`] and [`nearest_tilt`] find the ends for the rotation of gravity.
+//! An end is accepted only if it is proved that the changed frame stands just inside it and falls just beyond it. The
+//! mechanism of an end is the collapse mechanism just beyond it. [`Margins`] are derived from the intervals.
 
 mod interval;
 mod kind;

@@ -207,9 +207,8 @@ impl Path<'_> {
         End::Unconfirmed { stands: if stands { base } else { from }, beyond: at }
     }
 
-    /// Returns an end moved inward by its possible error, but not beyond `from`. The forces that balance the component
-    /// at the value `inside` determine the error. Returns the end unchanged if even the largest possible error is
-    /// small.
+    /// Returns an end moved inward by its possible error, but not beyond `from`. The error follows from the forces that
+    /// balance the component at the value `inside`. If the largest possible error is small, the end is not moved.
     fn on_the_safe_side(&self, trial: &Trial, end: f64, [from, inside]: [f64; 2], outward: f64) -> f64 {
         let unsure = UNKNOWN_ERROR * self.load_ratio;
         let is_sure = unsure <= MIN_UNSURE * self.typical_small || unsure <= END_TOL * self.size(end);
@@ -243,7 +242,7 @@ impl Path<'_> {
         if mechanism.is_none() && beyond == self.max_value && self.decide_at_limit(trial, last).0 == Verdict::Stable {
             return End::natural(self.max_value);
         }
-        // The hint is confirmed if the verdicts on both sides are close enough to it.
+        // The hint is confirmed if the frame stands close to it on one side and falls close to it on the other side.
         let agrees = |hint: &f64| {
             let [from_inside, to_beyond] =
                 [hint - inside, beyond - hint].map(|apart| apart * outward / self.resolution(*hint));

@@ -234,8 +234,8 @@ impl Joint<'_> {
         ([first, second], along)
     }
 
-    /// Writes the body's velocities into `motion`. At the joint, the velocity of the body is that of the body below,
-    /// plus the speeds at which the joint opens and slides.
+    /// Writes the velocities of the body into `motion`. The velocity of the body at the joint is the sum of two: the
+    /// velocity of the body below, and the velocity with which the joint opens and slides.
     pub fn add_motion(&self, opens: [f64; 2], slides: f64, motion: &mut [f64]) {
         let normal = self.contact.normal;
         let tangent = quarter_turn(normal);
