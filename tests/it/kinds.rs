@@ -263,15 +263,6 @@ fn a_line_of_thrust_over_several_supports_names_its_state() {
 }
 
 #[test]
-fn a_large_structure_without_arrows_still_names_its_largest_contact_force() {
-    let scene = structure::scene(&structure::wall(20, 16));
-    let drawing = figure::forces(&Analysis::new(&scene), &Options::default().theme(Theme::thesis()).width(397.0));
-    let svg = svg::write(&drawing);
-    assert!(svg.contains("too small to read, left out"), "arrows are drawn");
-    assert_eq!(svg.matches(">largest: ").count(), 1, "{svg}");
-}
-
-#[test]
 fn structures_without_thrust_have_no_family_of_lines() {
     let scene = scene("study/stack-harmonic-stands.json");
     let analysis = Analysis::new(&scene);

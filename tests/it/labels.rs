@@ -149,10 +149,9 @@ fn names_and_magnitudes_cover_nothing_in_the_gallery() {
         for (name, scene) in gallery() {
             let drawing = figure::forces(&Analysis::new(&scene), &options);
             for items in panels(&drawing) {
-                let barred = ["plan", "robot", "force", "torque", "load", "missing", "block"];
-                // Amounts have a halo in the figures of forces, and may lie on the edge of a block.
-                let barred = &barred[..if scene.lattice().is_some() { 7 } else { 6 }];
-                let (labels, complaints) = hidden(items, &["name", "robot-name", "amount"], barred);
+                // Amounts have a halo, and may lie on the edge of a block.
+                let barred = ["robot", "force", "torque", "load", "missing"];
+                let (labels, complaints) = hidden(items, &["name", "amount"], &barred);
                 count += labels;
                 assert!(complaints.is_empty(), "{name}: {complaints:?}");
             }
@@ -195,7 +194,10 @@ fn names(text: &str, name: &str) -> bool {
 }
 
 /// Kinds that write a name only where it has room, and name no block below the picture.
-const ON_CANVAS: [figure::Kind; 6] = [
+const ON_CANVAS: [figure::Kind; 9] = [
+    figure::Kind::Forces,
+    figure::Kind::Build,
+    figure::Kind::Flow,
     figure::Kind::Sensitivity,
     figure::Kind::Structure,
     figure::Kind::Freebody,
@@ -219,11 +221,6 @@ fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
                 let frames = classes(&drawing.items, &["frame"]);
                 assert_eq!(frames.len(), scene.frames().len(), "{what}");
                 for (frame, group) in scene.frames().iter().zip(frames) {
-                    // The figures of forces leave out names without a note, unless the scene is on a lattice, and only their
-                    // captions may name blocks.
-                    if matches!(kind, figure::Kind::Forces | figure::Kind::Build) && scene.lattice().is_none() {
-                        continue;
-                    }
                     let own: Vec<Text> = group
                         .items
                         .iter()
@@ -243,10 +240,7 @@ fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
                     let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
                     for id in blocks.filter(|id| names(&below, id)) {
                         named += 1;
-                        // Bands of force flow may leave no room for a name. Then the text below the frame states how
-                        // many names are left out.
-                        let is_counted = kind == figure::Kind::Flow && below.contains("no room for");
-                        assert!(labels.contains(id) || is_counted, "{what}: {id} of {below:?} has no label");
+                        assert!(labels.contains(id), "{what}: {id} of {below:?} has no label");
                     }
                     let robots = classes(&group.items, &["robot-name"]).len();
                     let wanted = frame.placed.len() + frame.holds.len();
@@ -254,8 +248,7 @@ fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
                     if missing > 0 && frame.placed.len() <= 60 {
                         counted += 1;
                         let number = if missing == 1 { "1 name".to_owned() } else { format!("{missing} names") };
-                        let is_cut = kind == figure::Kind::Flow;
-                        let is_stated = below.contains("no room for") && (is_cut || below.contains(&number));
+                        let is_stated = below.contains("no room for") && below.contains(&number);
                         assert!(is_stated, "{what}: {missing} of {below:?}");
                     }
                 }

@@ -166,12 +166,12 @@ fn a_figure_has_its_verdicts_and_numbers_as_text_for_screen_readers() {
     let scene = scene("assets/thesis/figure-4.json");
     let svg = svg::write(&figure::forces(&Analysis::new(&scene), &Options::default()));
     for part in [
-        "<title>(a): Initial situation: stands</title>",
+        "<title>(a) Initial situation: stands</title>",
         "<title>Force on block 3 from block 2: 6.91 N at 65°</title>",
         "<title>Robot r1 holds block 4</title>",
         "<title>Block 5, planned by robot r0</title>",
         "<title>Missing torque on block 3 from robot r0: 5.74 N·m anticlockwise</title>",
-        ">falls</text>",
+        "<title>(e) Robot 1 wants to place a new block: falls</title>",
         "missing: a torque of 5.74 N·m from robot r0",
     ] {
         assert!(svg.contains(part), "the figure does not contain {part}");

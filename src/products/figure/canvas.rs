@@ -5,13 +5,13 @@
 
 use std::rc::Rc;
 
-use super::design::{Key, Layer, Look, Mark, around};
+use super::design::{Key, Layer, Look, Mark, around, colour};
 use super::option::Options;
 use super::placing::{self, Label, Surroundings};
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis};
-use crate::mechanics::scene::{Frame, Scene};
-use crate::pictures::drawing::{Camera, Group, Item, PagePoint, PageRect, Path, Theme};
+use crate::mechanics::scene::{BlockId, Frame, Scene};
+use crate::pictures::drawing::{Camera, Colour, Group, Item, PagePoint, PageRect, Path, Theme};
 
 /// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
 /// elements would make a file slow to open.
@@ -31,6 +31,8 @@ pub(crate) struct Canvas<'a> {
     pub scale: f64,
     /// The blocks of all frames, or the part of the scene that is shown, pixels.
     pub structure: PageRect,
+    /// The fill of each placed block, in placing order, with the meaning of its colour in words; empty for plain blocks.
+    pub fills: Vec<(Colour, String)>,
     /// The part of the canvas outside of which marks are cut off; `None` if nothing is cut off.
     pub window: Option<PageRect>,
     marks: Vec<Mark>,
@@ -64,8 +66,8 @@ impl<'a> Canvas<'a> {
         let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
         let structure = camera.rect(view);
         let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
-        let window = None;
-        Canvas { analysis, number, options, camera, look, scale, structure, window, marks, labels, notes }
+        let (window, fills) = (None, Vec::new());
+        Canvas { analysis, number, options, camera, look, scale, structure, fills, window, marks, labels, notes }
     }
 
     pub fn scene(&self) -> &'a Scene {
@@ -82,6 +84,12 @@ impl<'a> Canvas<'a> {
 
     pub fn theme(&self) -> &'a Theme {
         &self.options.theme
+    }
+
+    /// Returns the fill of a block: that of the scene, or that of its place in the placing order, from 0.
+    pub fn fill(&self, place: usize, id: BlockId) -> Colour {
+        let own = self.scene().blocks[id.0].body.fill.map(colour);
+        own.or_else(|| self.fills.get(place).map(|fill| fill.0)).unwrap_or(self.theme().block)
     }
 
     /// Converts a point of the scene to its position on the canvas.
@@ -148,7 +156,7 @@ impl<'a> Canvas<'a> {
             };
             labels.retain(|label| label.anchors.iter().any(seen) || label.fixed.as_ref().is_some_and(beside));
         }
-        let surroundings = Surroundings::new(&self.marks, self.structure);
+        let surroundings = Surroundings::new(&self.marks, self.structure, !self.fills.is_empty(), self.look);
         let placed = placing::labels(labels, &surroundings, self.look, self.options);
         let shown = |mark: &&Mark| self.window.is_none() || mark.layer == Layer::Around;
         let points = self.marks.iter().filter(shown).flat_map(|mark| &mark.shapes);
@@ -163,6 +171,9 @@ impl<'a> Canvas<'a> {
         let many = self.many();
         let mut group = Group { camera: Some(self.camera), ..Group::with_class("picture") };
         let mut layers = Layer::ALL.map(|(_, class)| Group::with_class(class));
+        if many {
+            layers[Layer::Stone as usize].title = format!("{} blocks", self.frame().placed.len());
+        }
         let mut bulk: Vec<(usize, Path)> = Vec::new();
         for mark in self.marks {
             let layer = mark.layer as usize;

@@ -32,12 +32,12 @@ pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
 }
 
 /// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.
-pub(crate) fn arrow(context: &FigureContext<'_>, arrow: &ForceArrow) -> String {
-    let scene = &context.analysis.scene;
+/// `unit` is the unit length, metres.
+pub(crate) fn arrow(scene: &Scene, unit: f64, arrow: &ForceArrow) -> String {
     let named = |id: BodyId| named(scene, id);
     let robot = |id: crate::mechanics::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-    let (on, amount) = (named(arrow.on), force(arrow.force, context.analysis.scene.units));
-    let torque = quantity(arrow.force.norm() * context.unit, context.analysis.scene.units.torque());
+    let (on, amount) = (named(arrow.on), force(arrow.force, scene.units));
+    let torque = quantity(arrow.force.norm() * unit, scene.units.torque());
     match arrow.kind {
         ArrowKind::Weight => format!("Weight of {on}: {amount}"),
         ArrowKind::Load => format!("Load on {on}: {amount}"),

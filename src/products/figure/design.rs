@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use super::option::Options;
-use crate::pictures::drawing::{Outline, PagePoint, PageRect, Path};
+use crate::mechanics::scene::Rgb;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path};
 use crate::pictures::output::page_width;
 
 /// The size of small text on paper, mm: 6.6 pt.
@@ -118,6 +119,11 @@ impl Mark {
     pub fn avoided(self, clear: f64) -> Mark {
         Mark { avoid: Some(clear), ..self }
     }
+}
+
+/// Converts a colour of a scene file to a colour of a drawing.
+pub(crate) fn colour(rgb: Rgb) -> Colour {
+    Colour(rgb.0)
 }
 
 /// Returns the smallest rectangle around the points; `None` if there are none.

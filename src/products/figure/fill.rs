@@ -59,6 +59,13 @@ impl Fills {
         Fills { scale, shares, rule, units: scene.units }
     }
 
+    /// Returns the colour of each placed block of a frame, in placing order, and its meaning in words.
+    pub fn of(&self, frame: usize, theme: &Theme) -> Vec<(Colour, String)> {
+        let plain = self.scale == FillScale::Plain;
+        let colour = |share: f64| if plain { theme.block } else { self.colour(theme, share) };
+        self.shares[frame].iter().map(|share| (colour(*share), self.description(*share))).collect()
+    }
+
     /// True if the figure needs a legend of colours: colours show a quantity, and the shares differ or are not all near
     /// 0.
     pub fn vary(&self) -> bool {

@@ -5,165 +5,89 @@
 //! them. A strand is drawn as a band. At a joint, the bands on both sides have the same total width and the same
 //! direction.
 
-mod curve;
-mod key;
-mod line;
-mod ribbon;
+mod path;
 mod strand;
-mod words;
 
-use strand::{Strand, StrandKind, strands};
+use std::rc::Rc;
 
-use super::arrow::{ArrowKind, ForceArrow, Marks, TurnKind};
+use path::ribbon;
+use strand::{Origin, Strand, StrandKind, strands};
+
 use super::bearing::bearings;
-use super::content::{About, FrameSource, PanelContent};
-use super::context::FigureContext;
-use super::label::{self, Callout};
-use super::largest::{self, largest_contact};
-use super::legend::Entry;
-use super::limit;
-use super::mark;
-use super::option::Options;
-use super::panel::{composed_with, robot_limits};
-use super::pen::Pen;
-use super::unit::{LOAD_SHAFT, longest_load, unit};
-use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
-use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::placement::Ink;
-use crate::pictures::drawing::{Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use super::canvas::Canvas;
+use super::content::About;
+use super::description;
+use super::design::{Key, Layer, Look, Mark};
+use super::joint_forces;
+use super::sheet::{Figure, View};
+use super::stage;
+use super::unit::unit;
+use super::words::{quantity, round_below_in};
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::scene::BodyId;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 
-/// The width of the band of the largest force in unit lengths, with its least and largest allowed width in pixels.
-const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 3.0, 20.0);
-/// Least width of a band, pixels; a narrower band would not be visible.
-const MIN_BAND_WIDTH: f64 = 0.4;
+/// The width of the band of the largest force in unit lengths, with its least and largest allowed width in mm.
+const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 0.6, 3.7);
+/// Least width of a band, mm; a narrower band would not be visible.
+const MIN_BAND_WIDTH: f64 = 0.08;
 /// In frames with more blocks than this, all bands of one colour are drawn as one shape, and joints have no dots.
 const MAX_SINGLE_STRANDS: usize = 150;
-
-/// Least length of the arrow of a missing force, as a fraction of the length of the longest arrow of a load. A shorter
-/// arrow would have no visible direction.
-const LEAST_MISSING_ARROW: f64 = 0.35;
-/// Width of the dashed edge of a band of missing forces, pixels.
-const MISSING_EDGE: f64 = 0.9;
-/// Width of the legend symbol for a band of missing forces, pixels.
-const MISSING_SIGN: f64 = 26.0;
+/// Length of the arrow of the largest load or missing force, mm.
+const LONGEST_ARROW: f64 = 6.0;
+/// Width of the dashed edge of a band of missing forces, mm.
+const MISSING_EDGE: f64 = 0.17;
+/// Length of a band in the legend, mm.
+const KEY_LENGTH: f64 = 4.8;
 
 /// The figure of force flow.
 pub(crate) struct ForceFlow;
 
-impl PanelContent for ForceFlow {
+impl Figure for ForceFlow {
     fn about(&self) -> About {
         About {
             name: "flow",
             help: "The paths of the forces through the blocks, as lines as wide as the forces",
             title: "The flow of forces in a dry-laid structure",
-            draws_forces: true,
-            lines_cross_names: true,
             ..About::default()
         }
     }
 
-    fn largest_force(&self, of: FrameSource<'_>) -> f64 {
-        let FrameSource { analysis, frame, options } = of;
-        let edge = unit(&analysis.scene, options.zoom);
-        largest_arrow(analysis, frame) * edge / longest_load(&analysis.scene, options.zoom)
+    /// Returns the scale of loads and missing forces, which have one scale.
+    fn scale(&self, view: &View<'_>, look: Look) -> f64 {
+        let loads = view.analysis.scene.loads.iter().map(|load| load.force.norm());
+        let missing = view.analysis.frames.iter().flat_map(|frame| &frame.failures).map(|f| f.force().norm());
+        look.mm(LONGEST_ARROW) / loads.chain(missing).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    fn marks(&self, of: FrameSource<'_>, newtons_per_unit: f64) -> Marks {
-        marks(of.analysis, of.frame, of.options, newtons_per_unit)
-    }
-
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        Picture::new(pen).drawn(view)
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-        key::entries(context, unit)
-    }
-
-    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        words::reason(context, frame)
-    }
-}
-
-/// Returns the largest magnitude of a load or missing force in a frame, N. A torque counts as a force of torque / unit
-/// length.
-fn largest_arrow(analysis: &Analysis, frame: usize) -> f64 {
-    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
-    let placed = &scene.frames[frame].placed;
-    let edge = unit(scene, None);
-    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block));
-    let loads = loads.map(|l| l.force.norm().max(l.torque.abs() / edge));
-    let missing = frame_analysis.failures.iter();
-    let missing = missing.map(|f| f.force().norm().max(f.torque().abs() / edge));
-    loads.chain(missing).fold(0.0, f64::max)
-}
-
-/// Returns the straight arrows of loads and missing forces, and the circular arrows of loads and missing torques.
-fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
-    let marks = mark::marks(analysis, frame, options, newtons_per_unit);
-    let longest = longest_load(&analysis.scene, options.zoom);
-    let width = LOAD_SHAFT * longest;
-    let shown = |arrow: ForceArrow| match arrow.kind {
-        ArrowKind::Load => Some(ForceArrow { width, ..arrow }),
-        kind if kind.is_failure() => {
-            let arrow = ForceArrow { width, ..arrow };
-            Some(lengthened(arrow, LEAST_MISSING_ARROW * longest))
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        let bands = Bands::new(canvas);
+        bands.draw(canvas);
+        if !bands.joined {
+            dots(canvas);
         }
-        _ => None,
-    };
-    let turns = marks.turns.into_iter();
-    let shown = Marks {
-        arrows: marks.arrows.into_iter().filter_map(shown).collect(),
-        turns: turns.filter(|turn| !matches!(turn.kind, TurnKind::Robot(_))).collect(),
-        newtons_per_unit,
-    };
-    // If there are no arrows, return no scale either, so that the legend shows none.
-    if shown.arrows.is_empty() && shown.turns.is_empty() { Marks::default() } else { shown }
-}
-
-/// Returns the arrow of a missing force with a length of at least `least` metres. For a pull, the tip of the arrow
-/// stays in its place; for any other force, the tail stays.
-fn lengthened(arrow: ForceArrow, least: f64) -> ForceArrow {
-    let length = arrow.vector.norm();
-    if length >= least || length <= 0.0 {
-        return arrow;
+        label(canvas);
+        stage::held(canvas);
+        stage::robot_limits(canvas);
+        stage::loads(canvas);
+        joint_forces::missing(canvas);
+        stage::names(canvas);
     }
-    let vector = arrow.vector * (least / length);
-    let at = match arrow.kind {
-        ArrowKind::MissingPull(_) => arrow.at + arrow.vector - vector,
-        _ => arrow.at,
-    };
-    ForceArrow { at, vector, ..arrow }
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
-fn largest(context: &FigureContext<'_>) -> f64 {
-    let frames = &context.analysis.frames;
-    let contacts = frames.iter().filter_map(largest_contact);
-    let contacts = contacts.map(|c| c.resultant.force.norm());
-    let robots = frames.iter().flat_map(|f| &f.robots);
-    contacts.chain(robots.map(|r| r.force.norm())).fold(0.0, f64::max)
+fn largest(frames: &[FrameAnalysis]) -> f64 {
+    let contacts = frames.iter().flat_map(|frame| &frame.contacts).map(|contact| contact.resultant.force.norm());
+    let robots = frames.iter().flat_map(|frame| &frame.robots).map(|robot| robot.force.norm());
+    contacts.chain(robots).fold(0.0, f64::max)
 }
 
-/// Returns the width of the widest band, which shows the largest force, in pixels. `unit` is the unit length in pixels.
-fn widest(unit: f64) -> f64 {
-    let (width, least, most) = LARGEST_BAND_WIDTH;
-    (width * unit).clamp(least, most)
-}
-
-/// Returns the colour of the bands of carried forces. In a frame that is not stable, it is mixed with the colour of
-/// outlines.
-fn carried(theme: &Theme, verdict: Verdict) -> Colour {
-    match verdict {
-        Verdict::Stable => theme.motion,
-        _ => theme.motion.mixed(theme.outline, 0.6),
-    }
-}
-
-/// Returns the colour of the bands of this kind in a frame with this verdict.
+/// Returns the colour of the bands of this kind in a frame with this verdict. Forces of a frame that does not stand are
+/// greyer.
 fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
-    let carried = carried(theme, verdict);
+    let carried = if verdict == Verdict::Stable { theme.motion } else { theme.motion.mixed(theme.outline, 0.6) };
     match kind {
         StrandKind::Carried => carried,
         StrandKind::Weight => carried.mixed(theme.block, 0.55),
@@ -171,160 +95,157 @@ fn colour(theme: &Theme, verdict: Verdict, kind: StrandKind) -> Colour {
     }
 }
 
-/// The picture of a frame.
-struct Picture<'a> {
-    pen: &'a Pen<'a>,
-    scene: &'a Scene,
-    frame_analysis: &'a FrameAnalysis,
-    theme: &'a Theme,
+/// The bands of a frame.
+struct Bands {
     strands: Vec<Strand>,
     /// Pixels per newton.
     scale: f64,
+    /// Least width of a band, pixels.
+    least: f64,
+    /// Whether all bands of one colour are one shape.
+    joined: bool,
 }
 
-impl<'a> Picture<'a> {
-    fn new(pen: &'a Pen<'a>) -> Picture<'a> {
-        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let (scene, frame_analysis) = (&*context.analysis.scene, &context.analysis.frames[frame]);
-        let scale = widest(pen.unit()) / largest(context).max(f64::MIN_POSITIVE);
-        let metres = camera.metres(scale);
-        Picture {
-            strands: strands(scene, &scene.frames[frame], frame_analysis, metres),
-            pen,
-            scene,
-            frame_analysis,
-            theme: &context.options.theme,
-            scale,
-        }
-    }
-
-    fn drawn(&self, view: Bounds) -> Group {
-        let mut ink = label::ink(self.pen);
-        let flow = self.flow(&mut ink);
-        let dots = self.dots(&mut ink);
-        let (forces, missing) = (self.pen.arrows(false), self.pen.arrows(true));
-        let marks = vec![flow, dots, forces, missing];
-        composed_with(self.pen, view, self.pen.blocks(), marks, self.callout(), ink)
-    }
-
-    /// True if the frame has more than [`MAX_SINGLE_STRANDS`] blocks. All bands of one colour are then drawn as one
-    /// shape without tooltips, and joints have no dots.
-    fn many(&self) -> bool {
-        self.scene.frames[self.pen.number].placed.len() > MAX_SINGLE_STRANDS
+impl Bands {
+    fn new(canvas: &Canvas<'_>) -> Bands {
+        let (share, least, most) = LARGEST_BAND_WIDTH;
+        let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
+        let widest = (share * unit).clamp(canvas.mm(least), canvas.mm(most));
+        let scale = widest / largest(&canvas.analysis.frames).max(f64::MIN_POSITIVE);
+        let strands = strands(canvas.scene(), canvas.frame(), canvas.found(), canvas.camera.metres(scale));
+        let joined = canvas.frame().placed.len() > MAX_SINGLE_STRANDS;
+        Bands { strands, scale, least: canvas.mm(MIN_BAND_WIDTH), joined }
     }
 
     /// Draws the bands in three layers: at the bottom the bands of weights, above them the bands of the forces that
     /// blocks transmit, and on top the bands of missing forces.
-    fn flow(&self, ink: &mut Ink) -> Group {
-        let mut group = Group::with_class("flow");
-        let order = [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing];
-        for kind in order {
-            let strands = self.strands.iter().filter(|s| s.kind == kind);
-            let colour = colour(self.theme, self.frame_analysis.verdict, kind);
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        for kind in [StrandKind::Weight, StrandKind::Carried, StrandKind::Missing] {
+            let key = self.key(canvas, kind);
             let mut joined = Outline::default();
-            for strand in strands {
-                let outline = self.band(strand, ink);
-                if self.many() {
+            for strand in self.strands.iter().filter(|strand| strand.kind == kind) {
+                let outline = self.band(canvas, strand);
+                if self.joined {
                     joined.extend(outline);
                     continue;
                 }
-                let title = words::strand(self.scene, self.frame_analysis, strand);
-                let band = Group::with_class("strand").titled(title);
-                let band = band.with(filled(outline, colour, kind, self.theme));
-                group.items.push(band.into());
+                let mark = Mark::new(Layer::Force, "strand", vec![self.filled(canvas, outline, kind)]);
+                canvas.put(mark.titled(title(canvas, strand)).keyed(&key).avoided(canvas.mm(0.1)));
             }
             if !joined.segments.is_empty() {
-                let bands = filled(joined, colour, kind, self.theme);
-                group.items.push(bands.into());
+                canvas.put(Mark::new(Layer::Force, "flow", vec![self.filled(canvas, joined, kind)]).keyed(&key));
             }
         }
-        group
+        let thin = self.least / self.scale;
+        if self.strands.iter().any(|strand| strand.widths.iter().any(|width| *width < thin)) {
+            let words = quantity(thin, canvas.scene().units.force());
+            canvas.note(70, &format!("all forces under {words} have the same width"));
+        }
+        if self.strands.iter().any(|strand| !strand.exact) {
+            canvas.note(71, "paths inside blocks are schematic, widths to scale");
+        }
     }
 
-    /// Returns the outline of the band of a strand. Adds the band to the ink, so that no label covers it.
-    fn band(&self, strand: &Strand, ink: &mut Ink) -> Outline {
-        let camera = self.pen.camera;
-        let width = |newtons: &f64| camera.metres((newtons * self.scale).max(MIN_BAND_WIDTH));
+    /// Returns the outline of the band of a strand.
+    fn band(&self, canvas: &Canvas<'_>, strand: &Strand) -> Outline {
+        let width = |newtons: &f64| canvas.camera.metres((newtons * self.scale).max(self.least));
         let mut widths: Vec<f64> = strand.widths.iter().map(width).collect();
         let mut axis = strand.axis.clone();
-        if self.many() && !strand.exact {
+        if self.joined && !strand.exact {
             // In a figure with many blocks, bends are not visible. Straight bands make the file smaller.
             axis = axis.first().into_iter().chain(axis.last()).copied().collect();
             widths = widths.first().into_iter().chain(widths.last()).copied().collect();
         }
-        for (pair, width) in axis.windows(2).zip(&widths) {
-            let [from, to] = [pair[0], pair[1]].map(|p| camera.place(p));
-            ink.line(from, to, camera.length(*width) + 1.0);
-        }
-        ribbon::ribbon(&axis, &widths, camera)
+        ribbon(&axis, &widths, &canvas.camera)
     }
 
-    /// Draws a dot at the point of action of the resultant of each joint with a force. A joint at its limit has a
-    /// filled diamond instead of the dot, and a joint that [`limit::marked`] returns as the nearest to its limit has an
-    /// open diamond. A robot at its limit also has a filled diamond. In a frame with many blocks, nothing is drawn.
-    fn dots(&self, ink: &mut Ink) -> Group {
-        let mut group = Group::with_class("resultants");
-        if self.many() {
-            return group;
-        }
-        let radius = dot(self.pen.unit());
-        let marked = limit::marked(self.pen.context, self.pen.number);
-        for (contact, bearing) in self.frame_analysis.contacts.iter().zip(bearings(self.scene, self.frame_analysis)) {
-            if bearing.is_none() {
-                continue;
+    /// Fills a band. A band of missing forces also has a dashed edge, because the colour of the band cannot be recognised
+    /// in a greyscale print.
+    fn filled(&self, canvas: &Canvas<'_>, outline: Outline, kind: StrandKind) -> Path {
+        let band = Path::filled(outline, colour(canvas.theme(), canvas.found().verdict, kind));
+        match kind {
+            StrandKind::Missing => {
+                let edge = Stroke::new(canvas.theme().failure, canvas.mm(MISSING_EDGE));
+                band.with_stroke(edge.dashed([canvas.mm(0.55), canvas.mm(0.37)]))
             }
-            let at = self.pen.camera.place(contact.resultant.at);
-            let title = words::joint(self.scene, contact);
-            let dot = Group::with_class("resultant").titled(title);
-            let mark = marked.iter().find(|m| core::ptr::eq(m.contact, contact));
-            let reach = mark.map_or(radius, |_| limit::reach(radius));
-            ink.disc(at, reach + 1.0);
-            let path = match mark {
-                Some(mark) => mark.symbol(at, radius, self.theme),
-                None => dot_at(at, radius, self.theme),
-            };
-            group.items.push(dot.with(path).into());
+            StrandKind::Carried | StrandKind::Weight => band,
         }
-        group.items.extend(robot_limits(self.pen, ink));
-        group
     }
 
-    /// Returns the label of the largest force of a joint, at the dot of this joint.
-    fn callout(&self) -> Vec<Callout> {
-        let force = largest_contact(self.frame_analysis).map(|c| c.resultant.force.norm());
-        let clear = 0.5 * self.scale * force.unwrap_or(0.0) + 3.0;
-        let colour = carried(self.theme, self.frame_analysis.verdict);
-        largest::callout(self.pen, self.frame_analysis, clear, colour)
-    }
-}
-
-/// Fills a band. A band of missing forces also has a dashed edge, because the colour of the band cannot be recognised
-/// in a greyscale print.
-fn filled(outline: Outline, colour: Colour, kind: StrandKind, theme: &Theme) -> Path {
-    let band = Path::filled(outline, colour);
-    match kind {
-        StrandKind::Missing => band.with_stroke(Stroke::new(theme.failure, MISSING_EDGE).dashed([3.0, 2.0])),
-        StrandKind::Carried | StrandKind::Weight => band,
+    /// Returns the entry of the legend for the bands of this kind. That of carried forces shows their scale.
+    fn key(&self, canvas: &Canvas<'_>, kind: StrandKind) -> Rc<Key> {
+        let units = canvas.scene().units.force();
+        let newtons = round_below_in(largest(&canvas.analysis.frames), units);
+        let (rank, words, width) = match kind {
+            StrandKind::Carried => {
+                let what = if canvas.found().verdict == Verdict::Stable { "force" } else { "carried force" };
+                (10, format!("{what} of {}", quantity(newtons, units)), newtons * self.scale)
+            }
+            StrandKind::Weight => (12, "weight".to_owned(), canvas.mm(0.5)),
+            StrandKind::Missing => (52, "force that cannot be carried".to_owned(), canvas.mm(0.9)),
+        };
+        let wide = canvas.mm(KEY_LENGTH);
+        let rect = PageRect { at: PagePoint::new(0.0, -width / 2.0), width: wide, height: width };
+        let symbol = vec![self.filled(canvas, Outline::rounded(rect, 0.0), kind)];
+        Rc::new(Key { rank, words, symbol, width: wide })
     }
 }
 
-/// Draws a band of missing forces for the legend.
-fn missing_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let rect = PageRect { at: at.moved(0.0, -2.5), width: MISSING_SIGN, height: 5.0 };
-    let colour = colour(theme, Verdict::Unstable, StrandKind::Missing);
-    let outline = Outline::rounded(rect, 0.0);
-    vec![filled(outline, colour, StrandKind::Missing, theme).into()]
+/// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
+fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
+    let (scene, found) = (canvas.scene(), canvas.found());
+    let on = BodyId::Block(strand.on);
+    let name = |origin| match origin {
+        Origin::Contact(number) => {
+            let [a, b] = found.contacts[number].interface.bodies;
+            description::named(scene, if a == on { b } else { a })
+        }
+        Origin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        Origin::Load => "a load".to_owned(),
+        Origin::Weight => "its weight".to_owned(),
+        Origin::Missing(_) => "a missing force".to_owned(),
+    };
+    let [from, to] = strand.amounts.map(|newtons| quantity(newtons, scene.units.force()));
+    let block = &scene.blocks[strand.on.0].id;
+    format!("In block {block}: {from} from {}, {to} to {}", name(strand.from), name(strand.to))
 }
 
-/// Returns the radius of the dot at a joint, in pixels. `unit` is the unit length in pixels.
-fn dot(unit: f64) -> f64 {
-    (0.06 * unit).clamp(1.1, 3.2)
+/// Draws a dot at the point of action of the resultant of each joint with a force.
+fn dots(canvas: &mut Canvas<'_>) {
+    let (scene, found, theme) = (canvas.scene(), canvas.found(), canvas.theme());
+    let radius = (0.06 * canvas.camera.length(unit(scene, canvas.options.zoom))).clamp(canvas.mm(0.2), canvas.mm(0.6));
+    let dot = |at: PagePoint, radius: f64| {
+        vec![Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)]
+    };
+    let of_key = canvas.mm(0.5);
+    let symbol = dot(PagePoint::new(of_key, 0.0), of_key);
+    let words = "resultant of a joint".to_owned();
+    let key = Rc::new(Key { rank: 24, words, symbol, width: 2.0 * of_key });
+    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
+        if bearing.is_none() {
+            continue;
+        }
+        let pair = description::pair(scene, contact.interface.bodies);
+        let amount = quantity(contact.resultant.force.norm(), scene.units.force());
+        let shapes = dot(canvas.place(contact.resultant.at), radius);
+        let mark = Mark::new(Layer::Force, "resultant", shapes).titled(format!("Between {pair}: {amount}"));
+        canvas.put(mark.keyed(&key).avoided(canvas.mm(0.2)));
+    }
 }
 
-fn dot_at(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)
-}
-
-fn dot_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    vec![dot_at(at.moved(4.0, 0.0), 3.0, theme).into()]
+/// Asks for the amount of the largest force of a joint, beside this joint.
+fn label(canvas: &mut Canvas<'_>) {
+    let contacts = canvas.found().contacts.iter();
+    let largest = contacts.reduce(|most, contact| {
+        // Forces that differ only by rounding errors have no order.
+        let (force, least) = (contact.resultant.force.norm(), most.resultant.force.norm());
+        if force > (1.0 + 1e-6) * least { contact } else { most }
+    });
+    if let Some(contact) = largest.filter(|contact| contact.resultant.force.norm() > 0.0) {
+        let theme = canvas.theme();
+        let words = quantity(contact.resultant.force.norm(), canvas.scene().units.force());
+        let ink = theme.letters_on(theme.page, Some(colour(theme, canvas.found().verdict, StrandKind::Carried)));
+        let at = canvas.place(contact.resultant.at);
+        stage::amount(canvas, words, ink, (vec![at], 3), None);
+    }
 }

@@ -1,10 +1,11 @@
 //! [`gallery`]: reproduces the figures of the thesis from scenes that are part of this crate.
 
+use super::block_arrows::BlockArrows;
 use super::caption::caption;
 use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
-use super::plate::Panel;
 use super::ring::ring;
 use super::shapes::shapes;
+use super::sheet;
 use super::{Kind, draw};
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{BlockId, Scene};
@@ -35,9 +36,8 @@ enum Subject {
     Plate { title: &'static str, columns: usize, scenes: &'static [&'static str], panels: &'static [Panel] },
 }
 
-const fn panel(of: usize, frame: usize, caption: &'static str) -> Panel {
-    Panel { of, frame, caption }
-}
+/// A panel: the index of its scene, the index of the frame, and the caption.
+type Panel = (usize, usize, &'static str);
 
 macro_rules! scene {
     ($name:literal) => {
@@ -60,12 +60,12 @@ const PLATES: [(&str, Subject); 10] = [
             columns: 3,
             scenes: &[scene!("figure-6-kernel-0"), scene!("figure-6-kernel-02"), scene!("figure-6-kernel-05")],
             panels: &[
-                panel(0, 0, "(a) An upright link, no kernel"),
-                panel(1, 0, "(b) Kernel 0.2"),
-                panel(2, 0, "(c) Kernel 0.5"),
-                panel(0, 1, "(d) A leaning link, no kernel"),
-                panel(1, 1, "(e) Kernel 0.2"),
-                panel(2, 1, "(f) Kernel 0.5"),
+                (0, 0, "(a) An upright link, no kernel"),
+                (1, 0, "(b) Kernel 0.2"),
+                (2, 0, "(c) Kernel 0.5"),
+                (0, 1, "(d) A leaning link, no kernel"),
+                (1, 1, "(e) Kernel 0.2"),
+                (2, 1, "(f) Kernel 0.5"),
             ],
         },
     ),
@@ -77,9 +77,9 @@ const PLATES: [(&str, Subject); 10] = [
             columns: 3,
             scenes: &[scene!("figure-8-left"), scene!("figure-8-right"), scene!("figure-8-right-corners")],
             panels: &[
-                panel(0, 0, "(a) Four blocks"),
-                panel(1, 0, "(b) Five blocks"),
-                panel(2, 0, "(b′) The same with corner contacts"),
+                (0, 0, "(a) Four blocks"),
+                (1, 0, "(b) Five blocks"),
+                (2, 0, "(b′) The same with corner contacts"),
             ],
         },
     ),
@@ -95,10 +95,10 @@ const PLATES: [(&str, Subject); 10] = [
                 scene!("figure-9b-torque"),
             ],
             panels: &[
-                panel(0, 0, "(a) Held by corners, which are left out"),
-                panel(1, 0, "(a′) The same with corner contacts"),
-                panel(2, 0, "(b) Held by a robot that gives no torque"),
-                panel(3, 0, "(b′) The same with a torque"),
+                (0, 0, "(a) Held by corners, which are left out"),
+                (1, 0, "(a′) The same with corner contacts"),
+                (2, 0, "(b) Held by a robot that gives no torque"),
+                (3, 0, "(b′) The same with a torque"),
             ],
         },
     ),
@@ -151,7 +151,7 @@ fn plate(name: &'static str, subject: &Subject, theme: &Theme) -> Plate {
             let scenes: Vec<Scene> = scenes.iter().map(|text| read(text)).collect();
             let analyses: Vec<Analysis> = scenes.iter().map(Analysis::new).collect();
             let captions: Vec<String> = analyses.iter().map(caption).collect();
-            let drawing = super::plate::plate(&analyses, panels, title, *columns, &options);
+            let drawing = sheet::plate(&analyses, &BlockArrows, panels, title, *columns, &options);
             (drawing, captions.join(" "))
         }
     };

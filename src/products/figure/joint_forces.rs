@@ -6,10 +6,9 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::canvas::Canvas;
-use super::content::{About, PanelContent};
+use super::content::About;
 use super::description::pair;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
-use super::forces::FORCES;
 use super::option::{Fill, ForceStyle, Normalisation, Options};
 use super::placing::Label;
 use super::sheet::{Figure, View};
@@ -63,7 +62,27 @@ impl Figure for JointForces {
     }
 
     fn about(&self) -> About {
-        FORCES.about()
+        about()
+    }
+}
+
+/// Returns the name, the description and the requirements of the figure of forces, in both looks.
+pub(crate) fn about() -> About {
+    About {
+        name: "forces",
+        help: "Every force at a joint as a mark in its place, and every missing force",
+        title: "Forces in a dry-laid structure",
+        ..About::default()
+    }
+}
+
+/// Returns the same for the steps of a construction. Their forces have one scale, so that steps can be compared.
+pub(crate) fn about_build() -> About {
+    About {
+        name: "build",
+        help: "The steps of a construction, with one scale of arrows for all steps; --animate shows the steps one after the other",
+        shares_arrow_scale: true,
+        ..about()
     }
 }
 
@@ -288,17 +307,20 @@ fn weights(canvas: &mut Canvas<'_>) -> bool {
 }
 
 /// Draws the missing forces in red, with their amounts. The arrows of a missing pull meet at its point; those of a
-/// missing friction lie on the two sides of the joint.
-fn missing(canvas: &mut Canvas<'_>) {
+/// missing friction lie on the two sides of the joint. In printed figures, they are drawn with the other arrows.
+pub(crate) fn missing(canvas: &mut Canvas<'_>) {
     let (scene, found, look) = (canvas.scene(), canvas.found(), canvas.look);
-    let ink = canvas.theme().failure;
+    let ink = canvas.options.failure();
     let large = look.large;
     let sizes = if large { (1.15, 2.6, 2.1) } else { (0.95, 2.1, 1.7) };
-    let arrow = |length: f64| ArrowSize {
-        length,
-        shaft: look.mm(sizes.0),
-        head: (look.mm(sizes.1), look.mm(sizes.2).min(0.62 * length)),
+    let arrow = |length: f64| {
+        let share = (length / look.mm(4.0)).clamp(0.5, 1.0);
+        let head = (share * look.mm(sizes.1), look.mm(sizes.2).min(0.62 * length));
+        ArrowSize { length, shaft: share * look.mm(sizes.0), head }
     };
+    // A small missing force never looks as large as a large one.
+    let largest = found.failures.iter().map(|failure| failure.force().norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let scale = canvas.scale.max(look.mm(if large { 6.0 } else { 5.0 }) / largest);
     let symbol = Path::filled(arrow(look.mm(4.4)).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
     let key = Rc::new(Key { rank: 50, words: "missing".to_owned(), symbol: vec![symbol], width: look.mm(4.4) });
     let mut order: Vec<&Failure> = found.failures.iter().collect();
@@ -314,9 +336,10 @@ fn missing(canvas: &mut Canvas<'_>) {
             (stage::turning(torque, amount.clone()), shapes, anchors.to_vec(), amount)
         } else if norm > 0.0 {
             let u = (missing.x / norm, -missing.y / norm);
-            let length = (canvas.scale * norm).clamp(look.mm(if large { 4.0 } else { 3.0 }), look.mm(10.0));
+            let length = (scale * norm).clamp(look.mm(2.0), look.mm(10.0));
             let size = arrow(length);
             let shapes = match failure {
+                _ if canvas.options.printed() => Vec::new(),
                 Failure::Friction { bodies, .. } => {
                     let normal = found.contacts.iter().find(|c| c.interface.bodies == *bodies);
                     let normal = normal.map_or(quarter_turn(missing), |contact| contact.interface.normal);
@@ -379,7 +402,7 @@ enum Gives {
 }
 
 /// Draws the hinges and slips of the collapse that the line of the verdict names.
-fn collapse(canvas: &mut Canvas<'_>) {
+pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let (found, look, theme) = (canvas.found(), canvas.look, canvas.theme());
     let governing = governing(canvas.scene(), canvas.number, found);
     // The marks of a frame that stands belong to the margin that the line names first.

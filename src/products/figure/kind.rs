@@ -1,12 +1,12 @@
 //! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a separate file.
 
+use super::block_arrows::BlockArrows;
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
 use super::content::{About, PanelContent};
 use super::flow::ForceFlow;
-use super::forces::{BUILD, FORCES};
 use super::freebody::FreeBody;
-use super::joint_forces::{self, JointForces};
+use super::joint_forces::{self, JointForces, about_build};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
@@ -101,13 +101,12 @@ impl Kind {
     pub(crate) fn drawer(self, options: &Options) -> Drawer {
         match self {
             Kind::Forces | Kind::Build if options.theme.forces != ForceMarks::Blocks => Drawer::Canvas(&JointForces),
-            Kind::Forces => Drawer::Panels(&FORCES),
-            Kind::Flow => Drawer::Panels(&ForceFlow),
+            Kind::Forces | Kind::Build => Drawer::Canvas(&BlockArrows),
+            Kind::Flow => Drawer::Canvas(&ForceFlow),
             Kind::Mechanism => Drawer::Panels(&Mechanism),
             Kind::Thrust => Drawer::Panels(&ThrustLine),
             Kind::Kernel => Drawer::Canvas(&Kernel),
             Kind::Utilisation => Drawer::Canvas(&Utilisation),
-            Kind::Build => Drawer::Panels(&BUILD),
             Kind::Polygon => Drawer::Canvas(&ForcePolygon),
             Kind::Margin => Drawer::Panels(&CollapseMargin),
             Kind::Capacity => Drawer::Panels(&CarriedForces),
@@ -120,10 +119,8 @@ impl Kind {
 
     /// Returns the name, the description and the requirements of this kind of figure.
     pub(crate) fn about(self) -> About {
-        // Forces and build have two looks, and the older one knows which of the two kinds it is.
         match self {
-            Kind::Forces => FORCES.about(),
-            Kind::Build => BUILD.about(),
+            Kind::Build => about_build(),
             kind => match kind.drawer(&Options::default()) {
                 Drawer::Panels(content) => content.about(),
                 Drawer::Canvas(figure) => figure.about(),

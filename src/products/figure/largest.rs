@@ -1,12 +1,10 @@
 //! Finds the largest contact force of a frame, and describes it.
 
 use super::joint_name::joint_name;
-use super::label::{Callout, EQUAL_FORCE_TOL};
-use super::pen::Pen;
+use super::label::EQUAL_FORCE_TOL;
 use super::words::quantity;
 use crate::mechanics::analysis::{Contact, FrameAnalysis};
 use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::Colour;
 
 /// Forces that differ from the largest by at most this fraction count as equally large.
 const SIMILAR_TOL: f64 = 1e-3;
@@ -19,19 +17,6 @@ pub(crate) fn largest_contact(frame_analysis: &FrameAnalysis) -> Option<&Contact
     contacts
         .filter(|c| force(c) > 0.0)
         .reduce(|most, c| if force(&c) > (1.0 + EQUAL_FORCE_TOL) * force(&most) { c } else { most })
-}
-
-/// Returns a label `largest: …`, with the amount of the force, for the joint with the largest force. `clear` is the
-/// least distance of the label from the joint, pixels. The list is empty if no joint has a force.
-pub(crate) fn callout(pen: &Pen<'_>, found: &FrameAnalysis, clear: f64, colour: Colour) -> Vec<Callout> {
-    let newtons = pen.context.analysis.scene.units.force();
-    let callout = |contact: &Contact| Callout {
-        at: pen.camera.place(contact.resultant.at),
-        clear,
-        words: format!("largest: {}", quantity(contact.resultant.force.norm(), newtons)),
-        colour,
-    };
-    largest_contact(found).map(callout).into_iter().collect()
 }
 
 /// Describes the largest contact force of a frame and its joint; empty if no joint has a force.

@@ -65,14 +65,6 @@ impl Layout {
         Layout::with(context, count, Fit::Rows)
     }
 
-    /// Combines this layout with `other`, so that the panels of both fit. The result has the larger panel width and the
-    /// smaller scale of the two, and the number of columns of this layout.
-    pub fn both(self, other: Layout) -> Layout {
-        let panel = self.panel.max(other.panel);
-        let between = (self.columns - 1) as f64 * self.gap;
-        Layout { panel, content: self.columns as f64 * panel + between, scale: self.scale.min(other.scale), ..self }
-    }
-
     /// Returns lower bounds for the width and the height of the page, in pixels: the size of all pictures without
     /// texts.
     pub fn least(&self, context: &FigureContext<'_>) -> (f64, f64) {

@@ -2,13 +2,11 @@
 //! texts. A joint is at its limit if all its friction is used, or if the resultant acts at an end of the interface.
 
 use super::bearing::{Bearing, bearings};
-use super::context::FigureContext;
-use super::joint_name::joint_name;
-use super::words::{FULL_UTILISATION, listed, percent};
+use super::words::FULL_UTILISATION;
 use crate::mechanics::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
 use crate::mechanics::scene::{RobotId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
-use crate::pictures::drawing::{Item, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::{Item, Outline, PagePoint, Path, Theme};
 
 /// A resultant acts at the edge if its distance from an end of the joint is at most this fraction of the joint's
 /// length.
@@ -86,34 +84,6 @@ const EQUAL_SHARE_TOL: f64 = 1e-6;
 /// numerical noise.
 const MIN_NAMED_SHARE: f64 = 0.01;
 
-/// If more joints than this are at their limit, the text only gives their number.
-const MAX_NAMED: usize = 3;
-
-/// Returns the joints that the figure marks: all joints at their limit. If no joint is at its limit, returns the joint
-/// nearest to its limit, provided that the text of the figure names this joint.
-pub(crate) fn marked<'a>(context: &'a FigureContext<'_>, frame: usize) -> Vec<MarkedJoint<'a>> {
-    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let found = nearest(scene, frame_analysis).into_iter();
-    let shown = found.filter(|n| n.reached() || names_nearest(context));
-    shown.map(|n| MarkedJoint { reached: n.reached(), contact: n.contact }).collect()
-}
-
-/// A joint that figures mark with a diamond.
-pub(crate) struct MarkedJoint<'a> {
-    pub contact: &'a Contact,
-    /// `true` if the joint is at its limit (filled diamond); `false` if no joint is, and this joint is nearest to its
-    /// limit (open diamond).
-    pub reached: bool,
-}
-
-impl MarkedJoint<'_> {
-    /// Returns the diamond that marks the joint at `at`: filled if the joint is at its limit, otherwise open. `radius`
-    /// is in pixels.
-    pub(crate) fn symbol(&self, at: PagePoint, radius: f64, theme: &Theme) -> Path {
-        if self.reached { symbol(at, radius, theme) } else { open_symbol(at, radius, theme) }
-    }
-}
-
 /// Returns the joints that are at their limit. If none is, returns the joint that is nearest to one of its limits; no
 /// joint if the value [`Nearness::share`] of every joint is below [`MIN_NAMED_SHARE`]. Marks and texts use this list.
 fn nearest<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness<'a>> {
@@ -128,53 +98,12 @@ fn nearest<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<Nearness
     nearest.filter(|n| n.share() >= MIN_NAMED_SHARE).into_iter().collect()
 }
 
-/// True if the text of a figure names joints at or near their limits. False for figures in the style of the thesis and
-/// for zoomed figures. Also false for several frames, because their panels have no space for this text.
-fn names_nearest(context: &FigureContext<'_>) -> bool {
-    let options = context.options;
-    context.analysis.frames.len() == 1 && !options.printed() && options.zoom.is_none()
-}
-
-/// Describes the joints at their limit, or the joint nearest to its limit if none is at its limit. The text is empty if
-/// the frame does not stand, or if every joint uses less than 1 % of its limits. It is also empty for figures in the
-/// style of the thesis, for zoomed figures, and for several frames, whose panels have no space for it.
-pub(crate) fn sentence(context: &FigureContext<'_>, frame: usize) -> String {
-    let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
-    let shown = nearest(scene, frame_analysis);
-    let Some(first) = shown.first().filter(|_| names_nearest(context)) else {
-        return String::new();
-    };
-    let name = |n: &Nearness| format!("between {}", joint_name(scene, frame_analysis, n.contact));
-    let pair = name(first);
-    let by_friction = if first.reached() { first.friction >= FULL_UTILISATION } else { first.friction >= first.edge };
-    let how = match by_friction {
-        true => format!("{} of its friction is used", percent(first.friction)),
-        false if first.reached() => "its resultant acts at the edge".to_owned(),
-        false => format!("its resultant is {} of the way from the middle to the edge", percent(first.edge)),
-    };
-    match shown.len() {
-        1 if !first.reached() => format!("nearest to its limit (open diamond): the joint {pair}; {how}"),
-        1 => format!("at its limit, within 1 %, in the forces shown: the joint {pair}; {how}"),
-        n if n <= MAX_NAMED => {
-            let joints = listed(&shown.iter().map(name).collect::<Vec<String>>());
-            format!("at their limit, within 1 %, in the forces shown: the joints {joints}")
-        }
-        n => format!("{n} joints are at their limit, within 1 %, in the forces shown"),
-    }
-}
-
 /// Least distance from the centre of a diamond to its corners, pixels.
 const LEAST_DIAMOND: f64 = 2.9;
 
 /// Returns the symbol of a joint or a robot at its limit: a filled diamond. For the meaning of `radius`, see [`reach`].
 pub(crate) fn symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
     Path::filled(diamond(at, reach(radius)), theme.ink).cased(theme.page, 0.35 * radius)
-}
-
-/// Returns the symbol of the joint nearest to its limit: an open diamond. For the meaning of `radius`, see [`reach`].
-fn open_symbol(at: PagePoint, radius: f64, theme: &Theme) -> Path {
-    let outline = diamond(at, reach(radius));
-    Path::filled(outline, theme.page).with_stroke(Stroke::new(theme.ink, 0.5 * radius))
 }
 
 /// Returns the distance from the centre of a diamond to its corners, in pixels. This is 1.5 times `radius` (pixels),

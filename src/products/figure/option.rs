@@ -2,7 +2,7 @@
 
 use crate::mechanics::analysis::Toward;
 use crate::mechanics::scene::{BlockId, Scene};
-use crate::pictures::drawing::Theme;
+use crate::pictures::drawing::{Colour, Theme};
 
 words! {
     /// Whether the force of an interface is drawn as one arrow or as components.
@@ -198,6 +198,12 @@ impl Options {
     /// the scale of the thesis.
     pub(crate) fn printed(&self) -> bool {
         self.normalisation == Normalisation::Source && self.style == ForceStyle::Components
+    }
+
+    /// Returns the colour of missing forces: in printed figures with the theme of the thesis its red, otherwise that of
+    /// the theme, so that red and green differ in a grey print.
+    pub(crate) fn failure(&self) -> Colour {
+        if self.printed() && self.theme == Theme::thesis() { Colour::hex(0xff0000) } else { self.theme.failure }
     }
 
     /// True if the page is as narrow as a column of print. Texts are then shorter, and lines closer together.

@@ -8,9 +8,11 @@ use super::arrow::ForceArrow;
 use super::by_colour::ByColour;
 use super::context::{FigureContext, MANY_BLOCKS};
 use super::description;
+pub(crate) use super::design::colour;
 use super::displacement::Displacement;
-use crate::geometry::{Bounds, Lattice, Point};
-use crate::mechanics::scene::{BlockId, Body, Rgb};
+pub(crate) use super::stage::seams;
+use crate::geometry::{Bounds, Point};
+use crate::mechanics::scene::BlockId;
 use crate::pictures::drawing::{Camera, Colour, Group, Outline, PagePoint, Path, Stroke};
 
 /// Radius of the ring at the tail of a weight, as a multiple of its shaft's width.
@@ -32,33 +34,6 @@ const FULL_OUTLINE_UNIT_LENGTH: f64 = 1.5 / 0.028;
 const FULL_CASING_UNIT_LENGTH: f64 = 0.9 / 0.012;
 /// Shafts narrower than this, pixels, are drawn wider, by a factor of at most 1.35, unless blocks are very small.
 const MIN_SHAFT_WIDTH: f64 = 2.5;
-
-/// Converts a colour of a scene file to a colour of a drawing.
-pub(crate) fn colour(rgb: Rgb) -> Colour {
-    Colour(rgb.0)
-}
-
-/// Returns the lines between the lattice cells of a body on the page: one line for each edge that two cells share. The
-/// result is empty for a body without cells.
-pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
-    let mut outline = Outline::default();
-    let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
-        return outline;
-    };
-    let mut steps = std::collections::BTreeSet::new();
-    for cell in cells {
-        let corners = cell.corners();
-        for i in 0..corners.len() {
-            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
-            if steps.contains(&(b, a)) {
-                let place = |c: (i64, i64)| camera.place(lattice.point(c.0 as f64, c.1 as f64));
-                outline.extend(Outline::line([place(a), place(b)]));
-            }
-            steps.insert((a, b));
-        }
-    }
-    outline
-}
 
 /// Draws the parts of the picture of one frame.
 pub(crate) struct Pen<'a> {

@@ -14,6 +14,8 @@ use crate::pictures::drawing::{
 
 /// The distances from the anchor that are tried, mm.
 const DISTANCES: [f64; 8] = [0.5, 1.0, 1.6, 2.4, 3.4, 4.6, 6.0, 7.5];
+/// The distances that are tried if no position at the others is free, mm.
+const FAR: [f64; 6] = [9.5, 12.0, 15.0, 18.5, 22.0, 26.0];
 /// The number of directions that are tried.
 const DIRECTIONS: u32 = 24;
 /// A label farther from its anchor than this has a leader, mm.
@@ -81,10 +83,13 @@ pub(crate) struct Surroundings {
     edges: BoxIndex<[PagePoint; 2]>,
     stones: BoxIndex<Vec<PagePoint>>,
     structure: PageRect,
+    /// The cost of a label that lies wholly in stones.
+    inside: f64,
 }
 
 impl Surroundings {
-    pub fn new(marks: &[Mark], structure: PageRect) -> Surroundings {
+    /// `has_fills` is true if the colours of the stones show a quantity.
+    pub fn new(marks: &[Mark], structure: PageRect, has_fills: bool, look: Look) -> Surroundings {
         let mut obstacles = Vec::new();
         for mark in marks {
             let Some(clear) = mark.avoid else { continue };
@@ -112,6 +117,13 @@ impl Surroundings {
             edges: BoxIndex::new(edges, |edge| bounds(edge)),
             stones: BoxIndex::new(rings, |ring| bounds(ring)),
             structure,
+            inside: if has_fills {
+                3.0
+            } else if look.large {
+                0.9
+            } else {
+                1.3
+            },
         }
     }
 
@@ -213,7 +225,11 @@ impl PlacedLabels {
             if long > look.mm(LEAST_LEADER) {
                 group = group.with(Path::stroked(line.clone(), Stroke::new(theme.page, look.mm(0.5))));
                 group = group.with(Path::stroked(line, Stroke::new(label.colour, look.mm(0.18))));
-                self.rects.push(around([from, to]).map_or(rect, |line| grown_rect(line, look.mm(0.4))));
+                // Small boxes along the leader; one box around it would take the space of other labels.
+                let count = libm::ceil(long / look.mm(1.5)).max(1.0);
+                let at = |k: f64| from.moved(k / count * (to.x - from.x), k / count * (to.y - from.y));
+                let boxes = (0..count as u32).filter_map(|k| around([at(f64::from(k)), at(f64::from(k + 1))]));
+                self.rects.extend(boxes.map(|part| grown_rect(part, look.mm(0.4))));
             }
         }
         if let Some(symbol) = &label.symbol {
@@ -241,9 +257,23 @@ fn search(label: &Label, size: (f64, f64), drawn: &Surroundings, placed: &[PageR
             return Some(Position { cost: 0.0, rect, leader: None });
         }
     }
+    let near = around_anchors(label, size, &DISTANCES, drawn, placed, look);
+    near.or_else(|| around_anchors(label, size, &FAR, drawn, placed, look))
+}
+
+/// Returns the position of least cost at these distances from the anchors of a label, mm.
+fn around_anchors(
+    label: &Label,
+    size: (f64, f64),
+    distances: &[f64],
+    drawn: &Surroundings,
+    placed: &[PageRect],
+    look: Look,
+) -> Option<Position> {
+    let free = |rect: PageRect| !placed.iter().any(|other| overlap(rect, *other));
     let mut best: Option<Position> = None;
     for (number, anchor) in label.anchors.iter().enumerate() {
-        for distance in DISTANCES {
+        for &distance in distances {
             for direction in 0..DIRECTIONS {
                 let angle = f64::from(direction) * core::f64::consts::TAU / f64::from(DIRECTIONS);
                 let (ux, uy) = (libm::cos(angle), libm::sin(angle));
@@ -289,7 +319,7 @@ fn cost(
     let edges = per_mm(drawn.edge_length(rect));
     let inside = drawn.share_inside(rect);
     let near = drawn.covered(grown_rect(rect, look.mm(0.75)));
-    cost += 0.33 * edges + if look.large { 0.9 } else { 1.3 } * inside + 0.5 * near.saturating_sub(1) as f64;
+    cost += 0.33 * edges + drawn.inside * inside + 0.5 * near.saturating_sub(1) as f64;
     if label.bold && look.large && inside > 0.99 && edges < 0.05 {
         cost -= 1.2;
     }
@@ -309,7 +339,8 @@ fn cost(
         + (rect.at.x + rect.width - structure.at.x - structure.width - look.mm(2.0)).max(0.0);
     cost += if look.is_strip { 0.4 } else { 0.04 } * per_mm(beyond);
     let inward = dx * (anchor.x - structure.at.x - structure.width / 2.0);
-    cost += if inward < 0.0 { 0.25 } else { 0.0 };
+    // A rounding error must not decide on which side of its anchor a label lies.
+    cost += if inward < -look.mm(0.02).powi(2) { 0.25 } else { 0.0 };
     cost += if middle.y > structure.at.y + structure.height { 0.8 } else { 0.0 };
     Some((cost, leader))
 }

@@ -2,7 +2,7 @@
 //! between its cells, and its origin.
 
 use super::layout::MAX_MARGIN;
-use super::pen::seams;
+use super::stage::seams;
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::mechanics::scene::{Body, shape};
 use crate::pictures::drawing::{Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme};

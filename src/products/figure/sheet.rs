@@ -13,7 +13,7 @@ use super::verdict;
 use super::view;
 use super::words::{counted, letter, quantity};
 use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
 use crate::products::wording::margin::governing;
 
@@ -175,6 +175,18 @@ struct Pictures {
     zoom: f64,
 }
 
+/// A picture on a page.
+#[derive(Clone)]
+struct Shown<'p> {
+    sheet: &'p Sheet<'p>,
+    /// The index of its frame, from 0.
+    frame: usize,
+    /// Its number on the page, from 1.
+    number: usize,
+    picture: &'p Picture,
+    caption: String,
+}
+
 /// Draws all frames on one page.
 pub(crate) fn page(analysis: &Analysis, figure: &'static dyn Figure, options: &Options) -> Drawing {
     let (sheet, pictures) = Sheet::filled(analysis, figure, options);
@@ -197,6 +209,42 @@ pub(crate) fn pages(
     same_size(frames.iter().map(|frame| sheet.write(&pictures, &[*frame])).collect())
 }
 
+/// Draws frames of several scenes on one page, all at the same scale and position, in rows of `columns` pictures. Each
+/// panel has the index of its analysis, the index of its frame, and its caption.
+pub(crate) fn plate(
+    analyses: &[Analysis],
+    figure: &'static dyn Figure,
+    panels: &[(usize, usize, &str)],
+    title: &str,
+    columns: usize,
+    options: &Options,
+) -> Drawing {
+    let sheet = |analysis| Sheet::new(analysis, figure, options, Some(&[]));
+    let mut sheets: Vec<Sheet<'_>> = analyses.iter().map(sheet).collect();
+    let bounds = sheets.iter().map(|sheet| sheet.subject.bounds).reduce(Bounds::union);
+    for (number, sheet) in sheets.iter_mut().enumerate() {
+        sheet.columns = columns;
+        sheet.panel = sheet.panel_width(columns);
+        sheet.look.is_strip = true;
+        sheet.subject.bounds = bounds.unwrap_or(sheet.subject.bounds);
+        sheet.subject.frames = panels.iter().filter(|panel| panel.0 == number).map(|panel| panel.1).collect();
+    }
+    let zooms = sheets.iter().map(|sheet| sheet.pictures(&sheet.subject.frames).zoom);
+    let zoom = zooms.fold(f64::INFINITY, f64::min);
+    let pictures: Vec<Pictures> = sheets.iter().map(|sheet| sheet.drawn(&sheet.subject.frames, zoom)).collect();
+    let shown: Vec<Shown<'_>> = panels
+        .iter()
+        .enumerate()
+        .filter_map(|(place, &(of, frame, caption))| {
+            let picture = pictures.get(of)?.of(frame)?;
+            Some(Shown { sheet: &sheets[of], frame, number: place + 1, picture, caption: caption.to_owned() })
+        })
+        .collect();
+    let sides = pictures.iter().map(|pictures| pictures.sides);
+    let sides = sides.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_default();
+    sheets.first().map_or_else(Drawing::default, |sheet| sheet.composed(&shown, sides, title))
+}
+
 /// Draws a page for each step of a motion: the index of its frame, and the way from 0 at the beginning to 1 at the end.
 /// All pages have the same size and scale.
 pub(crate) fn steps(
@@ -216,7 +264,7 @@ pub(crate) fn steps(
         let mut pictures = sheet.drawn(&[*frame], ends.zoom);
         // Every page has the space and the position of the end of the motion.
         for (number, picture) in &mut pictures.all {
-            if let Some((_, end)) = ends.all.iter().find(|(frame, _)| frame == number) {
+            if let Some(end) = ends.of(*number) {
                 picture.extent =
                     around(corners(end.extent).into_iter().chain(corners(picture.extent))).unwrap_or(picture.extent);
             }
@@ -224,6 +272,12 @@ pub(crate) fn steps(
         sheet.write(&Pictures { sides: ends.sides, ..pictures }, &[*frame])
     };
     same_size(steps.iter().map(page).collect())
+}
+
+impl Pictures {
+    fn of(&self, frame: usize) -> Option<&Picture> {
+        self.all.iter().find(|(number, _)| *number == frame).map(|(_, picture)| picture)
+    }
 }
 
 /// Makes all pages as large as the largest.
@@ -425,15 +479,24 @@ impl<'a> Sheet<'a> {
 
     /// Writes a page with some of the pictures.
     fn write(&self, pictures: &Pictures, frames: &[usize]) -> Drawing {
+        let shown = frames.iter().filter_map(|frame| {
+            let caption = self.figure.caption(self.analysis, *frame, self.options);
+            Some(Shown { sheet: self, frame: *frame, number: frame + 1, picture: pictures.of(*frame)?, caption })
+        });
+        self.composed(&shown.collect::<Vec<_>>(), pictures.sides, &self.analysis.scene.title)
+    }
+
+    /// Writes a page with the given pictures, which lie between the two `sides` on their canvases.
+    fn composed(&self, shown: &[Shown<'_>], sides: (f64, f64), heading: &str) -> Drawing {
         let (options, look) = (self.options, self.look);
         let theme = &options.theme;
-        let columns = self.columns.min(frames.len()).max(1);
-        let natural = pictures.sides.1 - pictures.sides.0;
+        let columns = self.columns.min(shown.len()).max(1);
+        let natural = sides.1 - sides.0;
         // Without a given width, the page is as wide as its panels, but wide enough for short texts.
         let panel = match options.width {
             Some(_) => self.panel,
             None => {
-                let has_list = pictures.all.iter().any(|(_, picture)| !picture.list.0.items.is_empty());
+                let has_list = shown.iter().any(|one| !one.picture.list.0.items.is_empty());
                 let least = match (has_list, columns) {
                     (true, 1) => LIST_WIDTH,
                     // Lists stand beside each other, so each has the width for which it was written.
@@ -441,7 +504,7 @@ impl<'a> Sheet<'a> {
                     (false, 1) => 72.0,
                     (false, _) => 42.0,
                 };
-                let keys = pictures.all.iter().flat_map(|(_, picture)| &picture.keys);
+                let keys = shown.iter().flat_map(|one| &one.picture.keys);
                 let widest = keys.map(|key| self.key_width(key)).fold(0.0, f64::max) / columns as f64;
                 natural.max(look.mm(least)).max(widest).min(self.panel.max(natural))
             }
@@ -449,53 +512,56 @@ impl<'a> Sheet<'a> {
         let inner = columns as f64 * panel + look.mm(GAP * (columns - 1) as f64);
         let width = if options.width.is_some() { self.width } else { inner + look.mm(2.0 * MARGIN) };
         let mut page = Page { sheet: self, width, inner, y: look.mm(MARGIN), items: Vec::new() };
-        let heading = &self.analysis.scene.title;
         if options.titles && !heading.is_empty() {
             page.heading(heading);
         }
-        let shown: Vec<&(usize, Picture)> =
-            frames.iter().filter_map(|frame| pictures.all.iter().find(|(number, _)| number == frame)).collect();
         for (number, row) in shown.chunks(columns).enumerate() {
             page.y += if number > 0 { look.mm(4.0) } else { 0.0 };
-            page.row(row, panel, (pictures.sides.0 + pictures.sides.1) / 2.0);
+            page.row(row, panel, (sides.0 + sides.1) / 2.0);
         }
         if options.keys {
-            page.legend(&shown);
+            page.legend(shown);
         }
-        let described: Vec<String> = shown.iter().take(MAX_DESCRIBED).map(|one| self.described(one)).collect();
+        let described: Vec<String> = shown.iter().take(MAX_DESCRIBED).map(Shown::described).collect();
         Drawing {
             width: width.ceil(),
             height: (page.y + look.mm(MARGIN + 0.6)).ceil(),
-            title: if heading.is_empty() { self.figure.about().title.to_owned() } else { heading.clone() },
+            title: if heading.is_empty() { self.figure.about().title.to_owned() } else { heading.to_owned() },
             description: described.join(" "),
             background: Some(theme.page),
             items: page.items,
         }
     }
+}
 
-    fn caption(&self, frame: usize) -> String {
-        self.figure.caption(self.analysis, frame, self.options)
+impl Shown<'_> {
+    fn found(&self) -> &FrameAnalysis {
+        &self.sheet.analysis.frames[self.frame]
+    }
+
+    /// Returns the words after the verdict.
+    fn words(&self) -> Vec<String> {
+        self.sheet.figure.words(self.sheet.analysis, self.frame, self.sheet.options)
     }
 
     /// Describes a frame in a sentence, for screen readers.
-    fn described(&self, (frame, picture): &(usize, Picture)) -> String {
-        let (scene, found) = (&self.analysis.scene, &self.analysis.frames[*frame]);
-        if !picture.description.is_empty() {
-            return picture.description.clone();
+    fn described(&self) -> String {
+        let (scene, found) = (&self.sheet.analysis.scene, self.found());
+        if !self.picture.description.is_empty() {
+            return self.picture.description.clone();
         }
-        let blocks = counted(scene.frames[*frame].placed.len(), "block");
+        let blocks = counted(scene.frames[self.frame].placed.len(), "block");
         let weight = quantity(found.weight, scene.units.force());
         let mut parts = vec![format!("{blocks}, {weight} in all")];
-        if self.options.verdicts {
+        if self.sheet.options.verdicts {
             parts[0] = format!("{}, {}", parts[0], verdict::word(found.verdict));
             parts.push(verdict::reason(scene, found));
-            parts.extend(self.figure.words(self.analysis, *frame, self.options));
+            parts.extend(self.words());
             parts.extend(found.notices.iter().cloned());
         }
         parts.retain(|part| !part.is_empty());
         parts.dedup();
-        let caption = self.caption(*frame);
-        let start = if caption.is_empty() { String::new() } else { format!("{caption}: ") };
+        let start = if self.caption.is_empty() { String::new() } else { format!("{}: ", self.caption) };
         format!("{start}{}.", parts.join("; ").replace(text::NO_BREAK, " "))
     }
 }
@@ -569,23 +635,23 @@ impl Page<'_> {
     }
 
     /// Draws a row of pictures, each with its lines below. `middle` is the middle of all pictures on their canvases.
-    fn row(&mut self, row: &[&(usize, Picture)], panel: f64, middle: f64) {
-        let top = row.iter().map(|(_, p)| p.extent.at.y).fold(f64::INFINITY, f64::min);
-        let bottom = row.iter().map(|(_, p)| p.extent.at.y + p.extent.height).fold(f64::NEG_INFINITY, f64::max);
+    fn row(&mut self, row: &[Shown<'_>], panel: f64, middle: f64) {
+        let extents = || row.iter().map(|one| one.picture.extent);
+        let top = extents().map(|extent| extent.at.y).fold(f64::INFINITY, f64::min);
+        let bottom = extents().map(|extent| extent.at.y + extent.height).fold(f64::NEG_INFINITY, f64::max);
         let left = (self.width - self.inner) / 2.0;
         let start = self.y;
         let mut end = start;
-        for (column, (frame, picture)) in row.iter().enumerate() {
+        for (column, one) in row.iter().enumerate() {
             let centre = left + panel / 2.0 + column as f64 * (panel + self.mm(GAP));
-            let found = &self.sheet.analysis.frames[*frame];
-            let mut group = Group { id: Some(format!("frame-{}", frame + 1)), ..Group::with_class("frame") };
-            let caption = self.sheet.caption(*frame);
+            let (found, caption) = (one.found(), &one.caption);
+            let mut group = Group { id: Some(format!("frame-{}", one.number)), ..Group::with_class("frame") };
             let word = if self.sheet.options.verdicts { verdict::word(found.verdict) } else { "no verdict is shown" };
             group.title = if caption.is_empty() { word.to_owned() } else { format!("{caption}: {word}") };
-            group = group.with(Item::from(picture.group.clone()).moved(centre - middle, start - top));
-            let (lines, mut below) = self.lines(*frame, PagePoint::new(centre, start + bottom - top), panel);
+            group = group.with(Item::from(one.picture.group.clone()).moved(centre - middle, start - top));
+            let (lines, mut below) = self.lines(one, PagePoint::new(centre, start + bottom - top), panel);
             group.items.extend(lines);
-            let (list, high) = &picture.list;
+            let (list, high) = &one.picture.list;
             if !list.items.is_empty() {
                 let top = below + self.mm(0.8);
                 group = group.with(Item::from(list.clone()).moved(centre, top));
@@ -599,27 +665,27 @@ impl Page<'_> {
 
     /// Writes the lines below the picture of a frame: the symbol of its verdict with its caption in a strip, with the
     /// verdict and the governing margin otherwise. Also returns the y coordinate below them.
-    fn lines(&self, frame: usize, top: PagePoint, room: f64) -> (Vec<Item>, f64) {
+    fn lines(&self, one: &Shown<'_>, top: PagePoint, room: f64) -> (Vec<Item>, f64) {
         let (options, look) = (self.sheet.options, self.sheet.look);
-        let (theme, found) = (&options.theme, &self.sheet.analysis.frames[frame]);
+        let (theme, found) = (&options.theme, one.found());
         let size = look.text * theme.sizes.verdict;
         let colour = verdict::badge_colour(found, theme);
-        let caption = if options.captions { self.sheet.caption(frame) } else { String::new() };
+        let caption = if options.captions { one.caption.as_str() } else { "" };
         let plain = |line: String| vec![(line, Face::Sans, theme.ink)];
         let broken = |words: &str, room: f64| {
             let lines = text::sentence_lines(words, Face::Sans, size, room, MAX_LINES).into_iter();
             lines.map(plain).collect::<Vec<Vec<Span>>>()
         };
         let indent = if options.verdicts { look.mm(3.8) } else { 0.0 };
-        let mut lines = broken(&caption, room - indent);
+        let mut lines = broken(caption, room - indent);
         // The symbol of the verdict stands before the caption in a strip, and before the verdict otherwise.
         let alone = !look.is_strip || caption.is_empty();
         let marked_line = if alone { lines.len() } else { 0 };
         if options.verdicts {
-            let badge = (self.sheet.figure.verdict(self.sheet.analysis, frame), Face::SansBold, colour);
+            let badge = (self.sheet.figure.verdict(one.sheet.analysis, one.frame), Face::SansBold, colour);
             let mut line = if alone { vec![badge] } else { Vec::new() };
             let mut long = Vec::new();
-            for words in self.sheet.figure.words(self.sheet.analysis, frame, options) {
+            for words in one.words() {
                 let span = (format!("{}·\u{a0}{words}", text::NO_BREAK), Face::Sans, theme.ink);
                 let wide: f64 =
                     line.iter().chain([&span]).map(|(words, face, _)| text::width(words, *face, size)).sum();
@@ -651,11 +717,11 @@ impl Page<'_> {
     }
 
     /// Writes the legend: the entries of the marks that are drawn, in as few lines as possible.
-    fn legend(&mut self, shown: &[&(usize, Picture)]) {
+    fn legend(&mut self, shown: &[Shown<'_>]) {
         let (options, look) = (self.sheet.options, self.sheet.look);
         let theme = &options.theme;
         let size = look.text * theme.sizes.key;
-        let mut keys: Vec<Rc<Key>> = shown.iter().flat_map(|(_, picture)| picture.keys.iter().cloned()).collect();
+        let mut keys: Vec<Rc<Key>> = shown.iter().flat_map(|one| one.picture.keys.iter().cloned()).collect();
         keys.sort_by_key(|key| key.rank);
         keys.dedup_by_key(|key| key.rank);
         let width = |key: &Key| self.sheet.key_width(key);

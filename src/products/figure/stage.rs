@@ -3,18 +3,23 @@
 use std::rc::Rc;
 
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along};
-use super::pen::{colour, seams};
+use super::design::{ArrowSize, Key, Layer, Mark, along, colour};
+use super::limit;
 use super::placing::Label;
 use super::words::{force, quantity, round_below_in};
-use crate::geometry::{Bounds, Edge, Point, Vector};
-use crate::mechanics::scene::{BlockId, BodyId, Load};
-use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
+use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
+use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Load};
+use crate::pictures::drawing::{Camera, Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 
 /// At most about this many loads have amounts, the largest.
 const MAX_LOAD_AMOUNTS: usize = 16;
 /// The ranks of the entries of the legend that this module explains.
 const LOAD_RANK: u8 = 40;
+const PLAN_RANK: u8 = 45;
+const LIMIT_RANK: u8 = 62;
+
+/// The number of colours in a bar of the legend.
+const COLOURS: u32 = 48;
 
 /// The angle through which the arc of a torque turns: 225°.
 const TORQUE_SWEEP: f64 = 1.25 * core::f64::consts::PI;
@@ -108,10 +113,9 @@ fn hatched(canvas: &Canvas<'_>, edge: &Edge) -> Vec<Path> {
 pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let width = canvas.mm(if canvas.look.large { 0.22 } else { 0.16 });
-    for id in &canvas.frame().placed {
-        let block = &scene.blocks[id.0];
+    for (place, id) in canvas.frame().placed.iter().enumerate() {
+        let (block, fill) = (&scene.blocks[id.0], canvas.fill(place, *id));
         let outline = canvas.camera.polygon(&block.body.polygon);
-        let fill = block.body.fill.map_or(theme.block, colour);
         let mut edge = Stroke::new(theme.outline, width);
         if block.body.is_schematic {
             edge = edge.dashed([canvas.mm(0.9), canvas.mm(0.7)]);
@@ -123,8 +127,17 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
         }
         let mut mark = Mark::new(Layer::Stone, "block", shapes).titled(format!("Block {}", block.id));
         mark.description = format!("weight {}", quantity(block.weight, scene.units.force()));
+        if let Some((_, words)) = canvas.fills.get(place).filter(|_| block.body.fill.is_none()) {
+            mark.description = format!("{}, {words}", mark.description);
+        }
         canvas.put(mark);
     }
+    let symbol = Outline::ring(
+        [(0.0, 0.0), (0.7, -1.2), (2.1, -1.2), (2.8, 0.0), (2.1, 1.2), (0.7, 1.2)]
+            .map(|(x, y)| PagePoint::new(canvas.mm(x), canvas.mm(y))),
+    );
+    let symbol = vec![Path::stroked(symbol, Stroke::new(theme.faint, canvas.mm(0.35)))];
+    let key = Rc::new(Key { rank: PLAN_RANK, words: "planned block".to_owned(), symbol, width: canvas.mm(2.8) });
     for plan in &canvas.frame().plans {
         let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
         let ink = theme.robot(plan.robot.0);
@@ -135,8 +148,30 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
             Path::stroked(outline, Stroke::new(ink, canvas.mm(0.45))),
         ];
         let title = format!("Block {}, planned by robot {}", block.id, robot.id);
-        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title));
+        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title).keyed(&key));
     }
+}
+
+/// Returns the lines between the lattice cells of a body on the page: one line for each edge that two cells share. The
+/// result is empty for a body without cells.
+pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> Outline {
+    let mut outline = Outline::default();
+    let (Some(cells), Some(lattice)) = (&body.cells, lattice) else {
+        return outline;
+    };
+    let mut steps = std::collections::BTreeSet::new();
+    for cell in cells {
+        let corners = cell.corners();
+        for i in 0..corners.len() {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            if steps.contains(&(b, a)) {
+                let place = |c: (i64, i64)| camera.place(lattice.point(c.0 as f64, c.1 as f64));
+                outline.extend(Outline::line([place(a), place(b)]));
+            }
+            steps.insert((a, b));
+        }
+    }
+    outline
 }
 
 /// Asks for the names of the blocks, inside them.
@@ -145,9 +180,8 @@ pub(crate) fn names(canvas: &mut Canvas<'_>) {
         return;
     }
     let theme = canvas.theme();
-    for id in &canvas.frame().placed {
-        let block = &canvas.scene().blocks[id.0];
-        let fill = block.body.fill.map_or(theme.block, colour);
+    for (place, id) in canvas.frame().placed.iter().enumerate() {
+        let (block, fill) = (&canvas.scene().blocks[id.0], canvas.fill(place, *id));
         let at = vec![canvas.place(block.body.polygon.centroid())];
         let inside = Some(canvas.camera.rect(block.body.polygon.bounds()));
         canvas.label(Label { inside, ..Label::new(block.id.clone(), theme.letters_on(fill, None), at, 90) });
@@ -187,9 +221,13 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             let on = scene.name(BodyId::Block(load.block));
             let title =
                 format!("Torque of a load on block {on}: {}", turning(load.torque, quantity(load.torque.abs(), units)));
-            let mark = torque(canvas, at, load.torque, (2.6, 0.45), ink);
+            // Torques at one point have arcs with different radii.
+            let turns = scene.loads.iter().take_while(|other| !core::ptr::eq(*other, load));
+            let here = turns.filter(|other| other.torque != 0.0 && (other.at - load.at).norm() < 1e-6).count();
+            let radius = 2.6 + 1.5 * here as f64;
+            let mark = torque(canvas, at, load.torque, (radius, 0.45), ink);
             canvas.put(Mark::new(Layer::Load, "load", mark).titled(title).avoided(canvas.mm(0.2)));
-            let side = at.moved(canvas.mm(3.0), 0.0);
+            let side = at.moved(canvas.mm(radius + 0.4), 0.0);
             amount(canvas, quantity(load.torque.abs(), units), ink, (vec![side], 0), Some((0.0, -1.0)));
         }
     }
@@ -300,16 +338,41 @@ pub(crate) fn turning(torque: f64, amount: String) -> String {
     format!("{amount} {direction}")
 }
 
+/// Draws the disc of a robot on its grip point.
+fn disc(canvas: &mut Canvas<'_>, hold: &Hold) {
+    let (scene, edge) = (canvas.scene(), Stroke::new(canvas.theme().ink, canvas.mm(0.22)));
+    let outline = Outline::circle(canvas.place(hold.at), canvas.mm(1.35));
+    let disc = Path::filled(outline, canvas.theme().robot(hold.robot.0)).with_stroke(edge);
+    let title = format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);
+    canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
+}
+
+/// Draws a diamond on the disc of each robot whose force or torque reaches one of its limits.
+pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let diamond = |canvas: &Canvas<'_>, at: PagePoint| {
+        let corners = [(0.0, -0.8), (0.8, 0.0), (0.0, 0.8), (-0.8, 0.0)];
+        let outline = Outline::ring(corners.map(|(x, y)| at.moved(canvas.mm(x), canvas.mm(y))));
+        vec![Path::filled(outline, theme.ink).cased(theme.page, canvas.mm(0.2))]
+    };
+    let symbol = diamond(canvas, PagePoint::new(canvas.mm(0.8), 0.0));
+    let words = "robot at its limit".to_owned();
+    let key = Rc::new(Key { rank: LIMIT_RANK, words, symbol, width: canvas.mm(1.6) });
+    for robot in limit::robots_reached(scene, canvas.found()) {
+        let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
+        let mark = Mark::new(Layer::Symbol, "limit", diamond(canvas, canvas.place(robot.at)));
+        canvas.put(mark.titled(title).keyed(&key).avoided(canvas.mm(0.2)));
+    }
+}
+
 /// Draws the robots that hold a block, with their forces and torques: a disc on the grip point, an arrow from it, and
-/// an arc. Their labels have their names and forces.
+/// an arc. Their labels have their names and forces. In printed figures, the arrow of a robot is drawn with the others.
 pub(crate) fn robots(canvas: &mut Canvas<'_>) {
     let (scene, theme, found) = (canvas.scene(), canvas.theme(), canvas.found());
     let edge = Stroke::new(theme.ink, canvas.mm(0.22));
     for hold in &canvas.frame().holds {
         let (name, at, fill) = (&scene.robots[hold.robot.0].id, canvas.place(hold.at), theme.robot(hold.robot.0));
-        let disc = Path::filled(Outline::circle(at, canvas.mm(1.35)), fill).with_stroke(edge.clone());
-        let title = format!("Robot {name} holds block {}", scene.blocks[hold.block.0].id);
-        canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
+        disc(canvas, hold);
         let Some(robot) = found.robots.iter().find(|robot| robot.robot == hold.robot && robot.block == hold.block)
         else {
             continue;
@@ -324,9 +387,9 @@ pub(crate) fn robots(canvas: &mut Canvas<'_>) {
             let head = (canvas.mm(head), canvas.mm(1.7).min(0.6 * length));
             let outline = ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(at, u);
             let title = format!("Force on block {on} from robot {name}: {}", force(robot.force, scene.units));
-            let mark =
-                Mark::new(Layer::Symbol, "robot-force", vec![Path::filled(outline, fill).with_stroke(edge.clone())]);
-            canvas.put(mark.titled(title).avoided(canvas.mm(0.2)));
+            let shapes = vec![Path::filled(outline, fill).with_stroke(edge.clone())];
+            let shapes = if canvas.options.printed() { Vec::new() } else { shapes };
+            canvas.put(Mark::new(Layer::Symbol, "robot-force", shapes).titled(title).avoided(canvas.mm(0.2)));
             anchors.insert(0, along(at, u, length, 0.0));
         }
         let ink = theme.letters_on(theme.page, Some(fill));
@@ -342,22 +405,33 @@ pub(crate) fn robots(canvas: &mut Canvas<'_>) {
             canvas.label(Label::new(words, ink, anchors, 2));
         }
     }
+    robot_limits(canvas);
 }
 
 /// Draws the discs and the names of the robots that hold a block, without their forces.
 pub(crate) fn held(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     for hold in &canvas.frame().holds {
-        let (name, at, fill) = (&scene.robots[hold.robot.0].id, canvas.place(hold.at), theme.robot(hold.robot.0));
-        let edge = Stroke::new(theme.ink, canvas.mm(0.22));
-        let disc = Path::filled(Outline::circle(at, canvas.mm(1.35)), fill).with_stroke(edge);
-        let title = format!("Robot {name} holds block {}", scene.blocks[hold.block.0].id);
-        canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
-        let ink = theme.letters_on(theme.page, Some(fill));
+        disc(canvas, hold);
+        let ink = theme.letters_on(theme.page, Some(theme.robot(hold.robot.0)));
         if canvas.options.labels {
-            canvas.label(Label::new(name.clone(), ink, vec![at], 2));
+            let name = scene.robots[hold.robot.0].id.clone();
+            canvas.label(Label::new(name, ink, vec![canvas.place(hold.at)], 2));
         }
     }
+}
+
+/// Returns a bar `wide` mm long with the colours of shares from 0 to 1, for the legend.
+pub(crate) fn colour_bar(canvas: &Canvas<'_>, wide: f64, colour: impl Fn(f64) -> Colour) -> Vec<Path> {
+    // Each piece reaches to the end of the bar, so that no gaps are visible.
+    let piece = |number: u32| {
+        let (left, right) = (canvas.mm(wide) * f64::from(number) / f64::from(COLOURS), canvas.mm(wide));
+        let half = canvas.mm(0.9);
+        let corners = [(left, -half), (right, -half), (right, half), (left, half)];
+        let share = f64::from(number) / f64::from(COLOURS - 1);
+        Path::filled(Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y))), colour(share))
+    };
+    (0..COLOURS).map(piece).collect()
 }
 
 /// Draws a dot at each contact that the scene lists.

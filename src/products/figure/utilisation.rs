@@ -30,8 +30,6 @@ const BAR_LENGTH: f64 = 3.2;
 /// Length of a line in the legend, and of the bar of colours, mm.
 const KEY_LENGTH: f64 = 4.8;
 const COLOURS_LENGTH: f64 = 14.0;
-/// The number of colours in the bar of the legend.
-const COLOURS: u32 = 48;
 
 /// The figure of utilisation.
 pub(crate) struct Utilisation;
@@ -101,25 +99,17 @@ impl Lines {
         let rimmed = |share: f64| rimmed_line(canvas, line(), of_key, Some(share)).to_vec();
         let bar = Outline::line([start.moved(long / 2.0, -canvas.mm(1.2)), start.moved(long / 2.0, canvas.mm(1.2))]);
         let full = rimmed(1.0).into_iter().chain([Path::stroked(bar, Stroke::new(theme.ink, canvas.mm(0.26)))]);
-        let wide = canvas.mm(COLOURS_LENGTH);
-        let piece = |number: u32| {
-            let [left, right] = [number, number + 1].map(|n| wide * f64::from(n) / f64::from(COLOURS));
-            let half = canvas.mm(0.9);
-            let corners = [(left, -half), (right, -half), (right, half), (left, half)];
-            let share = f64::from(number) / f64::from(COLOURS - 1);
-            Path::filled(Outline::ring(corners.map(|(x, y)| start.moved(x, y))), theme.amplitude(share))
-        };
         let disc =
             Path::filled(Outline::circle(start.moved(canvas.mm(0.9), 0.0), canvas.mm(0.9)), theme.amplitude(0.5));
         let disc = vec![disc.with_stroke(Stroke::new(theme.ink, canvas.mm(0.12)))];
         let words = "of a robot's limits".to_owned();
         let limits = Rc::new(Key { rank: 14, words, symbol: disc, width: canvas.mm(1.8) });
-        let (symbol, words) =
-            ((0..COLOURS).map(piece).collect(), "0 to 100\u{a0}% of the available friction".to_owned());
+        let symbol = stage::colour_bar(canvas, COLOURS_LENGTH, |share| theme.amplitude(share));
+        let words = "0 to 100\u{a0}% of the available friction".to_owned();
         Lines {
             bold,
             limits,
-            colours: Rc::new(Key { rank: 10, words, symbol, width: wide }),
+            colours: Rc::new(Key { rank: 10, words, symbol, width: canvas.mm(COLOURS_LENGTH) }),
             // In other equilibrium states, the same interface or robot may use less of its friction or limits.
             full: key(11, "all of it in the forces shown", full.collect()),
             smooth: key(12, "no friction available", rimmed_line(canvas, line(), of_key, None).to_vec()),

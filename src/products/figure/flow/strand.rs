@@ -2,12 +2,11 @@
 //! exact force at its beginning and at its end.
 //!
 //! In each block a strand joins a point where a force enters to a point where a force leaves. If the true lines of
-//! action meet in the block, [`mod@line`] computes the strands. Otherwise every force that enters is
+//! action meet in the block, [`path`] computes the strands. Otherwise every force that enters is
 //! divided among the forces that leave, in proportion to their magnitudes. The widths of all strands of a force add
 //! up to its magnitude. The axis of a strand stays in its block if possible.
 
-use super::curve::{curve, moved_inside};
-use super::line::{self, LineOfAction, TruePath};
+use super::path::{self, LineOfAction, TruePath, curve, moved_inside};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
 use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
@@ -191,7 +190,7 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
         return None;
     }
     let polygon = &scene.blocks[on.0].body.polygon;
-    let path = line::path(polygon, line_of_action(first), line_of_action(second), &loads)?;
+    let path = path::path(polygon, line_of_action(first), line_of_action(second), &loads)?;
     let given: Vec<&ForceOnBlock> = forces.iter().filter(given).collect();
     let ends = [first.origin, second.origin];
     let same_place = SAME_PLACE * polygon.area().sqrt();

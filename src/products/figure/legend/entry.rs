@@ -8,12 +8,6 @@ const PLANNED_TEXT: &str = "planned block";
 const MISSING_TEXT: &str = "missing force, without which it falls";
 /// The text for missing forces in a column of print.
 const SHORT_MISSING_TEXT: &str = "missing force";
-/// The texts for missing forces in a column of print, if arrows and fills show the balance with missing forces. The
-/// second text is for arrows of missing forces that have a larger scale than others.
-const INCLUDED_MISSING_TEXT: [&str; 2] = [
-    "missing force; fills and arrows show the balance with it",
-    "missing force, with a larger scale; fills and arrows show the balance with it",
-];
 /// Least length of a bar of colours, pixels.
 const SHORTEST_BAR: f64 = 56.0;
 
@@ -24,9 +18,6 @@ pub(crate) enum MissingWords {
     Usual,
     /// Only its name, for a column of print.
     Short,
-    /// Its name, and that fills and other arrows show the balance with missing forces, for a column of print. `true` if
-    /// its arrows have a larger scale than others.
-    Included(bool),
 }
 
 /// An entry of the legend.
@@ -122,7 +113,6 @@ impl Entry {
             Entry::Planned(_) => PLANNED_TEXT.to_owned(),
             Entry::Missing(MissingWords::Usual) => MISSING_TEXT.to_owned(),
             Entry::Missing(MissingWords::Short) => SHORT_MISSING_TEXT.to_owned(),
-            Entry::Missing(MissingWords::Included(larger)) => INCLUDED_MISSING_TEXT[usize::from(*larger)].to_owned(),
             Entry::Amplitudes(_, words, ..)
             | Entry::Scale(_, _, words)
             | Entry::Line(_, _, words)

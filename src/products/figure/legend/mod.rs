@@ -5,8 +5,8 @@ mod entry;
 mod lines;
 mod symbol;
 
-pub(crate) use content::{entries, is_limit, limits, loads, metres, robots, scale, shared_scale};
-pub(crate) use entry::{Entry, MissingWords};
+pub(crate) use content::{entries, is_limit, loads, metres, robots, scale, shared_scale};
+pub(crate) use entry::Entry;
 pub(crate) use lines::draw;
 
 use crate::pictures::drawing::{Item, PagePoint, Theme};

@@ -5,12 +5,11 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use super::{CENTROID_RADIUS, MIN_READABLE_UNIT_LENGTH, MISSING_RADIUS, Pen};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::BodyId;
-use crate::pictures::drawing::arrow::{head, straight, turning};
+use crate::pictures::drawing::arrow::{straight, turning};
 use crate::pictures::drawing::{Colour, Group, Item, Outline, Path, Stroke};
 use crate::products::figure::arrow::{
     ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, TurnArrow, TurnKind, distance_to_arrow,
 };
-use crate::products::figure::by_colour::ByColour;
 use crate::products::figure::description;
 
 /// Radius of the arrow of a torque in unit lengths, larger than a robot's disc. If several torques act at one point, each
@@ -36,7 +35,9 @@ impl Pen<'_> {
     fn dot(&self, arrow: &ForceArrow) -> Group {
         let outline = Outline::circle(self.camera.place(arrow.at), MISSING_RADIUS);
         let dot = Path::filled(outline, arrow.colour).cased(self.context.options.theme.casing, 0.6);
-        Group::with_class("small").titled(description::arrow(self.context, arrow)).with(dot)
+        Group::with_class("small")
+            .titled(description::arrow(&self.context.analysis.scene, self.context.unit, arrow))
+            .with(dot)
     }
 
     fn arrow(&self, arrow: &ForceArrow) -> Path {
@@ -72,26 +73,6 @@ impl Pen<'_> {
             Some(place) => theme.casing_on(self.fill(place, frame.placed[place]), arrow.colour),
             None => theme.casing,
         }
-    }
-
-    /// Draws the heads of arrows and the circles of weights again, on top of all shafts, because a shaft must not hide
-    /// the head of another arrow on the same line. On top of them, draws whole arrows of loads again, because the
-    /// circle of a weight must not hide a load at the same point. Missing forces are not drawn again.
-    pub(crate) fn heads(&self) -> Group {
-        let mut group = Group { echo: true, ..Group::with_class("heads") };
-        let marks = &self.context.marks[self.number];
-        let there = marks.arrows.iter().filter(|a| !a.kind.is_failure() && a.kind != ArrowKind::Load);
-        for arrow in there.filter(|a| self.seen(a)) {
-            let width = self.width(arrow);
-            let (from, along) = (self.camera.place(arrow.at), self.camera.turn(arrow.reach()));
-            let head = Path::filled(head(from, along, width), arrow.colour);
-            group.items.push(head.cased(self.seam_around(arrow), self.casing).into());
-            group.items.extend(self.centroid(arrow).map(Item::from));
-        }
-        let loads = marks.arrows.iter().filter(|a| a.kind == ArrowKind::Load);
-        let loads = loads.filter(|a| self.seen(a));
-        group.items.extend(loads.map(|a| self.arrow(a).into()));
-        group
     }
 
     pub(crate) fn turn(&self, turn: &TurnArrow) -> Path {
@@ -139,7 +120,7 @@ impl Pen<'_> {
         let marks = &self.context.marks[self.number];
         let mut group = Group::with_class(if missing { "failures" } else { "forces" });
         for arrow in marks.arrows.iter().filter(|a| a.kind.is_failure() == missing && self.seen(a)) {
-            let title = description::arrow(self.context, arrow);
+            let title = description::arrow(&self.context.analysis.scene, self.context.unit, arrow);
             let mut force = Group::with_class("force").titled(title).with(self.arrow(arrow));
             force.items.extend(self.centroid(arrow).map(Item::from));
             group.items.push(force.into());
@@ -150,30 +131,6 @@ impl Pen<'_> {
             let title = description::turn(self.context, turn);
             group.items.push(Group::with_class("torque").titled(title).with(self.turn(turn)).into());
         }
-        group
-    }
-
-    /// Draws only the arrows of loads, for a figure whose other arrows would be too small.
-    pub(crate) fn loads(&self) -> Group {
-        let mut group = Group::with_class("forces");
-        let loads = self.context.marks[self.number].arrows.iter();
-        let loads = loads.filter(|a| a.kind == ArrowKind::Load);
-        for arrow in loads.filter(|a| self.seen(a)) {
-            let force = Group::with_class("force").titled(description::arrow(self.context, arrow));
-            group.items.push(force.with(self.arrow(arrow)).into());
-        }
-        group
-    }
-
-    /// Draws all visible straight arrows except those of missing forces, for frames with very many blocks. All arrows
-    /// of one colour are one path.
-    pub(crate) fn arrows_by_colour(&self) -> Group {
-        let mut group = Group::with_class("forces");
-        let mut colours = ByColour::default();
-        for arrow in self.context.marks[self.number].arrows.iter().filter(|a| !a.kind.is_failure() && self.seen(a)) {
-            colours.add(arrow.colour, self.arrow(arrow).outline);
-        }
-        group.items.extend(colours.paths(None));
         group
     }
 }
