@@ -63,7 +63,7 @@ fn in_a_column_of_print_key_and_caption_need_at_most_half_of_a_figure() {
         let analysis = Analysis::new(scene(&format!("tests/scenes/{name}.json")));
         for kind in kinds {
             let drawing = figure::draw(&analysis, kind, &Options::default().width(COLUMN));
-            let pictures = classes(&drawing.items, &["ground", "block"]);
+            let pictures = classes(&drawing.items, &["ground", "earth", "block", "displaced"]);
             let shapes = pictures.into_iter().flat_map(pieces).flatten();
             let bottom = shapes.map(|p| p.y).fold(0.0, f64::max);
             let share = 1.0 - bottom / drawing.height;

@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 
 use super::displacement::Course;
+use super::fall::Fall;
 use super::{funicular, unit};
 use crate::geometry::{Point, Polygon};
 use crate::mechanics::analysis::{Analysis, Verdict};
@@ -70,7 +71,7 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
             file.point(11, segment.to);
         }
     }
-    let displaced = Course::new(analysis, frame, unit).at(1.0);
+    let displaced = Course::new(&Fall::of(analysis, frame), unit).at(1.0);
     for (block, displacement) in scene.blocks.iter().zip(&displaced) {
         if let Some(displacement) = displacement {
             let outline = block.body.polygon.outline().iter();

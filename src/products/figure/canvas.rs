@@ -3,14 +3,16 @@
 //!
 //! Lengths of the design are millimetres on paper ([`Look::mm`]); positions on the canvas are pixels.
 
+use core::cell::OnceCell;
 use std::rc::Rc;
 
 use super::design::{Key, Layer, Look, Mark, around, colour};
+use super::displacement::{Course, Displacement};
 use super::option::Options;
 use super::placing::{self, Label, Surroundings};
-use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis};
-use crate::mechanics::scene::{BlockId, Frame, Scene};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion};
+use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::{Camera, Colour, Group, Item, PagePoint, PageRect, Path, Theme};
 
 /// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
@@ -19,12 +21,22 @@ const MANY_BLOCKS: usize = 1000;
 /// A shape is only joined to one of this many paths before it, so that a picture of many colours takes linear time.
 const JOINED_PATHS: usize = 64;
 
+/// Results of one frame that take long. All pictures of the frame share them.
+#[derive(Default)]
+pub(crate) struct Shared {
+    /// The paths of the blocks in the collapses that the figure shows.
+    pub courses: OnceCell<Vec<Course>>,
+    /// The value of the parameter of the options at which the frame begins to fall, and the motion there.
+    pub edge: OnceCell<Option<(f64, Vec<Motion>)>>,
+}
+
 /// The picture of one frame while a kind of figure draws it.
 pub(crate) struct Canvas<'a> {
     pub analysis: &'a Analysis,
     /// The index of the frame, from 0.
     pub number: usize,
     pub options: &'a Options,
+    pub shared: &'a Shared,
     pub camera: Camera,
     pub look: Look,
     /// The length of a force in the one scale of the figure, pixels per newton.
@@ -35,6 +47,9 @@ pub(crate) struct Canvas<'a> {
     pub fills: Vec<(Colour, String)>,
     /// The part of the canvas outside of which marks are cut off; `None` if nothing is cut off.
     pub window: Option<PageRect>,
+    /// The displacements of the blocks, indexed by block; `None` for a block that is drawn where it stands. The list may
+    /// be shorter than the number of blocks.
+    pub displaced: Vec<Option<Displacement>>,
     marks: Vec<Mark>,
     labels: Vec<Label>,
     notes: Vec<Rc<Key>>,
@@ -57,7 +72,7 @@ impl<'a> Canvas<'a> {
     /// Creates an empty canvas on which `view` (metres) begins at (0, 0), with `zoom` pixels per metre.
     pub fn new(
         analysis: &'a Analysis,
-        number: usize,
+        (number, shared): (usize, &'a Shared),
         options: &'a Options,
         look: Look,
         (view, zoom): (Bounds, f64),
@@ -66,8 +81,23 @@ impl<'a> Canvas<'a> {
         let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
         let structure = camera.rect(view);
         let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
-        let (window, fills) = (None, Vec::new());
-        Canvas { analysis, number, options, camera, look, scale, structure, fills, window, marks, labels, notes }
+        let (window, displaced, fills) = (None, Vec::new(), Vec::new());
+        Canvas {
+            analysis,
+            number,
+            options,
+            shared,
+            camera,
+            look,
+            scale,
+            structure,
+            fills,
+            window,
+            displaced,
+            marks,
+            labels,
+            notes,
+        }
     }
 
     pub fn scene(&self) -> &'a Scene {
@@ -95,6 +125,24 @@ impl<'a> Canvas<'a> {
     /// Converts a point of the scene to its position on the canvas.
     pub fn place(&self, point: Point) -> PagePoint {
         self.camera.place(point)
+    }
+
+    /// Returns the displacement of a block; `None` if it is drawn where it stands.
+    pub fn displacement(&self, block: BlockId) -> Option<&Displacement> {
+        self.displaced.get(block.0)?.as_ref()
+    }
+
+    /// Converts a point of a body, which moves with the body, to its position on the canvas.
+    pub fn place_on(&self, body: BodyId, point: Point) -> PagePoint {
+        let BodyId::Block(block) = body else { return self.place(point) };
+        self.place(self.displacement(block).map_or(point, |moved| moved.moved(point)))
+    }
+
+    /// Converts a direction that turns with a body to a direction on the canvas, of the same length.
+    pub fn turn_on(&self, body: BodyId, direction: Vector) -> (f64, f64) {
+        let moved = if let BodyId::Block(block) = body { self.displacement(block) } else { None };
+        let turned = moved.map_or(direction, |moved| moved.turned(direction));
+        (turned.x, -turned.y)
     }
 
     /// Converts millimetres of the design to pixels.
@@ -177,7 +225,7 @@ impl<'a> Canvas<'a> {
         let mut bulk: Vec<(usize, Path)> = Vec::new();
         for mark in self.marks {
             let layer = mark.layer as usize;
-            if many && mark.layer <= Layer::Force {
+            if many && mark.layer <= Layer::Symbol {
                 mark.shapes.into_iter().for_each(|path| merge(&mut bulk, layer, path));
                 continue;
             }

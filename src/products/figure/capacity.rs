@@ -12,6 +12,7 @@ use super::arrow::Marks;
 use super::content::{About, FrameSource, PanelContent};
 use super::context::FigureContext;
 use super::displacement::Course;
+use super::fall::Fall;
 use super::label::{self, Callout};
 use super::legend::{self, Entry};
 use super::panel::{composed_with, cut_ground};
@@ -23,7 +24,7 @@ use crate::pictures::drawing::arrow::straight;
 use crate::pictures::drawing::placement::Ink;
 use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme};
 use crate::products::wording;
-use plan::{Plan, SmallPicture, falling};
+use plan::{Plan, SmallPicture};
 
 /// Opacity of the area of carried forces.
 const AREA_OPACITY: f64 = 0.34;
@@ -251,8 +252,8 @@ fn picture_of(pen: &Pen<'_>, plan: &Plan<'_>, small: &SmallPicture, ink: &mut In
     let place = |point: Point| pen.camera.place(small.place(point));
     let shown = pen.camera.rect(small.bounds());
     ink.rect(shown);
-    let ghost = falling(analysis, pen.number, &small.mechanism);
-    let moved = Course::new(&ghost, pen.number, pen.context.unit / small.scale.sqrt()).at(1.0);
+    let fall = Fall::with(analysis, pen.number, &small.mechanism);
+    let moved = Course::new(&fall, pen.context.unit / small.scale.sqrt()).at(1.0);
     let line = Stroke::new(theme.outline, (0.6 * pen.line).max(0.5));
     let mut group = Group::with_class("mechanism");
     group = group.titled(format!("How the structure begins to fall beyond edge {}", small.number));

@@ -1,89 +1,61 @@
 //! [`reason`]: describes a mechanism in words: which blocks turn or slide, and how many hinges there are.
 
-use super::displacement::rigid_bodies;
-use super::joint::{Joint, joints};
-use super::largest;
+use super::fall::{Fall, Joint};
 use super::words::{counted, listed};
 use crate::mechanics::analysis::{Analysis, Motion, Verdict};
-use crate::mechanics::scene::BodyId;
+use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::text::NO_BREAK;
-use crate::products::wording::failure::{by_amount, missing_phrase};
 
-/// Largest number of rigid bodies that are described one by one.
-const MAX_DESCRIBED_BODIES: usize = 3;
 /// Largest number of blocks of a body that are named.
 const MAX_NAMED_BLOCKS: usize = 4;
 /// If the speed due to rotation is at most this fraction of the speed of the body's fastest point, the text says that
 /// the body slides or falls. A grip point counts as at rest if its speed is below this fraction.
 const ROTATION_TOL: f64 = 0.02;
 
-/// Returns the text below the verdict in a figure of a mechanism: how the frame collapses, or why there is no
+/// Returns the words after the verdict in a figure of a mechanism: how the frame collapses, or why there is no
 /// mechanism.
 pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
     let frame_analysis = &analysis.frames[frame];
     match frame_analysis.verdict {
         Verdict::Stable => "there is no mechanism".into(),
         Verdict::Undecided => format!("no mechanism is proved: {}", frame_analysis.doubt()),
-        Verdict::Unstable => collapse(analysis, frame),
+        Verdict::Unstable => collapse(&Fall::of(analysis, frame)),
     }
 }
 
-/// Describes the largest missing force and the largest contact force of a frame that falls. The text is empty for other
-/// frames.
-pub(crate) fn forces(analysis: &Analysis, frame: usize) -> String {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
-    if found.verdict != Verdict::Unstable {
-        return String::new();
+fn collapse(fall: &Fall<'_>) -> String {
+    let bodies = bodies(fall);
+    if let [(_, sentence)] = &bodies[..] {
+        return sentence.clone();
     }
-    let missing = by_amount(found);
-    let missing = missing.first();
-    let missing = missing.map(|f| format!("largest missing force: {}", missing_phrase(scene, f)));
-    let contact = Some(largest::sentence(scene, found)).filter(|words| !words.is_empty());
-    match (missing, contact) {
-        (Some(missing), Some(contact)) => {
-            format!("{missing}; {contact}, in the balance with the missing forces")
-        }
-        (missing, contact) => missing.or(contact).unwrap_or_default(),
-    }
-}
-
-fn collapse(analysis: &Analysis, frame: usize) -> String {
-    let joints = joints(analysis, frame);
-    let bodies = rigid_bodies(analysis, frame, &joints);
-    let sentences = Sentences { analysis, frame, joints: &joints, bodies: &bodies };
-    let hinges = joints.iter().filter(|j| j.hinge.is_some()).count();
-    let slips = joints.iter().filter(|j| j.slip != 0.0).count();
-    let counts: Vec<String> = [(hinges, "hinge"), (slips, "sliding interface")]
-        .into_iter()
-        .filter(|c| c.0 > 0)
-        .map(|(count, what)| counted(count, what))
-        .collect();
-    if bodies.len() <= MAX_DESCRIBED_BODIES {
-        let mut described: Vec<String> = bodies.iter().map(|body| sentences.body(body)).collect();
-        if bodies.len() > 1 && !counts.is_empty() {
-            described.push(listed(&counts));
-        }
-        return described.join("; ");
-    }
-    let moving: usize = bodies.iter().map(Vec::len).sum();
-    let blocks = analysis.scene.frames[frame].placed.len();
+    let hinges = fall.joints.iter().filter(|j| j.hinge.is_some()).count();
+    let slips = fall.joints.iter().filter(|j| j.slip != 0.0).count();
+    let counts = [(hinges, "hinge"), (slips, "sliding interface")].into_iter().filter(|c| c.0 > 0);
+    let counts: Vec<String> = counts.map(|(count, what)| counted(count, what)).collect();
     let how = if counts.is_empty() { String::new() } else { format!(" with {}", listed(&counts)) };
-    let bodies = bodies.len();
-    format!("{moving} of {blocks} blocks move as {bodies} rigid bodies{how}")
+    let moving: usize = bodies.iter().map(|(blocks, _)| blocks.len()).sum();
+    let blocks = fall.scene.frames[fall.frame].placed.len();
+    format!("{moving} of {blocks} blocks move as {} bodies{how}", bodies.len())
+}
+
+/// Returns the blocks of each rigid body that moves, with a sentence about its motion: `blocks 4 and 5 slide on block 3`.
+pub(crate) fn bodies(fall: &Fall<'_>) -> Vec<(Vec<BlockId>, String)> {
+    let bodies = fall.rigid_bodies();
+    let sentences = Sentences { fall, bodies: &bodies };
+    let one = |body: &Vec<Motion>| (body.iter().map(|m| m.block).collect(), sentences.body(body));
+    bodies.iter().map(one).collect()
 }
 
 /// Writes the sentences about the rigid bodies of a mechanism.
 struct Sentences<'a> {
-    analysis: &'a Analysis,
-    frame: usize,
-    joints: &'a [Joint],
+    fall: &'a Fall<'a>,
     bodies: &'a [Vec<Motion>],
 }
 
 impl Sentences<'_> {
     /// Describes the motion of one rigid body, such as `blocks 4 and 5 slide on block 3`.
     fn body(&self, body: &[Motion]) -> String {
-        let scene = &self.analysis.scene;
+        let scene = self.fall.scene;
         let names: Vec<String> = body.iter().map(|m| scene.blocks[m.block.0].id.clone()).collect();
         let subject = match names.len() {
             1 => format!("block{NO_BREAK}{}", names[0]),
@@ -126,7 +98,7 @@ impl Sentences<'_> {
     /// True if a body rotates fast enough for the text to say that it turns. `fastest` is the speed of the fastest
     /// point of the body.
     fn turning(&self, body: &[Motion], fastest: f64) -> bool {
-        let scene = &self.analysis.scene;
+        let scene = self.fall.scene;
         let turned = |m: &Motion| {
             let block = &scene.blocks[m.block.0];
             let corners = block.body.polygon.outline().iter();
@@ -139,10 +111,10 @@ impl Sentences<'_> {
     /// Returns the joints between a rigid body of the mechanism and the blocks or ground outside it, each with that
     /// block or ground. Joints to ground and to blocks at rest come first.
     fn joints_of(&self, body: &[Motion]) -> impl Iterator<Item = (&Joint, BodyId)> {
-        let contacts = &self.analysis.frames[self.frame].contacts;
+        let contacts = &self.fall.found.contacts;
         let within = |id: BodyId| matches!(id, BodyId::Block(b) if body.iter().any(|m| m.block == b));
         let mut joints: Vec<(&Joint, BodyId)> = Vec::new();
-        for joint in self.joints {
+        for joint in &self.fall.joints {
             let [a, b] = contacts[joint.contact].interface.bodies;
             match (within(a), within(b)) {
                 (true, false) => joints.push((joint, b)),
@@ -164,7 +136,7 @@ impl Sentences<'_> {
         let ground = others.iter().any(|other| matches!(other, BodyId::Ground(_)));
         let mut names: Vec<String> = Vec::new();
         for other in others {
-            let name = self.analysis.scene.name(other);
+            let name = self.fall.scene.name(other);
             if matches!(other, BodyId::Block(_)) && !names.iter().any(|known| *known == name) {
                 names.push(name.to_string());
             }
@@ -187,15 +159,15 @@ impl Sentences<'_> {
     fn named(&self, body: BodyId) -> String {
         match body {
             BodyId::Ground(_) => "the ground".into(),
-            BodyId::Block(_) => format!("block{NO_BREAK}{}", self.analysis.scene.name(body)),
+            BodyId::Block(_) => format!("block{NO_BREAK}{}", self.fall.scene.name(body)),
         }
     }
 
     /// Returns the name of the robot about whose grip point a body turns. Returns `None` if the body does not turn
     /// about a grip point. `fastest` is the speed of the fastest point of the body.
     fn pinned(&self, body: &[Motion], fastest: f64) -> Option<&str> {
-        let scene = &self.analysis.scene;
-        let robots = &self.analysis.frames[self.frame].robots;
+        let scene = self.fall.scene;
+        let robots = &self.fall.found.robots;
         let holding = robots.iter().find(|robot| {
             body.iter().any(|m| m.block == robot.block && m.at(scene, robot.at).norm() < ROTATION_TOL * fastest)
         })?;

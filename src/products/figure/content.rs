@@ -8,7 +8,6 @@ use core::cell::{Cell, OnceCell};
 
 use super::arrow::Marks;
 use super::context::FigureContext;
-use super::displacement::Course;
 use super::fill::Fills;
 use super::layout::Layout;
 use super::legend::Entry;
@@ -93,12 +92,6 @@ pub(crate) trait PanelContent: Sync {
         load_marks(of.analysis, of.frame, of.options, newtons_per_unit)
     }
 
-    /// Returns the paths along which the blocks of a frame are displaced. Returns an empty course if no block is
-    /// displaced. `unit` is the unit length in metres.
-    fn course(&self, _analysis: &Analysis, _frame: usize, _unit: f64) -> Course {
-        Course::default()
-    }
-
     /// Returns the text next to the symbol of the verdict of a frame.
     fn headline(&self, context: &FigureContext<'_>, frame: usize) -> String {
         verdict::badge(&context.analysis.frames[frame]).to_owned()
@@ -130,15 +123,12 @@ impl<'a> FigureContext<'a> {
         let frames = 0..analysis.frames.len();
         let marks = scaled_marks(analysis, options, content);
         let unit = unit(scene, options.zoom);
-        let courses: Vec<Course> = frames.clone().map(|frame| content.course(analysis, frame, unit)).collect();
         let shown = match options.zoom {
             Some(block) => vec![view::zoomed_view(scene, block); marks.len()],
             None => {
                 let extent = |frame: usize| {
                     let source = FrameSource { analysis, frame, options };
-                    let own = content.extent(source, unit, &marks[frame]);
-                    let reach = courses[frame].reach(scene, &marks[frame]);
-                    own.into_iter().chain(reach).reduce(Bounds::union)
+                    content.extent(source, unit, &marks[frame])
                 };
                 let extents: Vec<Option<Bounds>> = frames.clone().map(extent).collect();
                 view::shown(scene, &marks, &extents, options.theme.widths.disc, unit)
@@ -155,15 +145,12 @@ impl<'a> FigureContext<'a> {
             view: view.unwrap_or(nothing.grown(unit)),
             shown,
             fills: Fills::new(analysis, options.fill),
-            marks: Vec::new(),
-            displaced: Vec::new(),
-            still: marks,
-            courses,
+            displaced: vec![Vec::new(); marks.len()],
+            marks,
             statements: Vec::new(),
             thrust: OnceCell::new(),
             cramped: Cell::new(0),
         };
-        context.move_blocks(options.motion_progress);
         context.statements = frames.map(|frame| content.reason(&context, frame)).collect();
         context
     }

@@ -4,7 +4,7 @@
 use core::cell::{Cell, OnceCell};
 
 use super::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, Marks};
-use super::displacement::{self, Course, Displacement};
+use super::displacement::Displacement;
 use super::fill::{FillScale, Fills};
 use super::option::Options;
 use super::view;
@@ -40,12 +40,8 @@ pub(crate) struct FigureContext<'a> {
     /// A box around all boxes of `shown`, metres.
     pub view: Bounds,
     pub fills: Fills,
-    /// The arrows of each frame; they move with displaced blocks.
+    /// The arrows of each frame.
     pub marks: Vec<Marks>,
-    /// The arrows of each frame before blocks are displaced.
-    pub still: Vec<Marks>,
-    /// For each frame, the paths along which its blocks are displaced.
-    pub courses: Vec<Course>,
     /// For each frame, the displacements of the blocks, indexed by block. Empty if no block is displaced.
     pub displaced: Vec<Vec<Option<Displacement>>>,
     /// The text below the verdict of each frame.
@@ -58,14 +54,6 @@ pub(crate) struct FigureContext<'a> {
 }
 
 impl<'a> FigureContext<'a> {
-    /// Moves the blocks of every frame along their paths, together with the arrows on them. `path_share` is 0 at the
-    /// beginning of the path and 1 at its end.
-    pub fn move_blocks(&mut self, path_share: f64) {
-        self.displaced = self.courses.iter().map(|course| course.at(path_share)).collect();
-        let frames = self.still.iter().zip(&self.displaced);
-        self.marks = frames.map(|(marks, displaced)| displacement::moved_marks(marks, displaced)).collect();
-    }
-
     /// Returns the extreme thrust states of a frame. The forces of the frame may vary between these states. The first
     /// call computes the states of all frames.
     pub fn thrust_states(&self, frame: usize) -> &ThrustStates {

@@ -8,24 +8,15 @@
 //!    that open hinges are visible.
 //! 2. No block turns by more than [`MAX_ROTATION`], because the velocities are only valid for small rotations.
 //! 3. [`linkage`] keeps hinges closed and sliding blocks on their joints along the whole path, if this is possible.
-//! 4. The path is shortened until no block overlaps another body, whether they touched at the beginning or not
-//!    ([`clearance`]).
+//! 4. The path is shortened until no block overlaps another body, whether they touched at the beginning or not.
 
-mod clearance;
-mod group;
 mod linkage;
-mod rigid;
 
-use super::arrow::Marks;
-use super::joint::joints;
-use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Analysis, Motion, Verdict};
-use crate::mechanics::scene::{BodyId, Scene};
-use clearance::Clearance;
-use group::connected_groups;
-pub(crate) use group::{moving, rigid_bodies};
+use super::fall::Fall;
+use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, Vector, overlap, quarter_turn};
+use crate::mechanics::analysis::Motion;
+use crate::mechanics::scene::{BlockId, Scene};
 use linkage::Linkage;
-pub(crate) use rigid::Displacement;
 
 /// Least displacement of the fastest point, unit lengths.
 const MIN_DISPLACEMENT: f64 = 0.35;
@@ -41,153 +32,181 @@ const MAX_REDUCTIONS: u32 = 24;
 const MIN_REDUCTION_FACTOR: f64 = 0.6;
 /// If more blocks than this move, overlaps are not measured, because this would take longer than the drawing.
 const MAX_TESTED_BLOCKS: usize = 500;
+/// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. An overlap of 1 % is already
+/// visible.
+const MAX_OVERLAP: f64 = 0.004;
+
+/// A rotation of a block about a point, followed by a translation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Displacement {
+    centre: Point,
+    sin: f64,
+    cos: f64,
+    translation: Vector,
+}
+
+impl Displacement {
+    /// Creates a rotation by an angle in radians about a point, followed by a translation in metres.
+    pub fn new(centre: Point, angle: f64, translation: Vector) -> Displacement {
+        Displacement { centre, sin: libm::sin(angle), cos: libm::cos(angle), translation }
+    }
+
+    /// Converts the velocity of a block to a displacement. If the block spins, the displacement is a rotation by
+    /// `amplitude`·spin about the instantaneous centre; otherwise it is a translation by `amplitude`·velocity.
+    ///
+    /// Units: `amplitude` is the displacement in metres of a point of speed 1.
+    pub fn along(motion: &Motion, centroid: Point, amplitude: f64) -> Displacement {
+        let angle = amplitude * motion.spin;
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        // The rotation about the instantaneous centre equals a rotation about the centroid, followed by the translation
+        // along the chord of the centroid's arc: amplitude·(sin θ/θ·v + (1 − cos θ)/θ·v⊥). Below 1e-6 rad, the first
+        // terms of the Taylor series are used, with a relative error below 2e-13. They also hold for a pure
+        // translation.
+        let (along, aside) = if angle.abs() < 1e-6 { (1.0, 0.5 * angle) } else { (sin / angle, (1.0 - cos) / angle) };
+        let translation = (motion.velocity * along + quarter_turn(motion.velocity) * aside) * amplitude;
+        Displacement { centre: centroid, sin, cos, translation }
+    }
+
+    /// Returns the position of a point of the block after the displacement, metres. `point` is its original position.
+    pub fn moved(&self, point: Point) -> Point {
+        self.centre + self.turned(point - self.centre) + self.translation
+    }
+
+    /// Returns the original position of a point of the block, metres. `point` is its position after the displacement.
+    pub fn back(&self, point: Point) -> Point {
+        let d = point - self.centre - self.translation;
+        self.centre + d * self.cos - quarter_turn(d) * self.sin
+    }
+
+    /// Rotates a vector by the rotation of the block.
+    pub fn turned(&self, direction: Vector) -> Vector {
+        direction * self.cos + quarter_turn(direction) * self.sin
+    }
+
+    /// Returns the displaced polygon.
+    pub fn polygon(&self, polygon: &Polygon) -> Polygon {
+        let ring = |ring: &Vec<Point>| ring.iter().map(|p| self.moved(*p)).collect();
+        Polygon::from_valid_rings(polygon.rings().iter().map(ring).collect())
+    }
+}
 
 /// The path of every moving block of a frame from its original to its displaced position.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Course {
-    groups: Vec<GroupCourse>,
+    parts: Vec<Part>,
     blocks: usize,
 }
 
 /// The path of a group of connected blocks.
 #[derive(Clone, Debug)]
-struct GroupCourse {
+struct Part {
     linkage: Linkage,
     /// The displacement in metres of a point of speed 1 at the end of the path.
     amplitude: f64,
 }
 
 impl Course {
-    /// Computes the paths of the blocks of a frame that falls. For any other frame the course is empty. `unit` is the
-    /// unit length in metres.
-    pub fn new(analysis: &Analysis, frame: usize, unit: f64) -> Course {
-        if analysis.frames[frame].verdict != Verdict::Unstable {
-            return Course::default();
-        }
-        let joints = joints(analysis, frame);
-        let groups = connected_groups(analysis, frame, |_| true);
-        let groups = groups.into_iter().map(|motions| GroupCourse {
-            amplitude: amplitude(analysis, &motions, unit),
-            linkage: Linkage::new(analysis, frame, &joints, &motions),
+    /// Computes the paths of the blocks that fall. `unit` is the unit length in metres.
+    pub fn new(fall: &Fall<'_>, unit: f64) -> Course {
+        let parts = fall.parts().into_iter().map(|motions| Part {
+            amplitude: amplitude(fall.scene, &motions, unit),
+            linkage: Linkage::new(fall, &motions),
         });
-        let mut course = Course { groups: groups.collect(), blocks: analysis.scene.blocks.len() };
-        course.stop_before_overlaps(analysis, frame);
+        let mut course = Course { parts: parts.collect(), blocks: fall.scene.blocks.len() };
+        course.stop_before_overlaps(fall);
         course
     }
 
     /// Returns the displacement of each block, indexed by block; `None` for a block at rest. `share` is the position on
     /// the path, from 0 (original position) to 1 (end). The list is empty if no block moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
-        if self.groups.is_empty() {
+        if self.parts.is_empty() {
             return Vec::new();
         }
         let mut displaced = vec![None; self.blocks];
-        for group in &self.groups {
-            for (block, displacement) in group.linkage.displaced(share * group.amplitude) {
+        for part in &self.parts {
+            for (block, displacement) in part.linkage.displaced(share * part.amplitude) {
                 displaced[block.0] = Some(displacement);
             }
         }
         displaced
     }
 
-    /// Returns a box, in metres, around the moving blocks, the force arrows and the points where torques act. The box
-    /// covers the start of the path and its [`TESTED_POSITIONS`] tested positions. Returns `None` if no block moves.
-    /// `marks` are the arrows before the motion.
-    pub fn reach(&self, scene: &Scene, marks: &Marks) -> Option<Bounds> {
-        let places = (0..=TESTED_POSITIONS).map(|place| self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
-        let each = places.filter_map(|displaced| {
-            let blocks = displaced.iter().zip(&scene.blocks);
-            let corners = blocks.filter_map(|(displacement, block)| {
-                let outline = block.body.polygon.outline().iter();
-                let moved = displacement.as_ref()?;
-                Some(outline.map(|p| moved.moved(*p)))
-            });
-            let moved = moved_marks(marks, &displaced);
-            let arrows = moved.arrows.iter();
-            let ends = arrows.flat_map(|arrow| [arrow.at, arrow.at + arrow.reach()]);
-            let ends = ends.chain(moved.turns.iter().map(|turn| turn.at));
-            let points: Vec<Point> = corners.flatten().collect();
-            (!points.is_empty()).then(|| Bounds::from_points(points.into_iter().chain(ends)))?
-        });
-        each.reduce(Bounds::union)
-    }
-
     /// Shortens the paths of groups of blocks, in at most [`MAX_REDUCTIONS`] steps, until no block overlaps another
     /// body at any tested position. Does nothing if more than [`MAX_TESTED_BLOCKS`] blocks move.
-    fn stop_before_overlaps(&mut self, analysis: &Analysis, frame: usize) {
-        let moving: usize = self.groups.iter().map(|g| g.linkage.len()).sum();
+    fn stop_before_overlaps(&mut self, fall: &Fall<'_>) {
+        let moving: usize = self.parts.iter().map(|part| part.linkage.blocks().count()).sum();
         if moving > MAX_TESTED_BLOCKS {
             return;
         }
-        let mut group_of = vec![None; self.blocks];
-        for (number, group) in self.groups.iter().enumerate() {
-            for block in group.linkage.blocks() {
-                group_of[block.0] = Some(number);
-            }
-        }
-        let clearance = Clearance::new(&analysis.scene, &analysis.scene.frames[frame]);
+        let bodies = solid_bodies(fall);
         for _ in 0..MAX_REDUCTIONS {
-            let Some((place, pairs)) = self.first_overlap(&clearance) else {
-                return;
-            };
+            let mut places = 1..=TESTED_POSITIONS;
+            let first = places.find_map(|place| {
+                let blocks = overlapping(&bodies, &self.at(f64::from(place) / f64::from(TESTED_POSITIONS)));
+                (!blocks.is_empty()).then_some((place, blocks))
+            });
+            let Some((place, blocks)) = first else { return };
             let factor = ((f64::from(place) - 0.5) / f64::from(TESTED_POSITIONS)).max(MIN_REDUCTION_FACTOR);
-            let mut reduced: Vec<usize> =
-                pairs.into_iter().flatten().flatten().filter_map(|block| group_of[block.0]).collect();
-            reduced.sort_unstable();
-            reduced.dedup();
-            for number in reduced {
-                self.groups[number].amplitude *= factor;
+            for part in &mut self.parts {
+                if part.linkage.blocks().any(|block| blocks.contains(&block)) {
+                    part.amplitude *= factor;
+                }
             }
         }
-    }
-
-    /// Returns the first position along the path at which bodies overlap, and the pairs of bodies that overlap there.
-    /// The [`TESTED_POSITIONS`] tested positions are numbered from 1. Returns `None` if no bodies overlap at any of
-    /// them.
-    fn first_overlap(&self, clearance: &Clearance<'_>) -> Option<(u32, Vec<clearance::Pair>)> {
-        (1..=TESTED_POSITIONS).find_map(|place| {
-            let displaced = self.at(f64::from(place) / f64::from(TESTED_POSITIONS));
-            let pairs = clearance.overlapping(&displaced);
-            (!pairs.is_empty()).then_some((place, pairs))
-        })
     }
 }
 
-/// Returns the arrows after the displacement of the blocks. The tip of an arrow moves with the point of the block at
-/// which the tip was before. The direction of an arrow does not change.
-pub(crate) fn moved_marks(marks: &Marks, displaced: &[Option<Displacement>]) -> Marks {
-    let way = |on: BodyId, tip: Point| match on {
-        BodyId::Block(id) => {
-            let moved = displaced.get(id.0).and_then(Option::as_ref);
-            moved.map(|moved| moved.moved(tip) - tip)
-        }
-        BodyId::Ground(_) => None,
+/// A body that no other body may overlap: a block, or the ground (`None`).
+type Solid<'a> = (Option<BlockId>, &'a Polygon);
+
+/// Returns the placed blocks and the ground of a frame, without blocks whose outlines are only schematic, because these
+/// may already overlap at rest. Empty if the scene lists its contacts.
+fn solid_bodies<'a>(fall: &Fall<'a>) -> Vec<Solid<'a>> {
+    let scene = fall.scene;
+    if scene.lists_contacts() {
+        return Vec::new();
+    }
+    let blocks = scene.frames[fall.frame].placed.iter().map(|id| (*id, &scene.blocks[id.0].body));
+    let blocks = blocks.filter(|(_, body)| !body.is_schematic).map(|(id, body)| (Some(id), &body.polygon));
+    blocks.chain(scene.ground.iter().map(|ground| (None, &ground.body.polygon))).collect()
+}
+
+/// Returns the blocks that overlap another body by more than [`MAX_OVERLAP`] after the displacement. `displaced` is
+/// indexed by block; blocks beyond the end of the list do not move.
+fn overlapping(bodies: &[Solid<'_>], displaced: &[Option<Displacement>]) -> Vec<BlockId> {
+    let motion = |id: Option<BlockId>| displaced.get(id?.0)?.as_ref();
+    let mut placed: Vec<(Option<BlockId>, Polygon, Bounds)> = Vec::new();
+    for (id, polygon) in bodies {
+        let moved = motion(*id).map_or_else(|| (*polygon).clone(), |displacement| displacement.polygon(polygon));
+        let bounds = moved.bounds();
+        placed.push((*id, moved, bounds));
+    }
+    placed.sort_by(|a, b| a.2.min.x.total_cmp(&b.2.min.x));
+    let share = |a: &Polygon, b: &Polygon| {
+        let common = overlap(&ConvexPieces::new(a), &ConvexPieces::new(b), 0.0);
+        common.map_or(0.0, |common| common.area / a.area().min(b.area()))
     };
-    let mut marks = marks.clone();
-    for arrow in &mut marks.arrows {
-        if let Some(way) = way(arrow.on, arrow.at + arrow.vector) {
-            arrow.at += way;
+    let mut blocks = Vec::new();
+    for (number, (a, one, bounds)) in placed.iter().enumerate() {
+        let near = placed[number + 1..].iter().take_while(|other| other.2.min.x <= bounds.max.x);
+        for (b, other, others) in near {
+            // Two bodies that move together, or that are both at rest, cannot begin to overlap.
+            if motion(*a) != motion(*b) && bounds.intersects(*others) && share(one, other) > MAX_OVERLAP {
+                blocks.extend([a, b].into_iter().flatten());
+            }
         }
     }
-    for turn in &mut marks.turns {
-        if let Some(way) = way(turn.on, turn.at) {
-            turn.at += way;
-        }
-    }
-    marks
+    blocks
 }
 
 /// Returns the amplitude of a group: the displacement, in metres, that a point of speed 1 has at the end of the path.
 /// Overlaps with other blocks are not considered. `unit` is the unit length in metres.
-fn amplitude(analysis: &Analysis, group: &[Motion], unit: f64) -> f64 {
-    let scene = &analysis.scene;
+fn amplitude(scene: &Scene, group: &[Motion], unit: f64) -> f64 {
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
-    let size = group
-        .iter()
-        .map(|m| scene.blocks[m.block.0].body.polygon.bounds())
-        .reduce(Bounds::union)
-        .map_or(0.0, Bounds::diagonal);
+    let bounds = group.iter().map(|m| scene.blocks[m.block.0].body.polygon.bounds());
+    let size = bounds.reduce(Bounds::union).map_or(0.0, Bounds::diagonal);
     if fastest <= 0.0 {
         return 0.0;
     }

@@ -88,7 +88,7 @@ pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) ->
     }
     let pages = match kind.drawer(&options) {
         Drawer::Canvas(figure) => sheet::steps(&analysis, figure, &options, &steps),
-        Drawer::Panels(content) => strip::steps_of(&analysis, content, &options, steps.into_iter()),
+        Drawer::Panels(content) => strip::pages(&analysis, content, &options, steps.iter().map(|step| step.0)),
     };
     pages.into_iter().zip(times).collect()
 }

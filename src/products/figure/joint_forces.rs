@@ -9,6 +9,7 @@ use super::canvas::Canvas;
 use super::content::About;
 use super::description::pair;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::gives::{self, Gives, How};
 use super::option::{Fill, ForceStyle, Normalisation, Options};
 use super::placing::Label;
 use super::sheet::{Figure, View};
@@ -151,7 +152,7 @@ fn tint(theme: &Theme, share: f64) -> Colour {
 }
 
 /// Returns the outline of the mark of a force at `p` along the unit vector `u`. `half` is its half length, pixels.
-fn mark(look: Look, p: PagePoint, u: (f64, f64), half: f64, both: bool) -> Outline {
+pub(crate) fn mark(look: Look, p: PagePoint, u: (f64, f64), half: f64, both: bool) -> Outline {
     let half = half.max(look.mm(TICK));
     let (shaft, wide, long) = if look.large { (0.95, 2.2, 2.1) } else { (0.7, 1.6, 1.6) };
     let head = look.mm(long).min(0.62 * half);
@@ -394,63 +395,21 @@ fn named(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// A hinge, or a joint that slides, in a collapse.
-enum Gives {
-    Hinge(Point),
-    /// The ends of the joint, and the sliding speed of the first body along it.
-    Slip([Point; 2], f64),
-}
-
 /// Draws the hinges and slips of the collapse that the line of the verdict names.
 pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
-    let (found, look, theme) = (canvas.found(), canvas.look, canvas.theme());
+    let found = canvas.found();
     let governing = governing(canvas.scene(), canvas.number, found);
     // The marks of a frame that stands belong to the margin that the line names first.
     let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
-    let gives: Vec<(&Contact, Gives)> = giving(canvas.scene(), found, governing.mechanism);
-    if gives.len() > MAX_COLLAPSE_MARKS {
-        return;
-    }
-    let hinge = |at: PagePoint| {
-        let ring = Stroke::new(theme.ink, look.mm(0.34));
-        vec![Path::filled(Outline::circle(at, look.mm(0.85)), theme.page).with_stroke(ring)]
-    };
-    let slip = |[from, to]: [PagePoint; 2], speed: f64| {
-        let length = libm::hypot(to.x - from.x, to.y - from.y).max(1e-9);
-        let t = ((to.x - from.x) / length, (to.y - from.y) / length);
-        let reach = look.mm(1.6).min(0.4 * length) * speed.signum();
-        let middle = from.moved((to.x - from.x) / 2.0, (to.y - from.y) / 2.0);
-        let lines = [1.0, -1.0].map(|side| {
-            let at = |forward: f64, aside: f64| along(middle, t, forward * side, (look.mm(0.55) + aside) * side);
-            let back = (reach.abs() - look.mm(0.8)) * reach.signum();
-            Outline::line([at(-reach, 0.0), at(reach, 0.0), at(back, look.mm(0.6))])
-        });
-        let path = |width: f64, ink: Colour| {
-            lines.clone().map(|line| Path::stroked(line, Stroke::new(ink, look.mm(width)).mitred()))
-        };
-        [path(0.8, theme.page), path(0.3, theme.ink)].concat()
-    };
-    let start = PagePoint::new(0.0, 0.0);
-    let symbol = hinge(start.moved(look.mm(0.95), 0.0));
-    let hinge_key = Rc::new(Key { rank: 60, words: format!("hinge{at}"), symbol, width: look.mm(1.9) });
-    let symbol = slip([start.moved(-look.mm(0.9), 0.0), start.moved(look.mm(4.1), 0.0)], 1.0);
-    let slip_key = Rc::new(Key { rank: 61, words: format!("slides{at}"), symbol, width: look.mm(3.2) });
-    for (contact, give) in gives {
-        let pair = pair(canvas.scene(), contact.interface.bodies);
-        let (class, shapes, key, title) = match give {
-            Gives::Hinge(at) => ("hinge", hinge(canvas.place(at)), &hinge_key, format!("Hinge between {pair}")),
-            Gives::Slip(ends, speed) => {
-                let ends = ends.map(|end| canvas.place(end));
-                ("slip", slip(ends, speed), &slip_key, format!("Slip between {pair}"))
-            }
-        };
-        canvas.put(Mark::new(Layer::Symbol, class, shapes).titled(title).keyed(key).avoided(look.mm(0.15)));
+    let joints = giving(canvas.scene(), found, governing.mechanism);
+    if joints.len() <= MAX_COLLAPSE_MARKS {
+        gives::draw(canvas, &joints, [format!("hinge{at}"), format!("slides{at}")]);
     }
 }
 
 /// Returns the hinges and slips of a mechanism. A joint end that opens no faster than friction requires is closed: speeds
 /// under 2 % of the largest count as 0, and speeds over 6 % as motion.
-fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> Vec<(&'a Contact, Gives)> {
+fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> Vec<Gives<'a>> {
     let fastest = mechanism.iter().map(|motion| motion.fastest(scene)).fold(0.0, f64::max);
     let (zero, moves) = (0.02 * fastest, 0.06 * fastest);
     let motions: BTreeMap<BodyId, &Motion> = mechanism.iter().map(|m| (BodyId::Block(m.block), m)).collect();
@@ -463,17 +422,13 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> 
         let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * slide[k].abs());
         let closed = opening.map(|speed| speed.abs() < zero);
         let opens = opening.map(|speed| speed > moves);
-        let gives = match (closed, opens) {
-            ([true, _], [_, true]) => Gives::Hinge(interface.ends[0]),
-            ([_, true], [true, _]) => Gives::Hinge(interface.ends[1]),
-            ([true, true], _) if slide[0].abs() > moves => {
-                // The tangent leads from one end to the other; `speed` counts along the ends as they are listed.
-                let along = (interface.ends[1] - interface.ends[0]).dot(&interface.tangent());
-                Gives::Slip(interface.ends, slide[0] * along.signum())
-            }
+        let how = match (closed, opens) {
+            ([true, _], [_, true]) => How::Hinge(interface.ends[0]),
+            ([_, true], [true, _]) => How::Hinge(interface.ends[1]),
+            ([true, true], _) if slide[0].abs() > moves => How::Slip(slide[0], None),
             _ => return None,
         };
-        Some((contact, gives))
+        Some(Gives { contact, how })
     };
     if fastest > 0.0 { found.contacts.iter().filter_map(one).collect() } else { Vec::new() }
 }

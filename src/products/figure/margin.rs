@@ -4,140 +4,180 @@
 //! The options choose the [parameter](Toward). The structure stands for an interval of values of this parameter. Dashed
 //! outlines show how it would fall beyond the end that is nearer to the present state; for the load factor, beyond the
 //! upper end. Hinges and slips are those of this collapse. If gravity is turned or a horizontal load is added, arrows
-//! show the values at both ends ([`gravity`]). Loads are drawn with their present magnitudes.
+//! show the values at both ends. Loads are drawn with their present magnitudes.
 
-mod gravity;
-mod reason;
+use std::rc::Rc;
 
-use gravity::{Gravity, gravity_symbol, push_symbol};
-
-use super::arrow::Marks;
-use super::content::{About, FrameSource, PanelContent};
-use super::context::FigureContext;
+use super::canvas::Canvas;
+use super::content::About;
+use super::design::{ArrowSize, Key, Layer, Mark, around};
 use super::displacement::Course;
-use super::joint::{Joint, joints};
-use super::label;
-use super::legend::{self, Entry};
-use super::mechanism;
-use super::panel::composed;
-use super::pen::Pen;
-use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, Toward, Verdict};
-use crate::pictures::drawing::{Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use super::fall::Fall;
+use super::gives;
+use super::mechanism::{edge_colour, small_block};
+use super::option::Options;
+use super::placing::Label;
+use super::sheet::Figure;
+use super::stage;
+use super::unit::unit;
+use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
+use crate::mechanics::analysis::{Analysis, End, Toward, Verdict};
+use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, Stroke, text};
+use crate::products::wording::margin::{Parameter, stated};
+
+/// Length of the longest of the arrows that show gravity or a horizontal load, mm.
+const GRAVITY_LENGTH: f64 = 10.0;
+/// Distance between these arrows and the structure, mm.
+const GRAVITY_DISTANCE: f64 = 3.0;
 
 /// The figure of a margin.
 pub(crate) struct CollapseMargin;
 
-impl PanelContent for CollapseMargin {
+impl Figure for CollapseMargin {
     fn about(&self) -> About {
         About {
             name: "margin",
             help: "The structure, and how it falls just beyond its margin; --margin selects the margin",
             title: "How far a dry-laid structure is from falling",
             needs_margins: true,
-            lines_cross_names: true,
+            states_own_margin: true,
             ..About::default()
         }
     }
 
-    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let FrameSource { analysis, frame, options } = of;
-        let toward = options.toward;
-        let (ghost, edge) = falling_copy(analysis, frame, toward)?;
-        let gravity = Gravity::new(analysis, frame, edge, toward);
-        let gravity = gravity.and_then(|gravity| Some(Bounds::from_points(gravity.points())?.grown(0.1 * unit)));
-        let reach = mechanism::reach(analysis, &Course::new(&ghost, frame, unit).at(1.0));
-        reach.into_iter().chain(gravity).reduce(Bounds::union)
+    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+        let found = &analysis.frames[frame];
+        let margins = stated(&analysis.scene, found);
+        let margin = margins.iter().find(|margin| margin.parameter == parameter(options.toward));
+        vec![match (margin, options.toward) {
+            (Some(margin), _) => format!("{}: {}", margin.name, margin.stands()),
+            (None, _) if found.margins.is_none() => "its margins were not computed".to_owned(),
+            (None, Toward::LoadFactor) => "it has no loads that could grow".to_owned(),
+            (None, _) => "its margin was not computed".to_owned(),
+        }]
     }
 
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let (context, frame) = (pen.context, pen.number);
-        let mut ink = label::ink(pen);
-        let toward = context.options.toward;
-        let mut parts = Vec::new();
-        if let Some((ghost, edge)) = falling_copy(context.analysis, frame, toward) {
-            parts.push(ghosts(pen, &ghost));
-            parts.extend(mechanism::joint_marks(pen, &ghost, &mut ink));
-            let gravity = Gravity::new(context.analysis, frame, edge, toward);
-            parts.extend(gravity.map(|gravity| gravity.draw(pen, &mut ink)));
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        let (analysis, frame, toward) = (canvas.analysis, canvas.number, canvas.options.toward);
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        stage::held(canvas);
+        stage::loads(canvas);
+        let stands = canvas.found().verdict == Verdict::Stable;
+        let edge = canvas.shared.edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
+        if let Some((edge, motions)) = edge {
+            let fall = Fall::with(analysis, frame, motions);
+            ghosts(canvas, &fall);
+            let words = ["hinge".to_owned(), gives::slip_words(&fall.joints).to_owned()];
+            gives::draw(canvas, &gives::giving(&fall), words);
+            gravity(canvas, *edge);
         }
-        parts.push(pen.arrows(false));
-        composed(pen, view, pen.blocks(), parts, ink)
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, _unit: f64) -> Vec<Entry> {
-        let mut entries = Vec::new();
-        let toward = context.options.toward;
-        let frames = 0..context.analysis.frames.len();
-        let joints: Vec<Vec<Joint>> =
-            frames.filter_map(|frame| Some(joints(&falling_copy(context.analysis, frame, toward)?.0, frame))).collect();
-        if !joints.is_empty() {
-            let ghost = "how it would begin to fall".to_owned();
-            entries.push(Entry::Symbol(ghost_symbol, 20.0, ghost));
-            entries.extend(mechanism::joint_entries(&joints.concat()));
-            entries.extend(parameter_entry(toward));
-        }
-        entries.extend(legend::loads(context));
-        entries.extend(legend::robots(context));
-        entries
-    }
-
-    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        reason::sentence(context.analysis, frame, context.options.toward)
+        stage::names(canvas);
     }
 }
 
-/// Returns the legend entry for the arrows that show the value of the parameter; `None` for the load factor, which has
-/// no such arrows.
-fn parameter_entry(toward: Toward) -> Option<Entry> {
-    let entry =
-        |symbol: fn(PagePoint, &Theme) -> Vec<Item>, words: &str| Some(Entry::Symbol(symbol, 26.0, words.to_owned()));
+/// Converts the parameter of a figure to the parameter of the sentences in [`wording`](crate::products::wording::margin).
+fn parameter(toward: Toward) -> Parameter {
     match toward {
-        Toward::Tilt => entry(gravity_symbol, "direction of gravity at the margin; pale: at its other end"),
-        Toward::HorizontalLoad => {
-            entry(push_symbol, "largest additional load perpendicular to gravity; pale: the other way")
-        }
-        Toward::LoadFactor => None,
+        Toward::Tilt => Parameter::Tilt,
+        Toward::HorizontalLoad => Parameter::HorizontalLoad,
+        Toward::LoadFactor => Parameter::LoadFactor,
     }
 }
 
-/// Returns a copy of the analysis in which the frame falls by the mechanism just beyond the end of the interval that is
-/// nearer to the present state, and the value of the parameter at this end; for the load factor, the upper end. `None`
-/// if the frame does not stand, or if no mechanism is known.
-fn falling_copy(analysis: &Analysis, frame: usize, toward: Toward) -> Option<(Analysis, f64)> {
-    if analysis.frames.get(frame)?.verdict != Verdict::Stable {
-        return None;
-    }
-    let (edge, motions) = analysis.edges(frame, toward).into_iter().next()?;
-    let mut copy = analysis.clone();
-    copy.frames[frame].mechanism = motions;
-    copy.frames[frame].verdict = Verdict::Unstable;
-    Some((copy, edge))
-}
-
-/// Draws the outlines of the blocks of `copy` in their displaced positions. `copy` comes from [`falling_copy`].
-fn ghosts(pen: &Pen<'_>, copy: &Analysis) -> Group {
-    let displaced = Course::new(copy, pen.number, pen.context.unit).at(1.0);
+/// Draws the outlines of the blocks in their displaced positions.
+fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
+    let unit = unit(fall.scene, canvas.options.zoom);
+    let course = &canvas.shared.courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
+    let edge = Stroke::new(edge_colour(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);
     let mut outline = Outline::default();
-    for (block, displacement) in copy.scene.blocks.iter().zip(&displaced) {
-        let Some(displacement) = displacement else {
-            continue;
-        };
-        for ring in block.body.polygon.rings() {
-            let corners = ring.iter().map(|p| pen.camera.place(displacement.moved(*p)));
-            outline.extend(Outline::ring(corners));
+    for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {
+        if let Some(displacement) = displacement {
+            outline.extend(canvas.camera.polygon(&displacement.polygon(&block.body.polygon)));
         }
     }
-    let path = ghost_path(outline, pen.line, &pen.context.options.theme);
-    Group::with_class("ghosts").titled("How it would begin to fall").with(path)
+    let (swatch, width) = small_block(canvas);
+    let symbol = vec![Path::stroked(swatch, edge.clone())];
+    let key = Rc::new(Key { rank: 10, words: "how it begins to fall".into(), symbol, width });
+    let mark = Mark::new(Layer::Force, "ghosts", vec![Path::stroked(outline, edge)]).keyed(&key);
+    canvas.put(mark.titled("How it would begin to fall".into()).avoided(canvas.mm(0.1)));
 }
 
-fn ghost_path(outline: Outline, line: f64, theme: &Theme) -> Path {
-    let edge = theme.motion.mixed(theme.ink, 0.25);
-    Path::stroked(outline, Stroke::new(edge, line.max(0.9)).dashed([5.0, 3.5]))
+/// Draws the arrows to the left of the structure: a dashed line in the present direction of gravity, and the turned
+/// gravity or the additional horizontal load at which the structure begins to fall. A pale arrow shows the value at the
+/// other end of the interval, if it is known. `edge` is the value of the parameter at the margin.
+fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
+    let (theme, toward) = (canvas.theme(), canvas.options.toward);
+    let down = canvas.scene().down();
+    // The vector of an arrow, as a multiple of gravity.
+    let arrow = |value: f64| match toward {
+        Toward::HorizontalLoad => quarter_turn(down) * value,
+        _ => {
+            let (sin, cos) = sin_cos_degrees(value);
+            Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
+        }
+    };
+    let meaning = match toward {
+        Toward::LoadFactor => return,
+        Toward::Tilt => "gravity at the limits",
+        Toward::HorizontalLoad => "horizontal load at the limits",
+    };
+    // The nearer end of the interval is dark, the other one is pale.
+    let values = [Some((edge, theme.ink)), other_end(canvas, edge).map(|other| (other, theme.faint))];
+    let values: Vec<(f64, Colour)> = values.into_iter().flatten().collect();
+    let vectors: Vec<Vector> = values.iter().map(|(value, _)| arrow(*value)).chain([down]).collect();
+    let longest = vectors.iter().map(|v| v.norm()).fold(0.0, f64::max);
+    let scale = canvas.mm(GRAVITY_LENGTH) / longest.max(f64::MIN_POSITIVE);
+    let tip = |from: PagePoint, v: Vector| from.moved(scale * v.x, -scale * v.y);
+    let start = PagePoint::new(0.0, 0.0);
+    let Some(own) = around(vectors.iter().map(|v| tip(start, *v)).chain([start])) else { return };
+    // The amounts stand below the arrows.
+    let size = canvas.look.text * theme.sizes.amount;
+    let words: Vec<String> = values.iter().map(|(value, _)| parameter(toward).value(*value)).collect();
+    let wide = words.iter().map(|words| text::width(words, Face::Sans, size)).fold(own.width, f64::max);
+    let left = canvas.extent().at.x - canvas.mm(GRAVITY_DISTANCE) - wide;
+    let from = PagePoint::new(left + (wide - own.width) / 2.0 - own.at.x, canvas.structure.at.y - own.at.y);
+    let mut below = PagePoint::new(left + wide / 2.0, from.y + own.at.y + own.height + canvas.mm(1.0) + 0.5 * size);
+    let shape = |canvas: &Canvas<'_>, from: PagePoint, v: Vector, scale: f64, ink: Colour| {
+        let (long, u) = (scale * v.norm(), (v.x / v.norm(), -v.y / v.norm()));
+        let head = (canvas.mm(1.5), canvas.mm(1.6).min(0.6 * long));
+        Path::filled(ArrowSize { length: long, shaft: canvas.mm(0.42), head }.outline(from, u), ink)
+    };
+    let now = |canvas: &Canvas<'_>, from: PagePoint, to: PagePoint| {
+        let dashed = Stroke::new(theme.faint, canvas.mm(0.2)).dashed([canvas.mm(0.8), canvas.mm(0.6)]);
+        Path::stroked(Outline::line([from, to]), dashed)
+    };
+    let long = canvas.mm(4.4);
+    let (symbol_from, right) = (start.moved(0.0, canvas.mm(-0.7)), start.moved(0.0, canvas.mm(0.7)));
+    let symbol = vec![
+        now(canvas, symbol_from, symbol_from.moved(long, 0.0)),
+        shape(canvas, right, Vector::new(1.0, 0.0), long, theme.ink),
+    ];
+    let key = Rc::new(Key { rank: 12, words: meaning.into(), symbol, width: long });
+    let mut shapes = vec![now(canvas, from, tip(from, down))];
+    for (value, ink) in values.iter().rev() {
+        if arrow(*value).norm() * scale > canvas.mm(0.3) {
+            shapes.push(shape(canvas, from, arrow(*value), scale, *ink));
+        }
+    }
+    let title = match toward {
+        Toward::HorizontalLoad => format!("In addition to gravity, {} of each weight", words[0]),
+        _ => format!("Gravity turned by {}", words[0]),
+    };
+    canvas.put(Mark::new(Layer::Missing, "gravity", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.2)));
+    for (words, (_, ink)) in words.into_iter().zip(values) {
+        if canvas.options.labels && canvas.options.main_amounts {
+            canvas.label(Label { fixed: Some(below), ..Label::new(words, ink, vec![below], 0) });
+        }
+        below = below.moved(0.0, 1.2 * size);
+    }
 }
 
-fn ghost_symbol(at: PagePoint, theme: &Theme) -> Vec<Item> {
-    let swatch = PageRect { at: at.moved(0.0, -6.5), width: 20.0, height: 13.0 };
-    vec![ghost_path(Outline::rounded(swatch, 0.0), 1.0, theme).into()]
+/// Returns the end of the interval whose sign is opposite to that of `edge`, in the unit of the parameter. Returns
+/// `None` if there is no such end or its value is not known.
+fn other_end(canvas: &Canvas<'_>, edge: f64) -> Option<f64> {
+    let margins = stated(canvas.scene(), canvas.found());
+    let margin = margins.iter().find(|margin| margin.parameter == parameter(canvas.options.toward))?;
+    let ends = [margin.interval.low(), margin.interval.high()].into_iter().flatten();
+    ends.filter_map(End::value).find(|other| *other != edge && other * edge <= 0.0)
 }

@@ -24,12 +24,13 @@ mod design;
 mod dimension;
 mod displacement;
 mod draw;
+mod fall;
 mod fill;
 mod flow;
 mod freebody;
 mod funicular;
 mod gallery;
-mod joint;
+mod gives;
 mod joint_forces;
 mod joint_name;
 mod kernel;
@@ -72,12 +73,10 @@ pub use caption::caption;
 pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use choice::{free_block, named_block};
-#[cfg(feature = "report")]
-pub(crate) use displacement::moving;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
-pub use gallery::{Plate, gallery};
 #[cfg(feature = "report")]
-pub(crate) use joint::{Joint, joints};
+pub(crate) use fall::{Fall, Joint};
+pub use gallery::{Plate, gallery};
 pub use kind::Kind;
 pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};

@@ -106,7 +106,7 @@ impl Surroundings {
         }
         let rings: Vec<Vec<PagePoint>> = marks
             .iter()
-            .filter(|mark| mark.layer == Layer::Stone && mark.class == "block")
+            .filter(|mark| mark.layer == Layer::Stone && ["block", "displaced"].contains(&mark.class))
             .flat_map(|mark| mark.shapes.first())
             .flat_map(|path| rings(&path.outline))
             .collect();

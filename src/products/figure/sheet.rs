@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use super::canvas::{Canvas, Picture, corners};
+use super::canvas::{Canvas, Picture, Shared, corners};
 use super::content::About;
 use super::design::{Key, Look, around};
 use super::option::Options;
@@ -158,6 +158,8 @@ pub(crate) struct Sheet<'a> {
     options: &'a Options,
     look: Look,
     subject: Subject,
+    /// The results of each frame of the analysis that its pictures share.
+    shared: Rc<Vec<Shared>>,
     columns: usize,
     /// Width of the page, pixels.
     width: f64,
@@ -260,7 +262,8 @@ pub(crate) fn steps(
     let ends = sheet.pictures(&frames);
     let page = |(frame, way): &(usize, f64)| {
         let options = Options { motion_progress: *way, ..options.clone() };
-        let sheet = Sheet::new(analysis, figure, &options, Some(&frames));
+        let shared = Rc::clone(&sheet.shared);
+        let sheet = Sheet { shared, ..Sheet::new(analysis, figure, &options, Some(&frames)) };
         let mut pictures = sheet.drawn(&[*frame], ends.zoom);
         // Every page has the space and the position of the end of the motion.
         for (number, picture) in &mut pictures.all {
@@ -335,7 +338,8 @@ impl<'a> Sheet<'a> {
         let is_strip = analysis.frames.len() > 1 && !figure.about().shows_one_block;
         let look = Look::new(options, is_strip);
         let width = options.width.unwrap_or(look.mm(SCREEN_WIDTH));
-        let mut sheet = Sheet { analysis, figure, options, look, subject, columns: 1, width, panel: width };
+        let shared = Rc::new(analysis.frames.iter().map(|_| Shared::default()).collect());
+        let mut sheet = Sheet { analysis, figure, options, look, subject, shared, columns: 1, width, panel: width };
         sheet.columns = sheet.fitting_columns(count);
         sheet.panel = sheet.panel_width(sheet.columns);
         sheet
@@ -405,7 +409,8 @@ impl<'a> Sheet<'a> {
         let most = self.high() / self.subject.bounds.height().max(f64::MIN_POSITIVE);
         let most = most.min(self.largest_zoom());
         let mut zoom = self.first_zoom();
-        let is_crowded = self.options.dimensions || self.figure.about().shows_one_block;
+        let about = self.figure.about();
+        let is_crowded = self.options.dimensions || about.shows_one_block || about.needs_margins;
         let least = if is_crowded { LEAST_CROWDED_ZOOM } else { LEAST_ZOOM } * zoom;
         // Labels do not shrink with the structure, so a step is never large, and the largest scale that fits is kept.
         let mut best: Option<(f64, Pictures)> = None;
@@ -447,7 +452,8 @@ impl<'a> Sheet<'a> {
             .iter()
             .map(|frame| {
                 let shown = (view.structure, zoom);
-                let mut canvas = Canvas::new(self.analysis, *frame, self.options, look, shown, scale);
+                let of = (*frame, &self.shared[*frame]);
+                let mut canvas = Canvas::new(self.analysis, of, self.options, look, shown, scale);
                 canvas.window = self.subject.is_cut.then_some(canvas.structure);
                 self.figure.draw(&mut canvas);
                 if self.options.dimensions {

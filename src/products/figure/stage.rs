@@ -109,11 +109,14 @@ fn hatched(canvas: &Canvas<'_>, edge: &Edge) -> Vec<Path> {
     ]
 }
 
-/// Draws the placed blocks in pale colours, and the outlines of the planned ones.
+/// Draws the placed blocks that are not displaced in pale colours, and the outlines of the planned ones.
 pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let width = canvas.mm(if canvas.look.large { 0.22 } else { 0.16 });
     for (place, id) in canvas.frame().placed.iter().enumerate() {
+        if canvas.displacement(*id).is_some() {
+            continue;
+        }
         let (block, fill) = (&scene.blocks[id.0], canvas.fill(place, *id));
         let outline = canvas.camera.polygon(&block.body.polygon);
         let mut edge = Stroke::new(theme.outline, width);
@@ -182,8 +185,10 @@ pub(crate) fn names(canvas: &mut Canvas<'_>) {
     let theme = canvas.theme();
     for (place, id) in canvas.frame().placed.iter().enumerate() {
         let (block, fill) = (&canvas.scene().blocks[id.0], canvas.fill(place, *id));
-        let at = vec![canvas.place(block.body.polygon.centroid())];
-        let inside = Some(canvas.camera.rect(block.body.polygon.bounds()));
+        let at = vec![canvas.place_on(BodyId::Block(*id), block.body.polygon.centroid())];
+        let polygon = &block.body.polygon;
+        let bounds = canvas.displacement(*id).map_or(polygon.bounds(), |moved| moved.polygon(polygon).bounds());
+        let inside = Some(canvas.camera.rect(bounds));
         canvas.label(Label { inside, ..Label::new(block.id.clone(), theme.letters_on(fill, None), at, 90) });
     }
 }
@@ -216,7 +221,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             one_load(canvas, load, scale, &key, load.force.norm() >= least);
         }
         if load.torque != 0.0 {
-            let at = canvas.place(load.at);
+            let at = canvas.place_on(BodyId::Block(load.block), load.at);
             let units = scene.units.torque();
             let on = scene.name(BodyId::Block(load.block));
             let title =
@@ -226,7 +231,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             let here = turns.filter(|other| other.torque != 0.0 && (other.at - load.at).norm() < 1e-6).count();
             let radius = 2.6 + 1.5 * here as f64;
             let mark = torque(canvas, at, load.torque, (radius, 0.45), ink);
-            canvas.put(Mark::new(Layer::Load, "load", mark).titled(title).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Load, "torque", mark).titled(title).avoided(canvas.mm(0.2)));
             let side = at.moved(canvas.mm(radius + 0.4), 0.0);
             amount(canvas, quantity(load.torque.abs(), units), ink, (vec![side], 0), Some((0.0, -1.0)));
         }
@@ -250,6 +255,8 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has
     let stone = |from: f64, to: f64| stone_length(canvas, [along(at, u, from, 0.0), along(at, u, to, 0.0)]);
     let (before, after) = (stone(-length, -canvas.mm(0.05)), stone(canvas.mm(0.05), length));
     let ends = before <= after + canvas.mm(0.3);
+    // The side is that of the block where it stands; the arrow moves with the block.
+    let at = canvas.place_on(BodyId::Block(load.block), load.at);
     let tail = if ends { along(at, u, -length, 0.0) } else { at };
     let outline = ArrowSize { length, ..load_size(canvas) }.outline(tail, u);
     let mut shapes = vec![hollow(canvas, outline, ink)];
@@ -341,7 +348,7 @@ pub(crate) fn turning(torque: f64, amount: String) -> String {
 /// Draws the disc of a robot on its grip point.
 fn disc(canvas: &mut Canvas<'_>, hold: &Hold) {
     let (scene, edge) = (canvas.scene(), Stroke::new(canvas.theme().ink, canvas.mm(0.22)));
-    let outline = Outline::circle(canvas.place(hold.at), canvas.mm(1.35));
+    let outline = Outline::circle(canvas.place_on(BodyId::Block(hold.block), hold.at), canvas.mm(1.35));
     let disc = Path::filled(outline, canvas.theme().robot(hold.robot.0)).with_stroke(edge);
     let title = format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);
     canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
@@ -416,7 +423,7 @@ pub(crate) fn held(canvas: &mut Canvas<'_>) {
         let ink = theme.letters_on(theme.page, Some(theme.robot(hold.robot.0)));
         if canvas.options.labels {
             let name = scene.robots[hold.robot.0].id.clone();
-            canvas.label(Label::new(name, ink, vec![canvas.place(hold.at)], 2));
+            canvas.label(Label::new(name, ink, vec![canvas.place_on(BodyId::Block(hold.block), hold.at)], 2));
         }
     }
 }

@@ -2,5 +2,5 @@
 
 pub use crate::products::wording::number::quantity;
 pub(crate) use crate::products::wording::number::{
-    FULL_UTILISATION, counted, degrees, force, letter, listed, percent, round_below, round_below_in,
+    FULL_UTILISATION, counted, force, letter, listed, percent, round_below, round_below_in,
 };

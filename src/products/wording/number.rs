@@ -100,12 +100,6 @@ pub fn force(force: Vector, units: UnitsEntry) -> String {
     format!("{} at {degrees:.0}°", quantity(force.norm(), units.force()))
 }
 
-/// Writes an angle, given in degrees, with one decimal below 10°, and otherwise without decimals: `5.3°`, `12°`.
-pub fn degrees(angle: f64) -> String {
-    let decimals = if angle.abs() < 9.95 { 1 } else { 0 };
-    format!("{angle:.decimals$}°")
-}
-
 /// Writes a ratio in whole percent: `97 %`. Only a ratio of at least [`FULL_UTILISATION`] is written as `100 %`, and
 /// only a ratio of at most 1 − `FULL_UTILISATION` as `0 %`. Other ratios that round to these values are written as
 /// `over 99 %` or `under 1 %`.

@@ -252,5 +252,5 @@ fn a_long_strip_is_split_into_pages_and_a_margin_has_a_direction() {
     let ran = bench.run("render stands.json --kind margin --margin horizontal-load -o push.svg");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("push.svg")).expect("drawn");
-    assert!(svg.contains("falls once pushed by "), "{svg}");
+    assert!(svg.contains("horizontal load, as a share of the weights: "), "{svg}");
 }

@@ -1,7 +1,7 @@
 //! [`Plan`]: computes the positions of the polygon of forces and of the small pictures of mechanisms, in metres.
 
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion};
 use crate::products::figure::view;
 
 /// Length at which the largest force is drawn if the polygon is at the loaded point, as a fraction of the size of the
@@ -196,14 +196,6 @@ impl<'a> Plan<'a> {
         };
         numbers.iter().enumerate().map(small).collect()
     }
-}
-
-/// Returns a copy of the analysis in which the frame is unstable and falls by this mechanism.
-pub(super) fn falling(analysis: &Analysis, frame: usize, mechanism: &[Motion]) -> Analysis {
-    let mut changed = analysis.clone();
-    changed.frames[frame].mechanism = mechanism.to_vec();
-    changed.frames[frame].verdict = Verdict::Unstable;
-    changed
 }
 
 /// Returns the box around the blocks of all frames, in metres. Returns `None` if there are no blocks.

@@ -8,12 +8,11 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::joint::Joint;
-use super::group::rigid_bodies;
-use super::rigid::Displacement;
-use crate::geometry::{Point, Vector, quarter_turn};
-use crate::mechanics::analysis::{Analysis, Motion};
+use super::Displacement;
+use crate::geometry::{Point, Vector};
+use crate::mechanics::analysis::Motion;
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::products::figure::fall::{Fall, Joint};
 
 /// Joints are not closed if there are more bodies than this, because closing them would take longer than the drawing.
 const MAX_BODIES: usize = 40;
@@ -21,12 +20,15 @@ const MAX_BODIES: usize = 40;
 const MAX_STEPS: usize = 12;
 /// Largest gap of a joint that counts as closed, as a fraction of the length scale of the frame.
 const CLOSURE_TOL: f64 = 1e-7;
-/// Largest accepted correction of a body's position, as a fraction of the largest displacement. With a larger
-/// correction, the joints cannot be closed sensibly, and the bodies keep the positions without correction.
-const MAX_CORRECTION: f64 = 1.0;
+/// Largest accepted correction of the positions, as a fraction of the displacements. With a larger correction, the joints
+/// cannot be closed sensibly (some linkages are locked, so only the position at rest would close them), and the bodies
+/// keep the positions without correction.
+const MAX_CORRECTION: f64 = 0.5;
 /// Number that is added to each diagonal entry of the matrix, relative to the largest of these entries. Redundant
 /// equations would make the matrix singular.
 const REGULARIZATION: f64 = 1e-10;
+/// The step of the difference quotients of Newton's method, as a fraction of the length scale of the frame.
+const STEP: f64 = 1e-6;
 
 /// A condition of a closed joint.
 #[derive(Clone, Copy, Debug)]
@@ -56,55 +58,48 @@ struct Member {
     centre: Point,
 }
 
-/// A group of connected blocks that move.
+/// A group of connected blocks that move. The positions of its bodies are a vector with three numbers for each body: the
+/// translation of its centre in metres, and its rotation in radians times `length`.
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     members: Vec<Member>,
     links: Vec<Link>,
-    /// The length in metres by which angles are multiplied, so that they have the unit of translations.
+    /// The length scale of the frame in metres.
     length: f64,
-}
-
-/// The displacement of a body from its original position: the translation of its centre in metres, and its rotation in
-/// radians.
-#[derive(Clone, Copy, Debug)]
-struct Pose {
-    way: Vector,
-    angle: f64,
 }
 
 impl Linkage {
     /// Creates the linkage of the moving blocks in `group`. It contains the conditions of every joint of these blocks
-    /// at which the two bodies stay in contact. `joints` are all joints of the frame.
-    pub fn new(analysis: &Analysis, frame: usize, joints: &[Joint], group: &[Motion]) -> Linkage {
-        let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[frame]);
+    /// at which the two bodies stay in contact.
+    pub fn new(fall: &Fall<'_>, group: &[Motion]) -> Linkage {
         let within = |body: &Vec<Motion>| body.iter().any(|m| group.iter().any(|g| g.block == m.block));
-        let bodies = rigid_bodies(analysis, frame, joints).into_iter().filter(within);
-        let members: Vec<Member> = bodies.map(|body| member(scene, &body)).collect();
+        let member = |body: Vec<Motion>| Member {
+            blocks: body.iter().map(|m| m.block).collect(),
+            motion: body[0],
+            centre: fall.scene.blocks[body[0].block.0].centroid,
+        };
+        let members: Vec<Member> = fall.rigid_bodies().into_iter().filter(within).map(member).collect();
         let mut number_of: BTreeMap<BlockId, usize> = BTreeMap::new();
         for (number, member) in members.iter().enumerate() {
             number_of.extend(member.blocks.iter().map(|block| (*block, number)));
         }
         let mut links = Vec::new();
-        for joint in joints {
-            let interface = &frame_analysis.contacts[joint.contact].interface;
+        for joint in &fall.joints {
+            let interface = &fall.found.contacts[joint.contact].interface;
             let bodies = interface.bodies.map(|body| match body {
                 BodyId::Block(block) => number_of.get(&block).copied(),
                 BodyId::Ground(_) => None,
             });
-            if bodies[0] == bodies[1] {
-                continue;
+            if bodies[0] != bodies[1] {
+                let conditions = conditions(fall.scene, interface.bodies, interface.normal, joint);
+                let link = |(is_turned, condition)| {
+                    let [a, b] = bodies;
+                    Link { bodies: if is_turned { [b, a] } else { bodies }, condition }
+                };
+                links.extend(conditions.into_iter().map(link));
             }
-            links.extend(conditions(scene, interface.bodies, interface.normal, joint).into_iter().map(
-                |(turned, condition)| Link { bodies: if turned { [bodies[1], bodies[0]] } else { bodies }, condition },
-            ));
         }
-        Linkage { members, links, length: frame_analysis.length.max(f64::MIN_POSITIVE) }
-    }
-
-    /// Returns the number of blocks in the linkage.
-    pub fn len(&self) -> usize {
-        self.blocks().count()
+        Linkage { members, links, length: fall.found.length.max(f64::MIN_POSITIVE) }
     }
 
     /// Returns the blocks of the linkage.
@@ -116,156 +111,92 @@ impl Linkage {
     /// joints stay closed if Newton's method finds such positions. Otherwise the displacement of every rigid body
     /// follows from its own velocity and spin alone, and joints may open.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
-        let start: Vec<Pose> = self
-            .members
-            .iter()
-            .map(|member| Pose {
-                way: Displacement::new(&member.motion, member.centre, amplitude).translation(),
-                angle: amplitude * member.motion.spin,
-            })
-            .collect();
+        let poses = self.members.iter().flat_map(|member| {
+            let way = Displacement::along(&member.motion, member.centre, amplitude).translation;
+            [way.x, way.y, amplitude * member.motion.spin * self.length]
+        });
+        let start = DVector::from_iterator(3 * self.members.len(), poses);
         let poses = self.closed(&start).unwrap_or(start);
-        let mut displaced = Vec::new();
-        for (member, pose) in self.members.iter().zip(poses) {
-            let displacement = Displacement::from_pose(member.centre, pose.angle, pose.way);
-            displaced.extend(member.blocks.iter().map(|block| (*block, displacement)));
-        }
-        displaced
+        let one = |(number, member): (usize, &Member)| {
+            let displacement = self.displacement(number, &poses);
+            member.blocks.iter().map(|block| (*block, displacement)).collect::<Vec<_>>()
+        };
+        self.members.iter().enumerate().flat_map(one).collect()
     }
 
-    /// Returns positions and rotations of the bodies near `start` for which all joints are closed. Returns `None` if
-    /// there are no joints or too many bodies, or if Newton's method does not find such positions.
-    fn closed(&self, start: &[Pose]) -> Option<Vec<Pose>> {
+    fn displacement(&self, number: usize, poses: &DVector<f64>) -> Displacement {
+        let pose = poses.rows(3 * number, 3);
+        Displacement::new(self.members[number].centre, pose[2] / self.length, Vector::new(pose[0], pose[1]))
+    }
+
+    /// Returns positions of the bodies near `start` for which all joints are closed. Returns `None` if there are no
+    /// joints or too many bodies, or if Newton's method does not find such positions.
+    fn closed(&self, start: &DVector<f64>) -> Option<DVector<f64>> {
         if self.links.is_empty() || self.members.len() > MAX_BODIES {
             return None;
         }
-        let mut poses = start.to_vec();
+        let mut poses = start.clone();
         for _ in 0..MAX_STEPS {
-            let (rows, gaps) = self.equations(&poses);
+            let (rows, gaps) = self.equations(&mut poses);
             if gaps.amax() <= CLOSURE_TOL * self.length {
-                let far = |(pose, start): (&Pose, &Pose)| (pose.way - start.way).norm();
-                let correction = poses.iter().zip(start).map(far).fold(0.0, f64::max);
-                let way = start.iter().map(|p| p.way.norm() + p.angle.abs() * self.length);
-                let way = way.fold(0.0, f64::max);
-                return (correction <= MAX_CORRECTION * way).then_some(poses);
+                let correction = (&poses - start).norm();
+                return (correction <= MAX_CORRECTION * start.norm()).then_some(poses);
             }
             let mut square = &rows * rows.transpose();
             let ridge = REGULARIZATION * square.diagonal().amax().max(f64::MIN_POSITIVE);
             for i in 0..square.nrows() {
                 square[(i, i)] += ridge;
             }
-            let multipliers = square.cholesky()?.solve(&gaps);
-            let step = rows.transpose() * multipliers;
-            for (number, pose) in poses.iter_mut().enumerate() {
-                pose.way -= Vector::new(step[3 * number], step[3 * number + 1]);
-                pose.angle -= step[3 * number + 2] / self.length;
-            }
+            poses -= rows.transpose() * square.cholesky()?.solve(&gaps);
         }
         None
     }
 
-    /// Returns the Jacobian matrix of all joint conditions, and the residual of each condition in metres. The matrix
-    /// has three columns for each body: x, y, and angle × [`Linkage::length`].
-    fn equations(&self, poses: &[Pose]) -> (DMatrix<f64>, DVector<f64>) {
-        let count = self.links.iter().map(|link| match link.condition {
-            Condition::Hinge(_) => 2,
-            Condition::OnLine(..) | Condition::Parallel => 1,
-        });
-        let mut system = System {
-            rows: DMatrix::zeros(count.sum(), 3 * self.members.len()),
-            gaps: DVector::zeros(0),
-            length: self.length,
-        };
-        system.gaps = DVector::zeros(system.rows.nrows());
-        let mut row = 0;
+    /// Returns the Jacobian matrix of all joint conditions, from central differences, and the gap of each condition in
+    /// metres. The positions are unchanged afterwards.
+    fn equations(&self, poses: &mut DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
+        let step = STEP * self.length;
+        let (mut gaps, mut entries) = (Vec::new(), Vec::new());
         for link in &self.links {
-            row += self.add(link, poses, row, &mut system);
+            let first_row = gaps.len();
+            gaps.extend(self.gaps(link, poses));
+            for column in link.bodies.into_iter().flatten().flat_map(|body| 3 * body..3 * body + 3) {
+                let here = poses[column];
+                let [before, after] = [-step, step].map(|step| {
+                    poses[column] = here + step;
+                    self.gaps(link, poses)
+                });
+                poses[column] = here;
+                for (number, (after, before)) in after.iter().zip(before).enumerate() {
+                    entries.push((first_row + number, column, (after - before) / (2.0 * step)));
+                }
+            }
         }
-        (system.rows, system.gaps)
+        let mut rows = DMatrix::zeros(gaps.len(), poses.len());
+        for (row, column, value) in entries {
+            rows[(row, column)] = value;
+        }
+        (rows, DVector::from_vec(gaps))
     }
 
-    /// Writes the linearized equations of a link into `system`, starting at the row `row`. Returns the number of
-    /// equations.
-    fn add(&self, link: &Link, poses: &[Pose], row: usize, system: &mut System) -> usize {
-        let [first, second] = link.bodies;
+    /// Returns the gaps of a joint in metres.
+    fn gaps(&self, link: &Link, poses: &DVector<f64>) -> Vec<f64> {
+        let moved = link.bodies.map(|body| body.map(|number| self.displacement(number, poses)));
+        let gap = |at: Point| {
+            let [first, second] = moved.map(|body| body.map_or(at, |displacement| displacement.moved(at)));
+            first - second
+        };
         match link.condition {
-            Condition::Hinge(point) => {
-                let gap = self.place(first, poses, point) - self.place(second, poses, point);
-                for (number, axis) in [Vector::x(), Vector::y()].into_iter().enumerate() {
-                    system.gaps[row + number] = gap.dot(&axis);
-                    for (body, sign) in [(first, 1.0), (second, -1.0)] {
-                        let arm = self.arm(body, poses, point);
-                        system.add(row + number, body, axis * sign, arm);
-                    }
-                }
-                2
-            }
-            Condition::OnLine(point, normal) => {
-                let angle = second.map_or(0.0, |body| poses[body].angle);
-                let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-                let normal = normal * cos + quarter_turn(normal) * sin;
-                let way = self.place(first, poses, point) - self.place(second, poses, point);
-                system.gaps[row] = normal.dot(&way);
-                system.add(row, first, normal, self.arm(first, poses, point));
-                // The line belongs to the second body and turns with it about its centre.
-                let arm = self.arm(second, poses, point) + way;
-                system.add(row, second, -normal, arm);
-                1
+            Condition::Hinge(at) => gap(at).iter().copied().collect(),
+            Condition::OnLine(at, normal) => {
+                let normal = moved[1].map_or(normal, |displacement| displacement.turned(normal));
+                vec![normal.dot(&gap(at))]
             }
             Condition::Parallel => {
-                let angle = |body: Option<usize>| body.map_or(0.0, |body| poses[body].angle);
-                system.gaps[row] = (angle(first) - angle(second)) * self.length;
-                for (body, sign) in [(first, 1.0), (second, -1.0)] {
-                    if let Some(body) = body {
-                        system.rows[(row, 3 * body + 2)] += sign;
-                    }
-                }
-                1
+                let [first, second] = link.bodies.map(|body| body.map_or(0.0, |number| poses[3 * number + 2]));
+                vec![first - second]
             }
         }
-    }
-
-    /// Returns the vector from the centre of a displaced body to one of its points, metres. `point` is the position of
-    /// this point before the displacement. The vector is zero for a body at rest.
-    fn arm(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Vector {
-        body.map_or(Vector::zeros(), |body| {
-            let (centre, pose) = (self.members[body].centre, poses[body]);
-            Displacement::from_pose(centre, pose.angle, pose.way).turned(point - centre)
-        })
-    }
-
-    /// Returns the displaced position of a point of a body, metres. `body` is `None` for a body at rest.
-    fn place(&self, body: Option<usize>, poses: &[Pose], point: Point) -> Point {
-        body.map_or(point, |body| self.members[body].centre + poses[body].way + self.arm(Some(body), poses, point))
-    }
-}
-
-/// The Jacobian matrix of all joint conditions and their residuals in metres.
-struct System {
-    rows: DMatrix<f64>,
-    gaps: DVector<f64>,
-    length: f64,
-}
-
-impl System {
-    /// Adds to a row the derivatives of a point's position in the direction `along` with respect to the pose of its
-    /// body. `arm` is the vector from the centre of the body to the point.
-    fn add(&mut self, row: usize, body: Option<usize>, along: Vector, arm: Vector) {
-        let Some(body) = body else {
-            return;
-        };
-        self.rows[(row, 3 * body)] += along.x;
-        self.rows[(row, 3 * body + 1)] += along.y;
-        self.rows[(row, 3 * body + 2)] += along.dot(&quarter_turn(arm)) / self.length;
-    }
-}
-
-fn member(scene: &Scene, body: &[Motion]) -> Member {
-    let first = body[0];
-    Member {
-        blocks: body.iter().map(|m| m.block).collect(),
-        motion: first,
-        centre: scene.blocks[first.block.0].centroid,
     }
 }
 
@@ -279,18 +210,15 @@ fn conditions(scene: &Scene, bodies: [BodyId; 2], normal: Vector, joint: &Joint)
     if joint.slip == 0.0 || joint.lift != 0.0 {
         return Vec::new();
     }
-    match joint.touch {
+    let Some(at) = joint.touch else {
         // The bodies slide along their whole interface, so they stay parallel.
-        None => vec![(false, Condition::Parallel), (false, Condition::OnLine(joint.at, normal))],
-        // A corner of one body slides along an edge of the other body.
-        Some(at) => {
-            let is_corner = |body: BodyId| {
-                let mut corners = scene.body(body).polygon.rings().iter().flatten();
-                let near = 1e-6 * scene.body(body).polygon.bounds().diagonal();
-                corners.any(|corner| (corner - at).norm() <= near)
-            };
-            let turned = !is_corner(bodies[0]) && is_corner(bodies[1]);
-            vec![(turned, Condition::OnLine(at, normal))]
-        }
-    }
+        return vec![(false, Condition::Parallel), (false, Condition::OnLine(joint.at, normal))];
+    };
+    // A corner of one body slides along an edge of the other body.
+    let is_corner = |body: BodyId| {
+        let polygon = &scene.body(body).polygon;
+        let near = 1e-6 * polygon.bounds().diagonal();
+        polygon.rings().iter().flatten().any(|corner| (corner - at).norm() <= near)
+    };
+    vec![(!is_corner(bodies[0]) && is_corner(bodies[1]), Condition::OnLine(at, normal))]
 }

@@ -87,22 +87,9 @@ pub(crate) fn pages(
     options: &Options,
     frames: impl Iterator<Item = usize>,
 ) -> Vec<Drawing> {
-    let steps = frames.map(|frame| (frame, options.motion_progress));
-    steps_of(analysis, content, options, steps)
-}
-
-/// Like [`pages`], with a page for each pair of a frame and a fraction. The fraction, from 0 to 1, states how far the
-/// blocks have moved along their paths.
-pub(crate) fn steps_of(
-    analysis: &Analysis,
-    content: &'static dyn PanelContent,
-    options: &Options,
-    steps: impl Iterator<Item = (usize, f64)>,
-) -> Vec<Drawing> {
-    let mut context = FigureContext::new(analysis, options, content);
+    let context = FigureContext::new(analysis, options, content);
     let mut pages: Vec<Drawing> = Vec::new();
-    for (frame, path_share) in steps {
-        context.move_blocks(path_share);
+    for frame in frames {
         let strip = Strip { content, context: &context, layout: Layout::new(&context, 1), captions: None, alike: true };
         pages.push(page(&[&strip], &[(0, frame)], &analysis.scene.title));
     }

@@ -4,7 +4,7 @@
 use super::joints::name;
 use crate::mechanics::analysis::{Analysis, End, FALLS, FrameAnalysis, Interval, Motion, STANDS, Toward, Verdict};
 use crate::mechanics::scene::Scene;
-use crate::products::figure::{Joint, joints, moving};
+use crate::products::figure::{Fall, Joint};
 use crate::products::wording::failure::{shortened, unsupported_phrase};
 use crate::products::wording::margin::{Parameter, Position, StatedMargin, stated};
 use crate::products::wording::number::{counted, listed, place, three, three_down, three_up};
@@ -71,10 +71,8 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
     if mechanism.is_empty() {
         return None;
     }
-    let mut moved = analysis.alone(number)?;
-    moved.frames[0].mechanism = mechanism.to_vec();
+    let fall = Fall::with(analysis, number, mechanism);
     let (scene, contacts) = (&analysis.scene, &analysis.frames[number].contacts);
-    let moving_joints = joints(&moved, 0);
     let at = |joint: &&Joint| {
         let contact = &contacts[joint.contact];
         match joint.hinge {
@@ -85,9 +83,9 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
             None => name(scene, contact),
         }
     };
-    let hinges: Vec<String> = moving_joints.iter().filter(|j| j.hinge.is_some()).map(|j| at(&j)).collect();
+    let hinges: Vec<String> = fall.joints.iter().filter(|j| j.hinge.is_some()).map(|j| at(&j)).collect();
     let sliding = |tips: bool| -> Vec<String> {
-        let slides = moving_joints.iter();
+        let slides = fall.joints.iter();
         let slides = slides.filter(|j| j.slip != 0.0 && j.touch.is_some() == tips);
         slides.map(|j| at(&j)).collect()
     };
@@ -98,7 +96,7 @@ fn collapse(analysis: &Analysis, number: usize, mechanism: &[Motion]) -> Option<
         format!("{count}: {}", listed(&shortened(joints, MAX_NAMED)))
     });
     let said: Vec<String> = said.collect();
-    let moving = moving(&moved, 0).count();
+    let moving = fall.moving().count();
     let verb = if moving == 1 { "moves" } else { "move" };
     let blocks = format!("{} {verb}", counted(moving, "block"));
     Some(if said.is_empty() { blocks } else { format!("{blocks}, with {}", said.join(", and ")) })

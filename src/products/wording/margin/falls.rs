@@ -1,19 +1,14 @@
-//! [`falls_headline`] describes what a falling frame lacks to stand, for example which fraction of its load it
+//! [`lack`] describes what a falling frame lacks to stand, for example which fraction of its load it
 //! carries.
 
 use super::super::number::NO_BREAK;
 use super::confirmed;
 use super::list::friction;
-use crate::mechanics::analysis::{FALLS, FrameAnalysis, Interval, Verdict};
+use crate::mechanics::analysis::{FrameAnalysis, Interval, Verdict};
 use crate::mechanics::scene::Scene;
 
-/// Describes what a falling frame lacks to stand: `falls: carries 33 % of its load`. Returns `None` if the frame
-/// stands or is undecided, or if no computed margin shows what is lacking.
-pub fn falls_headline(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
-    lack(scene, frame_analysis).map(|lack| format!("{FALLS}: {lack}"))
-}
-
-/// Describes what a falling frame lacks to stand, as [`falls_headline`] does, without the verdict.
+/// Describes what a falling frame lacks to stand: `carries 33 % of its load`. Returns `None` if the frame stands or is
+/// undecided, or if no computed margin shows what is lacking.
 pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
     if frame_analysis.verdict != Verdict::Unstable {
         return None;

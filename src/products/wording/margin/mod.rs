@@ -8,7 +8,6 @@ mod governing;
 mod list;
 mod range;
 
-pub use falls::falls_headline;
 pub use governing::governing;
 pub use list::stated;
 pub use range::stands;
@@ -52,7 +51,7 @@ impl Parameter {
     }
 
     /// Writes a value of the parameter with its unit. A signed value has its direction instead of a sign: `5° left`.
-    pub(in crate::products::wording) fn value(self, value: f64) -> String {
+    pub(in crate::products) fn value(self, value: f64) -> String {
         if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
             return amount(value, unit);
         }

@@ -1,0 +1,117 @@
+//! Draws the joints that give way in a collapse: a ring at a hinge, and two half arrows at a joint that slides.
+
+use std::rc::Rc;
+
+use super::canvas::Canvas;
+use super::description::pair;
+use super::design::{Key, Layer, Mark, along};
+use super::fall::{Fall, Joint};
+use crate::geometry::Point;
+use crate::mechanics::analysis::Contact;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+
+/// The ranks of the two entries of the legend.
+const HINGE_RANK: u8 = 60;
+const SLIP_RANK: u8 = 61;
+/// Half the length of the arrows of a slip, mm.
+const SLIP_REACH: f64 = 1.6;
+
+/// A joint of a collapse.
+pub(crate) struct Gives<'a> {
+    pub contact: &'a Contact,
+    pub how: How,
+}
+
+/// How a joint gives way.
+pub(crate) enum How {
+    /// The joint opens about this point.
+    Hinge(Point),
+    /// The joint slides: the sliding speed of the first body along the tangent, and the corner on which it also tips.
+    Slip(f64, Option<Point>),
+}
+
+/// Returns the hinges and the slips of a fall.
+pub(crate) fn giving<'a>(fall: &Fall<'a>) -> Vec<Gives<'a>> {
+    let one = |joint: &Joint| {
+        let how = match joint.hinge {
+            Some(at) => How::Hinge(at),
+            None if joint.slip != 0.0 => How::Slip(joint.slip, joint.touch),
+            None => return None,
+        };
+        Some(Gives { contact: &fall.found.contacts[joint.contact], how })
+    };
+    fall.joints.iter().filter_map(one).collect()
+}
+
+/// Returns what the legend says about the slips of these joints.
+pub(crate) fn slip_words(joints: &[Joint]) -> &'static str {
+    let slides = || joints.iter().filter(|joint| joint.slip != 0.0);
+    let tips = slides().filter(|joint| joint.touch.is_some()).count();
+    match () {
+        () if slides().any(|joint| joint.lift != 0.0) => "slides, lifted by friction × distance",
+        () if tips == 0 => "slides along its joint",
+        () if tips < slides().count() => "slides; some joints also tip",
+        () => "slides on a corner, and tips",
+    }
+}
+
+/// Draws the hinges and slips of a collapse on the bodies, where these are drawn. `words` explain a hinge and a slip.
+pub(crate) fn draw(canvas: &mut Canvas<'_>, joints: &[Gives<'_>], words: [String; 2]) {
+    let [hinge_words, slip_words] = words;
+    let start = PagePoint::new(0.0, 0.0);
+    let symbol = ring(canvas, start.moved(canvas.mm(0.95), 0.0));
+    let hinge_key = Rc::new(Key { rank: HINGE_RANK, words: hinge_words, symbol, width: canvas.mm(1.9) });
+    let reach = canvas.mm(SLIP_REACH);
+    let symbol = half_arrows(canvas, start.moved(reach, 0.0), [(1.0, 0.0); 2], reach);
+    let slip_key = Rc::new(Key { rank: SLIP_RANK, words: slip_words, symbol, width: 2.0 * reach });
+    for Gives { contact, how } in joints {
+        let interface = &contact.interface;
+        // A point of a joint is drawn halfway between its positions on the two bodies.
+        let place = |at: Point| {
+            let [a, b] = interface.bodies.map(|body| canvas.place_on(body, at));
+            a.moved((b.x - a.x) / 2.0, (b.y - a.y) / 2.0)
+        };
+        let pair = pair(canvas.scene(), interface.bodies);
+        let (class, shapes, key, title) = match *how {
+            How::Hinge(at) => ("hinge", ring(canvas, place(at)), &hinge_key, format!("Hinge between {pair}")),
+            How::Slip(speed, touch) => {
+                let tangents = interface.bodies.map(|body| canvas.turn_on(body, interface.tangent()));
+                let long = canvas.camera.length(interface.length());
+                let reach = canvas.mm(SLIP_REACH);
+                let reach = if touch.is_none() && long > 0.0 { reach.min(0.4 * long) } else { reach };
+                let at = place(touch.unwrap_or(interface.middle()));
+                let shapes = half_arrows(canvas, at, tangents, reach * speed.signum());
+                let what = if touch.is_some() { "Slip and tilt" } else { "Slip" };
+                ("slip", shapes, &slip_key, format!("{what} between {pair}"))
+            }
+        };
+        let mark = Mark::new(Layer::Symbol, class, shapes).titled(title).keyed(key);
+        canvas.put(mark.avoided(canvas.mm(0.15)));
+    }
+}
+
+/// Draws the ring of a hinge.
+fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Vec<Path> {
+    let (theme, edge) = (canvas.theme(), canvas.mm(0.34));
+    vec![Path::filled(Outline::circle(at, canvas.mm(0.85)), theme.page).with_stroke(Stroke::new(theme.ink, edge))]
+}
+
+/// Draws the two half arrows of a slip. The tangents of the joint on the two bodies are unit vectors on the page, with
+/// the first body to their right. `reach` is half the length of an arrow, negative if the first body slides against its
+/// tangent.
+fn half_arrows(canvas: &Canvas<'_>, at: PagePoint, tangents: [(f64, f64); 2], reach: f64) -> Vec<Path> {
+    let theme = canvas.theme();
+    // The arrows at short joints are small.
+    let small = (reach.abs() / canvas.mm(SLIP_REACH)).clamp(0.45, 1.0);
+    let line = |(side, t): (f64, (f64, f64))| {
+        let at = |forward: f64, aside: f64| along(at, t, forward * side, canvas.mm(small * (0.55 + aside)) * side);
+        let back = (reach.abs() - canvas.mm(0.8 * small)) * reach.signum();
+        Outline::line([at(-reach, 0.0), at(reach, 0.0), at(back, 0.6)])
+    };
+    let lines = [1.0, -1.0].into_iter().zip(tangents).map(line);
+    let drawn = |width: f64, ink: Colour| {
+        let stroke = Stroke::new(ink, canvas.mm(width)).mitred();
+        lines.clone().map(move |line| Path::stroked(line, stroke.clone())).collect::<Vec<Path>>()
+    };
+    [drawn(0.8, theme.page), drawn(0.3, theme.ink)].concat()
+}
