@@ -299,8 +299,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
         assert!((amount / length - scale).abs() < 0.01 * scale, "{}: {length} pixels", ray.title);
     }
     // The weights and loads form a polyline from the tip of the first ray to the tip of the last ray.
-    let loads = all(&drawing, "load");
-    let loads: Vec<&Group> = loads.into_iter().filter(|l| l.title.contains(" on block ")).collect();
+    let loads = all(&drawing, "load-line");
     let (first, last) = (line(loads[0])[0], line(loads[loads.len() - 1])[1]);
     for (end, ray) in [(first, rays[0]), (last, rays[rays.len() - 1])] {
         let tip = line(ray)[1];
@@ -308,7 +307,7 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
     }
     for width in [397.0, 823.0] {
         let drawing = figure::draw(&analysis, Kind::Thrust, &options.clone().width(width));
-        for group in all(&drawing, "polygon") {
+        for group in all(&drawing, "labels") {
             for text in crate::labels::texts(group) {
                 let [left, top, right, bottom] = crate::labels::ink(&text);
                 let inside = left >= 0.0 && top >= 0.0;

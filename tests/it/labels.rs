@@ -194,10 +194,13 @@ fn names(text: &str, name: &str) -> bool {
 }
 
 /// Kinds that write a name only where it has room, and name no block below the picture.
-const ON_CANVAS: [figure::Kind; 11] = [
+const ON_CANVAS: [figure::Kind; 14] = [
     figure::Kind::Forces,
     figure::Kind::Build,
     figure::Kind::Flow,
+    figure::Kind::Thrust,
+    figure::Kind::Capacity,
+    figure::Kind::Compare,
     figure::Kind::Mechanism,
     figure::Kind::Margin,
     figure::Kind::Sensitivity,

@@ -95,7 +95,7 @@ fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
         let words: Vec<&str> = amounts.iter().map(|a| a.1.as_str()).collect();
         let expected: Vec<String> = (1..=12).map(|k| format!("{k} kN")).collect();
         // On a canvas, leaders lead to the amounts that have no room in the row.
-        if matches!(kind, Kind::Forces | Kind::Flow | Kind::Mechanism) {
+        if matches!(kind, Kind::Forces | Kind::Flow | Kind::Thrust | Kind::Mechanism) {
             assert!(words.len() == 12 && expected.iter().all(|load| words.contains(&load.as_str())), "{words:?}");
         } else {
             assert_eq!(words, expected, "{kind:?}");
@@ -116,7 +116,7 @@ fn the_amounts_of_loads_in_a_row_are_in_the_order_of_the_loads() {
 fn a_name_that_another_block_could_have_has_a_leader() {
     let (mut outside, mut with_leader) = (0, 0);
     for (name, scene) in contributed() {
-        let drawing = drawn(&scene, Kind::Thrust, COLUMN);
+        let drawing = drawn(&scene, Kind::Flow, COLUMN);
         for (panel, frame) in classes(&drawing.items, &["picture"]).iter().zip(scene.frames()) {
             let camera = panel.camera.expect("a picture has one");
             for label in classes(&panel.items, &["name"]) {
@@ -176,7 +176,7 @@ fn lines_of(drawing: &Drawing, wanted: &str) -> Vec<String> {
 
 #[test]
 fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
-    let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Thrust, COLUMN);
+    let posts = drawn(&scene("tests/scenes/loaded.json"), Kind::Flow, COLUMN);
     assert_eq!(lines_of(&posts, "left post"), ["left", "post"]);
     let spelled = "U+4E2D\u{a0}6587\u{a0}77F3\u{a0}5934";
     let text = format!(
@@ -185,7 +185,7 @@ fn a_name_of_several_words_is_broken_if_one_line_has_no_room() {
                         {{ "id": "one\u00a0name", "polygon": [[5,0],[5.6,0],[5.6,2],[5,2]] }}] }}"#
     );
     let scene = Scene::from_json(&text).expect("sound");
-    let drawing = drawn(&scene, Kind::Thrust, COLUMN);
+    let drawing = drawn(&scene, Kind::Flow, COLUMN);
     // The code points stand for characters that no font has, and lines break between them. Lines do not break at a
     // no-break space of the author.
     let lines = lines_of(&drawing, &spelled.replace('\u{a0}', ""));

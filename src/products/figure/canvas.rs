@@ -11,7 +11,7 @@ use super::displacement::{Course, Displacement};
 use super::option::Options;
 use super::placing::{self, Label, Surroundings};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, ThrustStates};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::{Camera, Colour, Group, Item, PagePoint, PageRect, Path, Theme};
 
@@ -21,13 +21,15 @@ const MANY_BLOCKS: usize = 1000;
 /// A shape is only joined to one of this many paths before it, so that a picture of many colours takes linear time.
 const JOINED_PATHS: usize = 64;
 
-/// Results of one frame that take long. All pictures of the frame share them.
+/// Results of one frame that take long. All pictures of the figure share them.
 #[derive(Default)]
 pub(crate) struct Shared {
     /// The paths of the blocks in the collapses that the figure shows.
     pub courses: OnceCell<Vec<Course>>,
     /// The value of the parameter of the options at which the frame begins to fall, and the motion there.
     pub edge: OnceCell<Option<(f64, Vec<Motion>)>>,
+    /// The extremes between which the forces of the frame may lie.
+    pub thrust: OnceCell<ThrustStates>,
 }
 
 /// The picture of one frame while a kind of figure draws it.
@@ -36,7 +38,8 @@ pub(crate) struct Canvas<'a> {
     /// The index of the frame, from 0.
     pub number: usize,
     pub options: &'a Options,
-    pub shared: &'a Shared,
+    /// The results of every frame that the pictures share.
+    pub shared: &'a [Shared],
     pub camera: Camera,
     pub look: Look,
     /// The length of a force in the one scale of the figure, pixels per newton.
@@ -50,6 +53,8 @@ pub(crate) struct Canvas<'a> {
     /// The displacements of the blocks, indexed by block; `None` for a block that is drawn where it stands. The list may
     /// be shorter than the number of blocks.
     pub displaced: Vec<Option<Displacement>>,
+    /// The words after the verdict, if the figure finds them while it draws.
+    pub words: Option<Vec<String>>,
     marks: Vec<Mark>,
     labels: Vec<Label>,
     notes: Vec<Rc<Key>>,
@@ -64,6 +69,8 @@ pub(crate) struct Picture {
     pub keys: Vec<Rc<Key>>,
     /// What a screen reader says about the picture; empty for only the verdict.
     pub description: String,
+    /// The words after the verdict, if the figure found them while it drew.
+    pub words: Option<Vec<String>>,
     /// A list below the picture, centred at x = 0 below y = 0, and its height, pixels.
     pub list: (Group, f64),
 }
@@ -72,7 +79,7 @@ impl<'a> Canvas<'a> {
     /// Creates an empty canvas on which `view` (metres) begins at (0, 0), with `zoom` pixels per metre.
     pub fn new(
         analysis: &'a Analysis,
-        (number, shared): (usize, &'a Shared),
+        (number, shared): (usize, &'a [Shared]),
         options: &'a Options,
         look: Look,
         (view, zoom): (Bounds, f64),
@@ -81,7 +88,7 @@ impl<'a> Canvas<'a> {
         let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
         let structure = camera.rect(view);
         let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
-        let (window, displaced, fills) = (None, Vec::new(), Vec::new());
+        let (window, displaced, fills, words) = (None, Vec::new(), Vec::new(), None);
         Canvas {
             analysis,
             number,
@@ -94,6 +101,7 @@ impl<'a> Canvas<'a> {
             fills,
             window,
             displaced,
+            words,
             marks,
             labels,
             notes,
@@ -125,6 +133,11 @@ impl<'a> Canvas<'a> {
     /// Converts a point of the scene to its position on the canvas.
     pub fn place(&self, point: Point) -> PagePoint {
         self.camera.place(point)
+    }
+
+    /// Returns the results of this frame that its pictures share.
+    pub fn own(&self) -> &'a Shared {
+        &self.shared[self.number]
     }
 
     /// Returns the displacement of a block; `None` if it is drawn where it stands.
@@ -245,7 +258,7 @@ impl<'a> Canvas<'a> {
         if !placed.items.is_empty() {
             group.items.push(Group { items: placed.items, ..Group::with_class("labels") }.into());
         }
-        Picture { group, extent, keys, description: String::new(), list: (Group::default(), 0.0) }
+        Picture { group, extent, keys, description: String::new(), words: self.words, list: (Group::default(), 0.0) }
     }
 }
 

@@ -4,7 +4,7 @@
 //! A kind of figure is a type that implements the trait in a separate file, usually without fields;
 //! [`Kind`](super::Kind) lists all kinds. New kinds implement [`Figure`](super::sheet::Figure) instead.
 
-use core::cell::{Cell, OnceCell};
+use core::cell::Cell;
 
 use super::arrow::Marks;
 use super::context::FigureContext;
@@ -148,7 +148,6 @@ impl<'a> FigureContext<'a> {
             displaced: vec![Vec::new(); marks.len()],
             marks,
             statements: Vec::new(),
-            thrust: OnceCell::new(),
             cramped: Cell::new(0),
         };
         context.statements = frames.map(|frame| content.reason(&context, frame)).collect();

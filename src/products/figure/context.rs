@@ -1,7 +1,7 @@
 //! [`FigureContext`]: the data that all panels of a figure share, such as the unit length, the view, the colours and
 //! the arrows of each frame. The code in `content.rs` computes this data.
 
-use core::cell::{Cell, OnceCell};
+use core::cell::Cell;
 
 use super::arrow::{ArrowKind, ForceArrow, MIN_VISIBLE_ARROW, Marks};
 use super::displacement::Displacement;
@@ -9,7 +9,7 @@ use super::fill::{FillScale, Fills};
 use super::option::Options;
 use super::view;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, ThrustStates};
+use crate::mechanics::analysis::Analysis;
 
 /// In frames with more blocks than this, shapes of one colour are drawn as one path without tooltips. Thousands of
 /// elements would make a file slow to open.
@@ -46,22 +46,12 @@ pub(crate) struct FigureContext<'a> {
     pub displaced: Vec<Vec<Option<Displacement>>>,
     /// The text below the verdict of each frame.
     pub statements: Vec<String>,
-    /// The extreme thrust states of all frames; computed when they are first needed.
-    pub thrust: OnceCell<Vec<ThrustStates>>,
     /// The sum of the penalties of badly placed labels so far. An amount, or a name that the text mentions, adds 100 if
     /// it has no free position. Another label adds 1 if it is left out, lies inside another block, or leaves its row.
     pub cramped: Cell<usize>,
 }
 
 impl<'a> FigureContext<'a> {
-    /// Returns the extreme thrust states of a frame. The forces of the frame may vary between these states. The first
-    /// call computes the states of all frames.
-    pub fn thrust_states(&self, frame: usize) -> &ThrustStates {
-        let frames = 0..self.analysis.frames.len();
-        let all = || frames.map(|frame| self.analysis.thrust_states(frame)).collect();
-        &self.thrust.get_or_init(all)[frame]
-    }
-
     /// Returns this context with more space around the content of each frame: `across` metres on the left and on the
     /// right, `up` metres above, and `down` metres below. No space is added below if ground is visible at the lower
     /// edge.

@@ -64,7 +64,7 @@ impl Figure for CollapseMargin {
         stage::held(canvas);
         stage::loads(canvas);
         let stands = canvas.found().verdict == Verdict::Stable;
-        let edge = canvas.shared.edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
+        let edge = canvas.own().edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
         if let Some((edge, motions)) = edge {
             let fall = Fall::with(analysis, frame, motions);
             ghosts(canvas, &fall);
@@ -88,7 +88,7 @@ fn parameter(toward: Toward) -> Parameter {
 /// Draws the outlines of the blocks in their displaced positions.
 fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     let unit = unit(fall.scene, canvas.options.zoom);
-    let course = &canvas.shared.courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
+    let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
     let edge = Stroke::new(edge_colour(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);
     let mut outline = Outline::default();
     for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {

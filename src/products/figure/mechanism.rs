@@ -65,7 +65,7 @@ impl Figure for Mechanism {
     fn draw(&self, canvas: &mut Canvas<'_>) {
         let (analysis, frame) = (canvas.analysis, canvas.number);
         let unit = unit(canvas.scene(), canvas.options.zoom);
-        let courses = canvas.shared.courses.get_or_init(|| vec![Course::new(&Fall::of(analysis, frame), unit)]);
+        let courses = canvas.own().courses.get_or_init(|| vec![Course::new(&Fall::of(analysis, frame), unit)]);
         canvas.displaced = courses[0].at(canvas.options.motion_progress);
         stage::ground(canvas);
         stage::blocks(canvas);

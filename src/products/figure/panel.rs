@@ -3,38 +3,13 @@
 
 use super::label::{self, Callout};
 use super::pen::Pen;
-use super::unit::unit;
-use super::view;
-use crate::geometry::{Bounds, Point};
+use crate::geometry::Bounds;
 use crate::pictures::drawing::placement::Ink;
 use crate::pictures::drawing::{Group, Item};
 
-/// Cuts off the ground of a picture beyond the right and the lower edge of [`view::ground_shown`], so that marks beyond
-/// these edges do not seem to stand on the ground.
-pub(crate) fn cut_ground(pen: &Pen<'_>, picture: &mut Group) {
-    let scene = &pen.context.analysis.scene;
-    let Some(shown) = view::ground_shown(scene, unit(scene, None)) else {
-        return;
-    };
-    let corner = pen.camera.place(Point::new(shown.max.x, shown.min.y));
-    for item in &mut picture.items {
-        if let Item::Group(group) = item
-            && group.class == "ground"
-            && let Some(clip) = &mut group.clip
-        {
-            clip.width = clip.width.min(corner.x - clip.at.x).max(0.0);
-            clip.height = clip.height.min(corner.y - clip.at.y).max(0.0);
-        }
-    }
-}
-
 /// Composes the picture of a frame: ground, `blocks`, planned blocks, robots, `marks`, and labels that do not cover
-/// `ink`. `view` is the shown part of the scene in metres; ground outside it is cut off.
-pub(crate) fn composed(pen: &Pen<'_>, view: Bounds, blocks: Group, marks: Vec<Group>, ink: Ink) -> Group {
-    composed_with(pen, view, blocks, marks, Vec::new(), ink)
-}
-
-/// Like [`composed`], with additional texts (`callouts`), which are placed before other labels.
+/// `ink`; additional texts (`callouts`) are placed before other labels. `view` is the shown part of the scene in metres;
+/// ground outside it is cut off.
 pub(crate) fn composed_with(
     pen: &Pen<'_>,
     view: Bounds,

@@ -452,7 +452,7 @@ impl<'a> Sheet<'a> {
             .iter()
             .map(|frame| {
                 let shown = (view.structure, zoom);
-                let of = (*frame, &self.shared[*frame]);
+                let of = (*frame, &self.shared[..]);
                 let mut canvas = Canvas::new(self.analysis, of, self.options, look, shown, scale);
                 canvas.window = self.subject.is_cut.then_some(canvas.structure);
                 self.figure.draw(&mut canvas);
@@ -547,7 +547,8 @@ impl Shown<'_> {
 
     /// Returns the words after the verdict.
     fn words(&self) -> Vec<String> {
-        self.sheet.figure.words(self.sheet.analysis, self.frame, self.sheet.options)
+        let words = || self.sheet.figure.words(self.sheet.analysis, self.frame, self.sheet.options);
+        self.picture.words.clone().unwrap_or_else(words)
     }
 
     /// Describes a frame in a sentence, for screen readers.

@@ -30,6 +30,8 @@ const TORQUE_START: f64 = -core::f64::consts::PI / 3.0;
 /// carries a joint, the ground is drawn as a shape.
 pub(crate) fn ground(canvas: &mut Canvas<'_>) {
     let scene = canvas.scene();
+    let blocks = shown_blocks(scene).into_iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
+    let structure = blocks.reduce(Bounds::union).map_or(canvas.structure, |bounds| canvas.camera.rect(bounds));
     for (number, ground) in scene.ground.iter().enumerate() {
         let body = BodyId::Ground(number);
         let touches = |edge: &Edge| {
@@ -42,10 +44,9 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
         };
         let edges: Vec<Edge> = ground.body.polygon.edges().filter(touches).collect();
         if edges.is_empty() || scene.lattice.is_some() {
-            let near = canvas.structure;
             let bounds = canvas.camera.rect(ground.body.polygon.bounds());
             // Ground that carries nothing and lies far away does not make the picture larger.
-            if scene.lattice.is_some() && overlaps(bounds, near, canvas.mm(12.0)) {
+            if scene.lattice.is_some() && overlaps(bounds, structure, canvas.mm(12.0)) {
                 let outline = canvas.camera.polygon(&ground.body.polygon);
                 let fill = ground.body.fill.map_or(canvas.theme().ground, colour);
                 let mark = Mark::new(Layer::Ground, "earth", vec![Path::filled(outline, fill)]);
@@ -53,7 +54,7 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
             }
             continue;
         }
-        let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, edge)).collect();
+        let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, edge, structure)).collect();
         let mark = Mark::new(Layer::Ground, "earth", shapes);
         canvas.put(mark.titled("Ground".into()).avoided(0.0));
     }
@@ -67,15 +68,15 @@ fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
 }
 
 /// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. A nearly horizontal edge
-/// ends 3 mm beyond the blocks.
-fn hatched(canvas: &Canvas<'_>, edge: &Edge) -> Vec<Path> {
+/// ends 3 mm beyond the `structure`.
+fn hatched(canvas: &Canvas<'_>, edge: &Edge, structure: PageRect) -> Vec<Path> {
     let theme = canvas.theme();
     let [mut from, mut to] = [edge.from, edge.to].map(|p| canvas.place(p));
     if (to.y - from.y).abs() < (to.x - from.x).abs() {
-        let (left, beyond) = (canvas.structure.at.x, canvas.mm(3.0));
+        let (left, beyond) = (structure.at.x, canvas.mm(3.0));
         let window = PageRect {
             at: PagePoint::new(left - beyond, from.y.min(to.y) - 1.0),
-            width: canvas.structure.width + 2.0 * beyond,
+            width: structure.width + 2.0 * beyond,
             height: (to.y - from.y).abs() + 2.0,
         };
         if let Some(part) = window.part_of([from, to]) {

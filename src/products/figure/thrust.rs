@@ -3,45 +3,58 @@
 //! [`segments`] computes the line in each block, along true lines of action. If there is no single line of action in a
 //! block, a lighter line connects the joints; the legend calls it schematic. The line therefore runs from support to
 //! support without gaps. Of a frame that falls, the line is that of the forces with the missing forces; where a joint
-//! would have to pull, it leaves the stone.
+//! would have to pull, it leaves the stone. Of a frame that stands on two supports, thin lines show the least and the
+//! greatest thrust. H is the horizontal thrust at the crown.
 
 mod chain;
 mod fan;
 mod leaving;
-mod line;
-mod state;
 
 use std::borrow::Cow;
+use std::rc::Rc;
 
-use fan::Fans;
 use leaving::{left_at, with_missing_forces};
-use line::{carried_colour, colour, dot_symbol, dots, left_symbol, lines, schematic_colour, seams, widest, width};
-use state::{central_thrust_text, has_many_lines, limit_entries, limits, other_figures_note, uniqueness_note};
 
-use super::arrow::Marks;
-use super::content::{About, FrameSource, PanelContent};
-use super::context::FigureContext;
-use super::funicular::segments;
-use super::label;
-use super::legend::{self, Entry};
-use super::option::ArrowScale;
-use super::panel::composed;
-use super::pen::Pen;
+use super::bearing::bearings;
+use super::canvas::Canvas;
+use super::content::About;
+use super::description;
+use super::design::{Key, Layer, Mark};
+use super::funicular::{ForceOrigin, ThrustSegment, segments};
+use super::option::Options;
+use super::sheet::{Figure, Subject};
+use super::stage;
+use super::unit::unit;
 use super::verdict;
-use super::words::quantity;
-use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, ThrustStates, Verdict};
-use crate::pictures::drawing::Group;
+use super::words::{force, quantity};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
+use crate::mechanics::scene::BodyId;
+use crate::mechanics::statics::interface::ContactKind;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use chain::chains;
+
+/// The width of the line of thrust for the largest force in unit lengths, with its least and largest value in mm.
+const WIDEST: (f64, f64, f64) = (0.13, 0.34, 1.2);
+/// Width of the line for a force of zero, as a fraction of the width for the largest force.
+const MIN_WIDTH_SHARE: f64 = 0.22;
+/// The number of different widths in frames with very many blocks, in which all lines of one width are one path.
+const WIDTH_STEPS: f64 = 8.0;
+/// Width of the lines of least and of greatest thrust, mm, and their dashes.
+const LIMIT_WIDTH: f64 = 0.24;
+const LIMIT_DASHES: [[f64; 2]; 2] = [[1.3, 0.55], [0.37, 0.45]];
+/// Length of a line in the legend, mm.
+const KEY_LENGTH: f64 = 4.8;
 
 /// The figure of the line of thrust.
 pub(crate) struct ThrustLine;
 
-impl PanelContent for ThrustLine {
+impl Figure for ThrustLine {
     fn about(&self) -> About {
         About {
             name: "thrust",
             help: "The line of thrust through the blocks",
             title: "The line of thrust in a dry-laid structure",
+            states_own_margin: true,
             ..About::default()
         }
     }
@@ -51,146 +64,42 @@ impl PanelContent for ThrustLine {
         if frames.any(|frame| analysis.thrust_states(frame).least.is_some()) { &[MarginKind::Kernel] } else { &[] }
     }
 
-    fn extent(&self, of: FrameSource<'_>, unit: f64, _marks: &Marks) -> Option<Bounds> {
-        let FrameSource { analysis, frame, options } = of;
-        if analysis.frames[frame].verdict == Verdict::Unstable {
-            let scene = &analysis.scene;
-            let segments = segments(scene, &scene.frames[frame], &with_missing_forces(&analysis.frames[frame]));
-            return Some(Bounds::from_points(segments.iter().flat_map(|s| [s.from, s.to]))?.grown(0.2 * unit));
+    fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
+        let mut subject = Subject::structure(analysis, options, frames);
+        if options.with_polygon && !subject.is_cut {
+            subject.bounds.max.x += fan::WIDTH_SHARE * subject.bounds.width().max(subject.bounds.height());
         }
-        if !options.with_polygon {
-            return None;
-        }
-        let states = analysis.thrust_states(frame);
-        Some(fans(analysis, frame, &states, unit)?.bounds)
+        subject
     }
 
-    fn picture(&self, pen: &Pen<'_>, view: Bounds) -> Group {
-        let (context, frame, camera) = (pen.context, pen.number, pen.camera);
-        let scene = &context.analysis.scene;
-        let frame_analysis = &context.analysis.frames[frame];
-        let family = context.thrust_states(frame);
-        let frame_analysis = &*shown(family, frame_analysis);
-        let segments = segments(scene, &scene.frames[frame], frame_analysis);
-        let mut ink = label::ink(pen);
-        for segment in &segments {
-            let [from, to] = [segment.from, segment.to].map(|p| camera.place(p));
-            ink.line(from, to, width(pen, segment) + 1.0);
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        let (scene, states) = (canvas.scene(), states(canvas, canvas.number));
+        let found = shown(states, canvas.found());
+        let segments = segments(scene, canvas.frame(), &found);
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        limits(canvas, states);
+        let keys = Keys::new(canvas, segments.iter().any(|segment| segment.through));
+        lines(canvas, &found, &segments, &keys);
+        dots(canvas, &found, &keys);
+        stage::held(canvas);
+        stage::loads(canvas);
+        let has_fan = canvas.options.with_polygon && found.verdict == Verdict::Stable && fan::draw(canvas, &found);
+        stage::names(canvas);
+        if canvas.options.with_polygon && !has_fan {
+            canvas.note(81, "no force polygon: no chain of blocks has a horizontal thrust");
         }
-        let seams = seams(pen, frame_analysis);
-        let [least, greatest] = limits(pen, family, &mut ink);
-        let dots = dots(pen, frame_analysis, &mut |at, radius| ink.disc(at, radius + 1.0));
-        let lines = lines(pen, scene, frame_analysis, &segments);
-        let loads = pen.arrows(false);
-        let fans =
-            if context.options.with_polygon { fans(context.analysis, frame, family, context.unit) } else { None };
-        let theme = &context.options.theme;
-        let polygon = fans.map(|fans| fans.draw(scene, frame_analysis, camera, theme, &mut ink));
-        let marks = [seams, least, greatest, lines, dots, loads];
-        let marks = marks.into_iter().chain(polygon).collect();
-        composed(pen, view, pen.blocks(), marks, ink)
-    }
-
-    fn entries(&self, context: &FigureContext<'_>, unit: f64) -> Vec<Entry> {
-        let (scene, theme) = (&context.analysis.scene, &context.options.theme);
-        let frames = scene.frames.iter().zip(&context.analysis.frames);
-        let (mut through, mut schematic, mut falls, mut leaves) = (false, false, false, false);
-        for (number, (frame, frame_analysis)) in frames.enumerate() {
-            let state = shown(context.thrust_states(number), frame_analysis);
-            let segments = segments(scene, frame, &state);
-            leaves |= state.contacts.iter().any(|contact| left_at(contact).is_some());
-            match frame_analysis.verdict {
-                Verdict::Stable => {
-                    through |= segments.iter().any(|s| s.through);
-                    schematic |= segments.iter().any(|s| !s.through);
-                }
-                _ => falls |= !segments.is_empty(),
-            }
+        if states.central.is_some() {
+            canvas.note(80, "other figures: forces of least sum");
         }
-        let mut entries = Vec::new();
-        if context.options.scale == ArrowScale::Strip {
-            entries.extend(legend::shared_scale(context, unit));
-        }
-        let largest = quantity(largest(context), context.analysis.scene.units.force());
-        if through {
-            let line = line_text(context, &largest);
-            entries.push(Entry::Line(colour(theme), widest(unit), line));
-        }
-        if falls {
-            let mut frames = context.analysis.frames.iter();
-            let any_falls = frames.any(|frame| frame.verdict == Verdict::Unstable);
-            let line = if any_falls { "line of thrust with the missing forces" } else { "forces found" };
-            let line = format!("{line}; this width shows {largest}");
-            entries.push(Entry::Line(carried_colour(theme), widest(unit), line));
-        }
-        if through || schematic || falls {
-            let dot = if context.options.is_column() { "resultant" } else { "where a joint's resultant acts" };
-            entries.push(Entry::Symbol(dot_symbol, 8.0, dot.to_owned()));
-            entries.extend(limit_entries(context));
-        }
-        if leaves {
-            entries.push(Entry::Symbol(left_symbol, 10.0, "the line leaves the stone".to_owned()));
-        }
-        if schematic {
-            // Only one entry of the legend explains what the width of the line means.
-            let width = (!through && !falls).then_some(&*largest);
-            let what = schematic_text(context, width);
-            entries.push(Entry::Line(schematic_colour(theme), widest(unit), what));
-        }
-        if context.options.with_polygon {
-            entries.push(Entry::Note(polygon_note(context).to_owned()));
-        }
-        entries.extend(legend::robots(context));
-        entries
-    }
-
-    fn reason(&self, context: &FigureContext<'_>, frame: usize) -> String {
-        let (scene, frame_analysis) = (&context.analysis.scene, &context.analysis.frames[frame]);
-
-        let why = verdict::reason(scene, frame_analysis);
-        match frame_analysis.verdict {
-            Verdict::Stable => {
-                let state =
-                    other_figures_note(context, frame).or_else(|| uniqueness_note(context, frame).map(str::to_owned));
-                let parts = [Some(why).filter(|why| !why.is_empty()), state];
-                parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
-            }
-            Verdict::Unstable => {
-                let state = shown(context.thrust_states(frame), frame_analysis);
-                match state.contacts.iter().filter(|contact| left_at(contact).is_some()).count() {
-                    0 => "the line of thrust needs the missing forces".into(),
-                    1 => "the line of thrust leaves the stone at one joint".into(),
-                    count => format!("the line of thrust leaves the stone at {count} joints"),
-                }
-            }
-            Verdict::Undecided => format!("no line of thrust is proved; {why}"),
-        }
+        canvas.words = Some(words(canvas, &found));
     }
 }
 
-/// Returns the text of the legend for schematic lines. `largest` is the force that the width of the thickest line shows;
-/// `None` if another entry states it.
-fn schematic_text(context: &FigureContext<'_>, largest: Option<&str>) -> String {
-    let shows = largest.map_or_else(String::new, |largest| format!(" (this width shows {largest})"));
-    if context.options.is_column() {
-        format!("schematic{shows}: no single line of action in the block")
-    } else {
-        format!("schematic{shows}: no single line of action runs through the block")
-    }
-}
-
-/// Returns the text of the legend for the line of thrust of frames that stand: which forces it shows, and the force
-/// that the thickest line shows (`largest`).
-fn line_text(context: &FigureContext<'_>, largest: &str) -> String {
-    let mut frames = 0..context.analysis.frames.len();
-    match central_thrust_text(context) {
-        Some(thrust) if thrust.is_empty() => format!("most central line; this width shows {largest}"),
-        Some(thrust) => format!("most central line, {thrust}; this width shows {largest}"),
-        None if frames.any(|frame| has_many_lines(context, frame)) => {
-            format!("line of thrust of the forces of least sum; this width shows {largest}")
-        }
-        None => format!("line of thrust; this width shows {largest}"),
-    }
+/// Returns the extreme thrust states of a frame.
+fn states<'a>(canvas: &Canvas<'a>, frame: usize) -> &'a ThrustStates {
+    let analysis = canvas.analysis;
+    canvas.shared[frame].thrust.get_or_init(|| analysis.thrust_states(frame))
 }
 
 /// Returns the forces whose line of thrust the figure shows: the most central forces, those farthest from the ends of
@@ -204,36 +113,243 @@ fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> Cow<'a, Fram
     }
 }
 
-/// Returns the magnitude of the largest force of a joint or a robot in any panel, N.
-fn largest(context: &FigureContext<'_>) -> f64 {
-    let given = context.analysis.frames.iter().enumerate();
-    let frames = given.map(|(number, frame_analysis)| shown(context.thrust_states(number), frame_analysis));
-    let frames: Vec<Cow<'_, FrameAnalysis>> = frames.collect();
-    let contacts = frames.iter().flat_map(|f| &f.contacts);
-    let robots = frames.iter().flat_map(|f| &f.robots);
-    let forces = contacts.map(|c| c.resultant.force).chain(robots.map(|r| r.force));
-    forces.map(|f| f.norm()).fold(0.0, f64::max)
+/// Returns the words after the verdict.
+fn words(canvas: &Canvas<'_>, shown: &FrameAnalysis) -> Vec<String> {
+    let (scene, found, states) = (canvas.scene(), canvas.found(), states(canvas, canvas.number));
+    let why = verdict::reason(scene, found);
+    let parts = |words: String| if words.is_empty() { Vec::new() } else { vec![words] };
+    let state = match found.verdict {
+        Verdict::Undecided => return vec![format!("no line of thrust is proved; {why}")],
+        Verdict::Unstable => {
+            return vec![match shown.contacts.iter().filter(|contact| left_at(contact).is_some()).count() {
+                0 => "the line of thrust needs the missing forces".into(),
+                1 => "the line of thrust leaves the stone at one joint".into(),
+                count => format!("the line of thrust leaves the stone at {count} joints"),
+            }];
+        }
+        Verdict::Stable if states.central.is_some() => return [thrusts(canvas, states), parts(why)].concat(),
+        // A panel that shows one of many lines says so, if the legend does not.
+        Verdict::Stable if !has_many_lines(canvas, canvas.number) => None,
+        Verdict::Stable if shows_central(canvas) => Some("the line shown belongs to the forces of least sum".into()),
+        Verdict::Stable if states.supports > 2 => Some("more than two supports: no single horizontal thrust".into()),
+        Verdict::Stable => None,
+    };
+    state.into_iter().chain(parts(why)).collect()
 }
 
-/// Returns the force polygon for the line of thrust that the figure shows. Returns `None` if the frame does not stand,
-/// or if no chain of blocks has a horizontal thrust. `unit` is the unit length in metres.
-fn fans(analysis: &Analysis, frame: usize, states: &ThrustStates, unit: f64) -> Option<Fans> {
-    let scene = &analysis.scene;
-    let frame_analysis = &analysis.frames[frame];
-    let shown = shown(states, frame_analysis);
-    (frame_analysis.verdict == Verdict::Stable).then(|| Fans::new(scene, &scene.frames[frame], &shown, unit)).flatten()
+/// States the horizontal thrust H at the crown: that of the line shown, and the least and the greatest. If loads act
+/// sideways between crown and supports, the thrust at the supports follows. Empty in a figure of several frames.
+fn thrusts(canvas: &Canvas<'_>, states: &ThrustStates) -> Vec<String> {
+    let scene = canvas.scene();
+    let [frame] = &scene.frames[..] else { return Vec::new() };
+    let amount = |newtons: f64| quantity(newtons, scene.units.force());
+    let crown = |state: &ThrustState| Some(chains(scene, frame, &state.frame).first()?.crown_thrust);
+    let stated = |of: &dyn Fn(&ThrustState) -> Option<f64>| {
+        let shown = amount(of(states.central.as_ref()?)?);
+        let range = [&states.least, &states.greatest].map(|state| state.as_ref().and_then(of).map(amount));
+        let [Some(least), Some(greatest)] = range else { return Some(shown) };
+        Some(format!("{shown} ({least} to {greatest})"))
+    };
+    let supports = stated(&|state| Some(state.thrust));
+    match (stated(&crown), supports) {
+        (Some(crown), Some(supports)) if crown != supports => {
+            vec![format!("H = {crown} at the crown"), format!("{supports} at the supports")]
+        }
+        (Some(crown), _) => vec![format!("H = {crown}")],
+        (None, Some(supports)) => vec![format!("thrust {supports} at the supports")],
+        (None, None) => Vec::new(),
+    }
 }
 
-/// Returns the note in the legend that explains the force polygon, or why there is none.
-fn polygon_note(context: &FigureContext<'_>) -> &'static str {
-    let mut frames = 0..context.analysis.frames.len();
-    let any = frames.any(|frame| {
-        let states = context.thrust_states(frame);
-        fans(context.analysis, frame, states, context.unit).is_some()
-    });
-    if any {
-        "force polygon: each ray from the pole O is the force in the joint with the same number"
+/// True if a frame of the figure shows its most central line.
+fn shows_central(canvas: &Canvas<'_>) -> bool {
+    (0..canvas.analysis.frames.len()).any(|frame| states(canvas, frame).central.is_some())
+}
+
+/// True if the line of thrust of a frame that stands is one of many possible lines, because there are more unknown
+/// forces than equations of equilibrium.
+fn has_many_lines(canvas: &Canvas<'_>, frame: usize) -> bool {
+    let found = &canvas.analysis.frames[frame];
+    let unknowns = |contact: &Contact| if contact.interface.kind == ContactKind::Corner { 2 } else { 3 };
+    let contacts: usize = found.contacts.iter().map(unknowns).sum();
+    let equations = 3 * canvas.scene().frames[frame].placed.len();
+    found.verdict == Verdict::Stable && contacts + 3 * found.robots.len() > equations
+}
+
+fn schematic_colour(theme: &Theme) -> Colour {
+    theme.page.mixed(theme.motion, 0.45)
+}
+
+/// Returns the colour of the line in a frame that does not stand: a grey that is visible in print.
+fn carried_colour(theme: &Theme) -> Colour {
+    theme.block.mixed(theme.faint, 0.7)
+}
+
+/// The widths of the line, and the entries of the legend.
+struct Keys {
+    /// The largest force of a joint or a robot in any panel, N, and the width of its line, pixels.
+    largest: f64,
+    widest: f64,
+    line: Rc<Key>,
+    carried: Rc<Key>,
+    schematic: Rc<Key>,
+    dot: Rc<Key>,
+    leaves: Rc<Key>,
+}
+
+impl Keys {
+    /// `has_line` states whether the picture has a line along a line of action, whose entry explains the widths.
+    fn new(canvas: &Canvas<'_>, has_line: bool) -> Keys {
+        let (analysis, theme) = (canvas.analysis, canvas.theme());
+        let mut largest: f64 = 0.0;
+        let (mut many, mut central, mut falls) = (false, false, false);
+        for (number, found) in analysis.frames.iter().enumerate() {
+            let shown = shown(states(canvas, number), found);
+            let contacts = shown.contacts.iter().map(|contact| contact.resultant.force);
+            let forces = contacts.chain(shown.robots.iter().map(|robot| robot.force));
+            largest = forces.map(|force| force.norm()).fold(largest, f64::max);
+            many |= has_many_lines(canvas, number);
+            central |= states(canvas, number).central.is_some();
+            falls |= found.verdict == Verdict::Unstable;
+        }
+        let (width, least, most) = WIDEST;
+        let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
+        let widest = (width * unit).clamp(canvas.mm(least), canvas.mm(most));
+        let shows = format!("this width shows {}", quantity(largest, canvas.scene().units.force()));
+        let line = match () {
+            () if central => "most central line",
+            () if many => "line of thrust of the forces of least sum",
+            () => "line of thrust",
+        };
+        let carried = if falls { "line of thrust with the missing forces" } else { "forces found" };
+        let schematic = if has_line { "schematic".to_owned() } else { format!("schematic; {shows}") };
+        let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
+        let stroked = |rank: u8, words: String, colour: Colour| {
+            let line = Outline::line([start, start.moved(long, 0.0)]);
+            Rc::new(Key { rank, words, symbol: vec![Path::stroked(line, Stroke::new(colour, widest))], width: long })
+        };
+        let round = |rank: u8, words: &str, radius: f64, symbol: Path| {
+            Rc::new(Key { rank, words: words.to_owned(), symbol: vec![symbol], width: 2.0 * radius })
+        };
+        let radius = canvas.mm(0.6);
+        let (dot, ring) = (dot(canvas, start.moved(radius, 0.0)), ring(canvas, start.moved(canvas.mm(0.9), 0.0)));
+        Keys {
+            largest,
+            widest,
+            line: stroked(10, format!("{line}; {shows}"), theme.motion),
+            carried: stroked(11, format!("{carried}; {shows}"), carried_colour(theme)),
+            schematic: stroked(16, schematic, schematic_colour(theme)),
+            dot: round(14, "resultant", radius, dot),
+            leaves: round(15, "the line leaves the stone", canvas.mm(0.9), ring),
+        }
+    }
+
+    /// Returns the width of the line of a force, pixels.
+    fn width(&self, canvas: &Canvas<'_>, newtons: f64) -> f64 {
+        let share = (newtons / self.largest.max(f64::MIN_POSITIVE)).min(1.0);
+        let share = MIN_WIDTH_SHARE + (1.0 - MIN_WIDTH_SHARE) * share;
+        let share = if canvas.many() { (share * WIDTH_STEPS).round() / WIDTH_STEPS } else { share };
+        self.widest * share
+    }
+}
+
+/// Draws the line of thrust: first its schematic parts, then the true lines of action on top of them. The line is red
+/// where it leaves the stone, and grey elsewhere in a frame that does not stand.
+fn lines(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, segments: &[ThrustSegment], keys: &Keys) {
+    let (theme, stands) = (canvas.theme(), shown.verdict == Verdict::Stable);
+    let mut order: Vec<&ThrustSegment> = segments.iter().collect();
+    order.sort_by_key(|segment| (segment.through, segment.leaves));
+    for segment in order {
+        let (colour, key) = match () {
+            () if segment.leaves => (theme.failure, &keys.carried),
+            () if !stands => (carried_colour(theme), &keys.carried),
+            () if segment.through => (theme.motion, &keys.line),
+            () => (schematic_colour(theme), &keys.schematic),
+        };
+        let line = Outline::line([segment.from, segment.to].map(|p| canvas.place(p)));
+        let stroke = Stroke::new(colour, keys.width(canvas, segment.force.norm()));
+        let class = if segment.through { "thrust" } else { "schematic" };
+        let mark = Mark::new(Layer::Force, class, vec![Path::stroked(line, stroke)]).keyed(key);
+        canvas.put(mark.titled(title(canvas, shown, segment)).avoided(canvas.mm(0.1)));
+    }
+}
+
+/// Describes a segment of the line of thrust: its block, what exerts the force along the segment, and the magnitude of
+/// this force.
+fn title(canvas: &Canvas<'_>, shown: &FrameAnalysis, segment: &ThrustSegment) -> String {
+    let scene = canvas.scene();
+    let on = &scene.blocks[segment.on.0].id;
+    let by = match segment.origin {
+        ForceOrigin::Contact(number) => {
+            let [a, b] = shown.contacts[number].interface.bodies;
+            description::named(scene, if a == BodyId::Block(segment.on) { b } else { a })
+        }
+        ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
+        ForceOrigin::Load(_) => "a load".to_owned(),
+        ForceOrigin::Resultant => "a joint, combined with loads".to_owned(),
+    };
+    let force = force(segment.force, scene.units);
+    if segment.through {
+        format!("Force on block {on} from {by}: {force}")
     } else {
-        "no force polygon: no chain of blocks in a standing frame has a horizontal thrust"
+        format!("Schematic path of the force from {by} through block {on}: {force}")
+    }
+}
+
+/// Draws a dot at the point where the resultant of each interface acts, and a ring where it lies outside the stone.
+fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    for (contact, bearing) in shown.contacts.iter().zip(bearings(scene, shown)) {
+        if bearing.is_none() {
+            continue;
+        }
+        let (at, pair) = (canvas.place(contact.resultant.at), description::pair(scene, contact.interface.bodies));
+        let mark = if let Some(end) = left_at(contact) {
+            let out = Outline::line([canvas.place(end), at]);
+            let out = Path::stroked(out, Stroke::new(theme.failure, canvas.mm(0.35)));
+            let title = format!("The line of thrust leaves the joint between {pair}");
+            Mark::new(Layer::Missing, "leaves", vec![out, ring(canvas, at)]).titled(title).keyed(&keys.leaves)
+        } else {
+            let amount = quantity(contact.resultant.force.norm(), scene.units.force());
+            let mark = Mark::new(Layer::Symbol, "resultant", vec![dot(canvas, at)]).keyed(&keys.dot);
+            mark.titled(format!("Between {pair}: {amount}"))
+        };
+        canvas.put(mark.avoided(canvas.mm(0.15)));
+    }
+}
+
+fn dot(canvas: &Canvas<'_>, at: PagePoint) -> Path {
+    let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
+    let radius = (0.06 * unit).clamp(canvas.mm(0.2), canvas.mm(0.55));
+    Path::filled(Outline::circle(at, radius), canvas.theme().ink).cased(canvas.theme().page, 0.3 * radius)
+}
+
+fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Path {
+    let stroke = Stroke::new(canvas.theme().failure, canvas.mm(0.35));
+    Path::filled(Outline::circle(at, canvas.mm(0.7)), canvas.theme().page).with_stroke(stroke)
+}
+
+/// Draws the thin lines of least and of greatest thrust. A line whose state is not known is left out.
+fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let both = [
+        (&states.least, "thrust-least", "Least thrust", 12),
+        (&states.greatest, "thrust-greatest", "Greatest thrust", 13),
+    ];
+    for ((state, class, name, rank), dashes) in both.into_iter().zip(LIMIT_DASHES) {
+        let Some(state) = state else { continue };
+        let ink = theme.motion.mixed(theme.ink, 0.45);
+        let stroke = Stroke::new(ink, canvas.mm(LIMIT_WIDTH)).dashed(dashes.map(|length| canvas.mm(length)));
+        let mut outline = Outline::default();
+        for piece in segments(scene, canvas.frame(), &state.frame) {
+            outline.extend(Outline::line([piece.from, piece.to].map(|p| canvas.place(p))));
+        }
+        let width = canvas.mm(KEY_LENGTH);
+        let line = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
+        let symbol = vec![Path::stroked(line, stroke.clone())];
+        let key = Rc::new(Key { rank, words: name.to_lowercase(), symbol, width });
+        let thrust = quantity(state.thrust, scene.units.force());
+        let mark = Mark::new(Layer::Force, class, vec![Path::stroked(outline, stroke)]).keyed(&key);
+        canvas.put(mark.titled(format!("{name}: {thrust} horizontally at the supports")).avoided(canvas.mm(0.1)));
     }
 }

@@ -1,8 +1,7 @@
-//! [`Plan`]: computes the positions of the polygon of forces and of the small pictures of mechanisms, in metres.
+//! [`Plan`]: computes the position of the polygon of forces, in metres.
 
 use crate::geometry::{Bounds, Point, Vector, in_half_plane};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, LoadCapacity, Motion};
-use crate::products::figure::view;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, LoadCapacity};
 
 /// Length at which the largest force is drawn if the polygon is at the loaded point, as a fraction of the size of the
 /// structure.
@@ -18,18 +17,15 @@ const GAP_SHARE: f64 = 0.1;
 const CUT_OFF_RATIO: f64 = 1.7;
 /// The largest number of small pictures.
 const MAX_SMALL_PICTURES: usize = 4;
-/// Scale of a small picture relative to the figure: next to the structure, and below it. Below a wide structure, the
-/// scale may be up to 1.4 times as large.
-const SMALL_PICTURE_SCALES: (f64, f64) = (0.36, 0.21);
-/// If structure, ground and polygon together are wider than this multiple of their height, the small pictures are below
-/// them.
-const WIDE_RATIO: f64 = 1.5;
 /// If a frame has more blocks than this, the figure has no small pictures.
 const MAX_BLOCKS_WITH_PICTURES: usize = 300;
 /// The number of corners of the circle at which unbounded sets are cut off.
 const CIRCLE_CORNERS: usize = 48;
 
-/// The positions of the polygon of a frame, its edges and its small pictures.
+/// If the structure is wider than this multiple of its height, a polygon that is drawn apart is above it.
+const WIDE_RATIO: f64 = 1.5;
+
+/// The position of the polygon of a frame, and its edges.
 pub(super) struct Plan<'a> {
     pub capacity: &'a LoadCapacity,
     /// The loaded point, or the middle of two loaded points.
@@ -43,7 +39,8 @@ pub(super) struct Plan<'a> {
     /// The corners of the drawn polygon, metres.
     pub ring: Vec<Point>,
     pub sides: Vec<DrawnEdge>,
-    pub pictures: Vec<SmallPicture>,
+    /// The indices of the edges that have numbers and small pictures, in the order of the numbers from 1.
+    pub numbers: Vec<usize>,
 }
 
 /// A drawn edge of the polygon. Its ends are in metres, and `outward` is its outward unit normal.
@@ -56,56 +53,17 @@ pub(super) struct DrawnEdge {
     pub number: Option<usize>,
 }
 
-/// Gap between two small pictures in a row, as a fraction of the size of the structure.
-const COLUMN_GAP: f64 = 0.1;
-/// Space for the number of a small picture, as a fraction of the diagonal of the picture.
-const NUMBER_SHARE: f64 = 0.12;
-
-/// A small picture of a mechanism.
-pub(super) struct SmallPicture {
-    pub number: usize,
-    pub mechanism: Vec<Motion>,
-    /// The direction in which the loaded point begins to move.
-    pub outward: Vector,
-    /// The shown part of the scene, metres. It is drawn with its lower left corner at `corner` (metres), `scale` times
-    /// as large as in the figure.
-    pub view: Bounds,
-    pub corner: Point,
-    pub scale: f64,
-}
-
-impl SmallPicture {
-    /// Converts a point of the scene to the position in the figure at which the small picture shows it; both are in
-    /// metres.
-    pub fn place(&self, point: Point) -> Point {
-        self.corner + (point - self.view.min) * self.scale
-    }
-
-    /// Returns the bounding box of the small picture in the figure, in metres.
-    pub fn bounds(&self) -> Bounds {
-        Bounds { min: self.corner, max: self.place(self.view.max) }
-    }
-}
-
-impl SmallPicture {
-    /// Returns a box around the small picture and the number to its left, in metres.
-    fn bounds_with_number(&self) -> Bounds {
-        let own = self.bounds();
-        let number = NUMBER_SHARE * own.diagonal();
-        Bounds { min: own.min - Vector::new(number, 0.0), ..own }
-    }
-}
-
 impl<'a> Plan<'a> {
-    /// Computes the positions of the polygon and of the small pictures of a frame. Returns `None` if the carried forces
-    /// of this frame were not computed, or if the block can carry no force. `unit` is the unit length in metres.
-    pub fn new(analysis: &'a Analysis, frame: usize, unit: f64) -> Option<Plan<'a>> {
+    /// Computes the position of the polygon of a frame. Returns `None` if the carried forces of this frame were not
+    /// computed, or if the block can carry no force.
+    pub fn new(analysis: &'a Analysis, frame: usize) -> Option<Plan<'a>> {
         let capacity = analysis.frames.get(frame)?.capacity.as_ref()?;
         let structure = structure(analysis)?;
         let size = structure.width().max(structure.height());
         let point = middle(&capacity.at);
         let cut = cut(analysis);
         let ring = ring(capacity, cut);
+        let own = Bounds::from_points(ring.iter().map(|force| Point::from(*force)))?;
         let first = *ring.first()?;
         let extent = ring.iter().map(|f| (f - first).norm()).fold(0.0, f64::max);
         let farthest = farthest(analysis, cut);
@@ -114,87 +72,27 @@ impl<'a> Plan<'a> {
             && extent < SMALL_POLYGON_SHARE * farthest
             && extent > 1e-6 * farthest
             && analysis.frames.len() == 1;
-        let (scale, zero) = if is_apart {
-            let scale = SEPARATE_POLYGON_SHARE * size / extent;
-            let own = bounds_of(&ring);
-            let right = right(analysis, structure, unit) + GAP_SHARE * size;
-            let height = 0.5 * (own.min.y + own.max.y) * scale;
-            (scale, Point::new(right - own.min.x * scale, point.y - height))
-        } else {
+        let (scale, zero) = if !is_apart {
             (MAX_POLYGON_SHARE * size / farthest, point)
+        } else if structure.width() > WIDE_RATIO * structure.height() {
+            let scale = 0.5 * SEPARATE_POLYGON_SHARE * size / extent;
+            let middle = 0.5 * (own.min.x + own.max.x) * scale;
+            (scale, Point::new(point.x - middle, structure.max.y + GAP_SHARE * size - own.min.y * scale))
+        } else {
+            let scale = SEPARATE_POLYGON_SHARE * size / extent;
+            let middle = 0.5 * (own.min.y + own.max.y) * scale;
+            (scale, Point::new(structure.max.x + GAP_SHARE * size - own.min.x * scale, point.y - middle))
         };
         let place = |force: &Vector| zero + force * scale;
         let numbers = edges_with_pictures(analysis, capacity);
         let sides = sides(capacity, cut, &numbers, &place);
-        let mut plan = Plan {
-            capacity,
-            point,
-            zero,
-            is_apart,
-            scale,
-            ring: ring.iter().map(place).collect(),
-            sides,
-            pictures: Vec::new(),
-        };
-        plan.pictures = plan.small_pictures(analysis, frame, &numbers, structure, unit);
-        Some(plan)
-    }
-
-    /// Returns a box around the polygon, the loaded point and the small pictures of mechanisms, in metres.
-    pub fn bounds(&self) -> Option<Bounds> {
-        let polygon = Bounds::from_points(self.ring.iter().copied().chain([self.point]))?;
-        let pictures = self.pictures.iter().map(SmallPicture::bounds_with_number);
-        pictures.chain([polygon]).reduce(Bounds::union)
+        let ring = ring.iter().map(place).collect();
+        Some(Plan { capacity, point, zero, is_apart, scale, ring, sides, numbers })
     }
 
     /// Returns the mean of the corners of the drawn polygon, a point in metres.
     pub fn middle(&self) -> Point {
         middle(&self.ring)
-    }
-
-    /// Returns one small picture for each edge whose index is in `numbers`. The pictures are to the right of the
-    /// structure and the polygon. If structure, ground and polygon together are wide, the pictures are below them.
-    fn small_pictures(
-        &self,
-        analysis: &Analysis,
-        frame: usize,
-        numbers: &[usize],
-        structure: Bounds,
-        unit: f64,
-    ) -> Vec<SmallPicture> {
-        let source = source(analysis, frame, structure, unit);
-        let polygon = Bounds::from_points(self.ring.iter().copied()).unwrap_or(structure);
-        let whole = view::ground_shown(&analysis.scene, unit)
-            .map_or(structure, |ground| structure.union(ground))
-            .union(polygon);
-        let size = structure.width().max(structure.height());
-        let is_wide = whole.width() > WIDE_RATIO * whole.height();
-        let (share, columns) = match (is_wide, numbers.len()) {
-            (true, n) => (SMALL_PICTURE_SCALES.1 * (whole.width() / source.width()).min(1.4), n),
-            (false, 1) => (SMALL_PICTURE_SCALES.0, 1),
-            (false, n) => (SMALL_PICTURE_SCALES.0, n.div_ceil(2)),
-        };
-        let step = Vector::new(source.width(), source.height()) * share + Vector::new(COLUMN_GAP * size, 0.12 * size);
-        let rows = numbers.len().div_ceil(columns.max(1));
-        let begin = if is_wide {
-            let used = columns as f64 * step.x - COLUMN_GAP * size;
-            let left = 0.5 * (whole.min.x + whole.max.x - used);
-            Point::new(left, whole.min.y - 0.05 * size - step.y)
-        } else {
-            let used = rows as f64 * step.y - 0.12 * size;
-            let middle = 0.5 * (whole.min.y + whole.max.y);
-            let top = (middle + 0.5 * used).max(whole.min.y + used);
-            Point::new(whole.max.x + 0.12 * size, top - source.height() * share)
-        };
-        let small = |(k, edge): (usize, &usize)| SmallPicture {
-            number: k + 1,
-            mechanism: analysis.edge_mechanism(frame, self.capacity, *edge),
-            outward: self.capacity.edges[*edge].normal,
-            view: source,
-            corner: begin + Vector::new((k % columns) as f64 * step.x, -((k / columns) as f64) * step.y),
-            scale: share,
-        };
-        numbers.iter().enumerate().map(small).collect()
     }
 }
 
@@ -205,28 +103,9 @@ fn structure(analysis: &Analysis) -> Option<Bounds> {
     placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)
 }
 
-/// Returns the largest x coordinate of the structure and the shown ground, in metres.
-fn right(analysis: &Analysis, structure: Bounds, unit: f64) -> f64 {
-    view::ground_shown(&analysis.scene, unit).map_or(structure.max.x, |g| structure.max.x.max(g.max.x))
-}
-
-/// Returns the part of the scene that a small picture shows: the blocks of the frame, with space for some ground and
-/// for their motion.
-fn source(analysis: &Analysis, frame: usize, structure: Bounds, unit: f64) -> Bounds {
-    let scene = &analysis.scene;
-    let placed = scene.frames[frame].placed.iter();
-    let own = placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union).unwrap_or(structure);
-    own.grown((0.09 * own.diagonal()).max(0.4 * unit))
-}
-
 fn middle(points: &[Point]) -> Point {
     let sum: Vector = points.iter().map(|p| p.coords).sum();
     Point::from(sum / points.len().max(1) as f64)
-}
-
-fn bounds_of(ring: &[Vector]) -> Bounds {
-    let all = Bounds::from_points(ring.iter().map(|f| Point::from(*f)));
-    all.unwrap_or(Bounds { min: Point::origin(), max: Point::origin() })
 }
 
 /// Returns every frame for which the carried forces were computed, together with these forces. The scale of the

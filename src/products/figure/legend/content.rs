@@ -185,18 +185,6 @@ pub(crate) fn limits(context: &FigureContext<'_>) -> Option<Entry> {
     Some(Entry::Symbol(limit::key_symbol, 11.0, words.to_owned()))
 }
 
-/// True if the entry explains the mark of joints and robots at their limit.
-pub(crate) fn is_limit(entry: &Entry) -> bool {
-    let texts = [
-        limit::LEGEND_TEXT,
-        limit::SHORT_LEGEND_TEXT,
-        limit::ROBOT_LEGEND_TEXT,
-        limit::JOINT_AND_ROBOT_LEGEND_TEXT,
-        limit::SHORT_JOINT_AND_ROBOT_LEGEND_TEXT,
-    ];
-    matches!(entry, Entry::Symbol(_, _, words) if texts.contains(&words.as_str()))
-}
-
 /// Returns the legend entry for loads, with their number and magnitudes. If all loads are torques, the entry is a note
 /// on the scale of torques. Returns `None` if no frame has a load.
 pub(crate) fn loads(context: &FigureContext<'_>) -> Option<Entry> {

@@ -5,7 +5,7 @@ mod entry;
 mod lines;
 mod symbol;
 
-pub(crate) use content::{entries, is_limit, loads, metres, robots, scale, shared_scale};
+pub(crate) use content::{entries, loads, metres, robots, scale, shared_scale};
 pub(crate) use entry::Entry;
 pub(crate) use lines::draw;
 
