@@ -11,7 +11,6 @@ mod colour;
 pub mod difference;
 pub(crate) mod hatch;
 mod outline;
-pub(crate) mod placement;
 pub(crate) mod ramp;
 pub mod style;
 pub(crate) mod symbol;

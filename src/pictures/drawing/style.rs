@@ -155,28 +155,6 @@ impl Sizes {
     /// Sizes for a figure that is as wide as a printed page.
     pub const DEFAULT: Sizes =
         Sizes { title: 22.0, caption: 17.0, verdict: 13.5, reason: 12.5, key: 12.5, name: 14.0, amount: 11.5 };
-
-    /// Sizes for a narrow figure whose texts would otherwise need more space than its picture.
-    const COMPACT: Sizes =
-        Sizes { title: 18.0, caption: 14.0, verdict: 12.0, reason: 10.5, key: 10.5, ..Sizes::DEFAULT };
-
-    /// Returns the sizes for a narrow figure whose texts would otherwise need more space than its picture. Titles,
-    /// captions, verdicts, reasons and legends become smaller if they have their default size. A size that a style file
-    /// sets does not change.
-    pub(crate) fn compact(self) -> Sizes {
-        let smaller = |of: fn(&Sizes) -> f64| {
-            let is_usual = (of(&self) - of(&Sizes::DEFAULT)).abs() < f64::EPSILON;
-            of(if is_usual { &Sizes::COMPACT } else { &self })
-        };
-        Sizes {
-            title: smaller(|sizes| sizes.title),
-            caption: smaller(|sizes| sizes.caption),
-            verdict: smaller(|sizes| sizes.verdict),
-            reason: smaller(|sizes| sizes.reason),
-            key: smaller(|sizes| sizes.key),
-            ..self
-        }
-    }
 }
 
 impl Theme {

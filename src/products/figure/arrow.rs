@@ -3,12 +3,10 @@
 //! The length of an arrow is proportional to its force; [`Head`] states whether the head counts towards this length.
 //! Arrows of forces too short to be visible are counted, but not drawn.
 
-use super::words::{counted, quantity};
 use crate::geometry::{Point, Vector};
-use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BodyId, RobotId};
 use crate::pictures::drawing::Colour;
-use crate::pictures::drawing::arrow::{HEAD_LENGTH, head_size};
+use crate::pictures::drawing::arrow::HEAD_LENGTH;
 
 /// What a straight arrow shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,25 +148,7 @@ pub struct Marks {
     pub newtons_per_unit: f64,
 }
 
-impl Marks {
-    /// Returns a note on arrows too short to be visible, such as `3 forces under 0.5 N not drawn`. Returns `None` if
-    /// all arrows are visible. `unit` is the unit length in metres, and `scale` the scale of the picture in pixels per
-    /// metre. The note gives its numbers in `units`.
-    pub(crate) fn unseen(&self, unit: f64, scale: f64, units: UnitsEntry) -> Option<String> {
-        let least = MIN_VISIBLE_ARROW / scale;
-        let short = |arrow: &&ForceArrow| arrow.kind != ArrowKind::Load && arrow.reach().norm() < least;
-        let count = self.arrows.iter().filter(short).count();
-        let limit = quantity(round_above(least / unit * self.newtons_per_unit), units.force());
-        (count > 0).then(|| format!("{} under {limit} not drawn", counted(count, "force")))
-    }
-
-    /// Returns the largest force in newtons that an arrow shows, but at least the force whose arrow is one unit length
-    /// long.
-    pub(crate) fn largest(&self) -> f64 {
-        let forces = self.arrows.iter().map(|arrow| arrow.force.norm());
-        forces.fold(self.newtons_per_unit, f64::max)
-    }
-}
+impl Marks {}
 
 /// Returns the smallest number with one significant digit that is at least `amount`. Returns `amount` itself if it is
 /// not positive and finite.
@@ -179,29 +159,4 @@ pub(crate) fn round_above(amount: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(amount)));
     let digit = (amount / power * (1.0 - 1e-12)).ceil();
     digit * power
-}
-
-/// Returns the distance of a point from the drawn shape of an arrow, metres. The distance is negative inside the shape,
-/// and infinite for an arrow of length 0.
-pub(crate) fn distance_to_arrow(arrow: &ForceArrow, p: Point) -> f64 {
-    let reach = arrow.reach();
-    let length = reach.norm();
-    if length <= 0.0 {
-        return f64::INFINITY;
-    }
-    let (long, wide) = head_size(length, arrow.width);
-    let tip = arrow.at + reach;
-    let neck = tip - reach * (long / length);
-    let shaft = distance_to_segment(arrow.at, neck, p) - arrow.width / 2.0;
-    // The triangular head is approximated by a strip along the axis of the arrow. The strip is two thirds as wide as
-    // the head.
-    let head = distance_to_segment(neck, tip, p) - wide / 3.0;
-    shaft.min(head)
-}
-
-fn distance_to_segment(a: Point, b: Point, p: Point) -> f64 {
-    let along = b - a;
-    let length = along.norm_squared();
-    let share = if length > 0.0 { ((p - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    (p - (a + along * share)).norm()
 }

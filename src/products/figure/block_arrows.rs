@@ -4,9 +4,9 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::arrow::{ArrowKind, ForceArrow, round_above};
 use super::canvas::Canvas;
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::fill::Fills;

@@ -5,7 +5,7 @@ mod picture;
 
 use picture::{DISC_RADIUS, NumberedMark, disc, numbers, structure, view};
 
-use super::layout::MAX_MARGIN;
+use super::design::SCREEN_MARGIN;
 use super::option::Options;
 use crate::mechanics::scene::{Problem, Sketch, Spot};
 use crate::mechanics::statics::interface::Interfaces;
@@ -57,38 +57,38 @@ impl ListEntry {
 pub fn broken(sketch: &Sketch, options: &Options) -> Drawing {
     let theme = &options.theme;
     let wide = options.width.unwrap_or(DEFAULT_WIDTH);
-    let room = wide - 2.0 * MAX_MARGIN;
+    let room = wide - 2.0 * SCREEN_MARGIN;
     let (marks, entries) = marks(sketch);
     let title = title(sketch);
     let mut items = Vec::new();
-    let mut y = MAX_MARGIN;
+    let mut y = SCREEN_MARGIN;
     let size = theme.sizes.title;
     let lines = wrap(&title, Face::SerifBold, size, room);
     for line in cut(lines, 3, Face::SerifBold, size, room) {
         y += size;
-        let at = PagePoint::new(MAX_MARGIN, y);
+        let at = PagePoint::new(SCREEN_MARGIN, y);
         items.push(Text::new(at, line, Face::SerifBold, size, theme.ink).into());
         y += 0.3 * size;
     }
-    y += 0.5 * MAX_MARGIN;
+    y += 0.5 * SCREEN_MARGIN;
     if let Some(view) = view(sketch, &marks) {
         let scale = (room / view.width()).min(MAX_HEIGHT_SHARE * wide / view.height());
         let rect = PageRect {
-            at: PagePoint::new(MAX_MARGIN + (room - scale * view.width()) / 2.0, y),
+            at: PagePoint::new(SCREEN_MARGIN + (room - scale * view.width()) / 2.0, y),
             width: scale * view.width(),
             height: scale * view.height(),
         };
         let camera = Camera::new(view, rect.at, scale);
         items.push(structure(sketch, &marks, &camera, rect, options).into());
         items.push(numbers(&marks, &camera, options).into());
-        y += rect.height + 0.5 * MAX_MARGIN;
+        y += rect.height + 0.5 * SCREEN_MARGIN;
     }
     let (list, y) = list(&entries, y, room, options);
     items.push(list.into());
     let listed: Vec<&str> = entries.iter().map(|e| e.words.as_str()).collect();
     Drawing {
         width: wide,
-        height: (y + MAX_MARGIN).ceil(),
+        height: (y + SCREEN_MARGIN).ceil(),
         title,
         description: format!("The outlines of the scene file, without forces. {}", listed.join(" ")),
         background: Some(theme.page),
@@ -120,12 +120,12 @@ fn list(entries: &[ListEntry], mut y: f64, room: f64, options: &Options) -> (Gro
         let lines = wrap(&entry.words, Face::Sans, size, room - indent);
         y += 0.6 * size;
         if let Some(number) = entry.number {
-            let at = PagePoint::new(MAX_MARGIN + DISC_RADIUS, y + 0.65 * size);
+            let at = PagePoint::new(SCREEN_MARGIN + DISC_RADIUS, y + 0.65 * size);
             list = list.with(disc(number, at, options));
         }
         for line in cut(lines, 6, Face::Sans, size, room - indent) {
             y += size;
-            let at = PagePoint::new(MAX_MARGIN + indent, y);
+            let at = PagePoint::new(SCREEN_MARGIN + indent, y);
             list = list.with(Text::new(at, line, Face::Sans, size, theme.ink));
             y += 0.35 * size;
         }

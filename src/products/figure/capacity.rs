@@ -10,8 +10,8 @@ mod plan;
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
-use super::content::About;
 use super::design::{ArrowSize, Key, Layer, Mark, along};
 use super::displacement::{Course, Displacement};
 use super::fall::Fall;

@@ -7,9 +7,9 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
 use super::change::{ForceChange, count_in_words, noise, shared_forces};
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Look, Mark};
 use super::joint_forces::{JointForces, mark};

@@ -1,35 +1,10 @@
-//! Describes blocks, arrows and motions in words, with numbers and units, for tooltips and screen readers.
+//! Describes arrows and motions in words, with numbers and units, for tooltips and screen readers.
 
-use super::arrow::{ArrowKind, ForceArrow, TurnArrow, TurnKind};
-use super::context::FigureContext;
+use super::arrow::{ArrowKind, ForceArrow};
 use super::words::{force, quantity};
 use crate::mechanics::analysis::Motion;
-use crate::mechanics::scene::{Block, BodyId, Scene};
+use crate::mechanics::scene::{BodyId, Scene};
 pub(crate) use crate::products::wording::failure::{named, pair};
-
-/// Returns the weight of a block and the value that its colour shows, in words. `place` is the index of the block among
-/// the placed blocks of the frame.
-pub(crate) fn block(context: &FigureContext<'_>, frame: usize, place: usize, block: &Block) -> String {
-    let weight = quantity(block.weight, context.analysis.scene.units.force());
-    if !context.colours_show_amplitudes {
-        return format!("weight {weight}");
-    }
-    let fill = context.fills.description(context.fills.shares[frame][place]);
-    if fill.is_empty() {
-        return format!("weight {weight}");
-    }
-    format!("weight {weight}, {fill}")
-}
-
-/// True if a missing force is drawn as a dot because its arrow is too short to be visible (`seen` is false). The two
-/// opposite forces between two blocks have only one dot.
-pub(crate) fn dotted(arrow: &ForceArrow, seen: bool) -> bool {
-    let twice = match (arrow.kind.partner(), arrow.on) {
-        (Some(BodyId::Block(partner)), BodyId::Block(on)) => partner.0 < on.0,
-        _ => false,
-    };
-    !seen && !twice && arrow.kind.is_failure()
-}
 
 /// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.
 /// `unit` is the unit length, metres.
@@ -61,21 +36,6 @@ pub(crate) fn arrow(scene: &Scene, unit: f64, arrow: &ForceArrow) -> String {
         }
         ArrowKind::MissingTorque(id) => {
             format!("Missing torque on {on} from {}: {torque}", robot(id))
-        }
-    }
-}
-
-/// Describes the torque that an arrow shows, such as `Torque of a load on block a: 6 N·m clockwise`.
-pub(crate) fn turn(context: &FigureContext<'_>, turn: &TurnArrow) -> String {
-    let scene = &context.analysis.scene;
-    let direction = if turn.torque > 0.0 { "anticlockwise" } else { "clockwise" };
-    let amount = format!("{} {direction}", quantity(turn.torque.abs(), context.analysis.scene.units.torque()));
-    let on = scene.name(turn.on);
-    match turn.kind {
-        TurnKind::Load => format!("Torque of a load on block {on}: {amount}"),
-        TurnKind::Robot(id) => format!("Torque on block {on} from robot {}: {amount}", scene.robots[id.0].id),
-        TurnKind::Missing(id) => {
-            format!("Missing torque on block {on} from robot {}: {amount}", scene.robots[id.0].id)
         }
     }
 }

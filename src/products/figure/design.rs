@@ -11,6 +11,8 @@ use crate::pictures::output::page_width;
 const PRINTED_TEXT: f64 = 6.6 * 25.4 / 72.0;
 /// The size of the same text in the themes, pixels. It is the size on a screen, where no width of the page is given.
 const SCREEN_TEXT: f64 = 12.5;
+/// The margin around pages of symbols and of shapes, pixels.
+pub(crate) const SCREEN_MARGIN: f64 = 36.0;
 
 /// The sizes in which a figure is drawn.
 #[derive(Clone, Copy, Debug)]

@@ -72,12 +72,6 @@ impl Displacement {
         self.centre + self.turned(point - self.centre) + self.translation
     }
 
-    /// Returns the original position of a point of the block, metres. `point` is its position after the displacement.
-    pub fn back(&self, point: Point) -> Point {
-        let d = point - self.centre - self.translation;
-        self.centre + d * self.cos - quarter_turn(d) * self.sin
-    }
-
     /// Rotates a vector by the rotation of the block.
     pub fn turned(&self, direction: Vector) -> Vector {
         direction * self.cos + quarter_turn(direction) * self.sin

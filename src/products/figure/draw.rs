@@ -2,12 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::context::FigureContext;
-use super::kind::{Drawer, Kind};
-use super::layout::Layout;
+use super::kind::Kind;
 use super::option::Options;
 use super::sheet;
-use super::strip::{self, strip};
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::pictures::drawing::Drawing;
 
@@ -23,10 +20,7 @@ const MOTION_END_SECONDS: f64 = 1.0;
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let options = kind.options(&analysis.scene, options);
-    match kind.drawer(&options) {
-        Drawer::Canvas(figure) => sheet::page(&shown(analysis, kind), figure, &options),
-        Drawer::Panels(content) => strip(&shown(analysis, kind), content, &options),
-    }
+    sheet::page(&shown(analysis, kind), kind.drawer(&options), &options)
 }
 
 /// Draws the forces of an analysis. Each frame has a panel with its marks, its caption and its verdict.
@@ -86,10 +80,7 @@ pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) ->
         times.extend((0..count).map(|_| (seconds / f64::from(count)).max(0.01)));
         times.push(MOTION_END_SECONDS);
     }
-    let pages = match kind.drawer(&options) {
-        Drawer::Canvas(figure) => sheet::steps(&analysis, figure, &options, &steps),
-        Drawer::Panels(content) => strip::pages(&analysis, content, &options, steps.iter().map(|step| step.0)),
-    };
+    let pages = sheet::steps(&analysis, kind.drawer(&options), &options, &steps);
     pages.into_iter().zip(times).collect()
 }
 
@@ -116,23 +107,14 @@ pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[u
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let options = kind.options(&analysis.scene, options);
-    match kind.drawer(&options) {
-        Drawer::Canvas(figure) => sheet::split(&shown(analysis, kind), figure, &options, max_ratio),
-        Drawer::Panels(content) => strip::split(&shown(analysis, kind), content, &options, max_ratio),
-    }
+    sheet::split(&shown(analysis, kind), kind.drawer(&options), &options, max_ratio)
 }
 
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
 /// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
     let options = kind.options(&analysis.scene, options);
-    match kind.drawer(&options) {
-        Drawer::Canvas(figure) => sheet::least_size(analysis, figure, &options),
-        Drawer::Panels(content) => {
-            let context = FigureContext::new(analysis, &options, content);
-            Layout::new(&context, analysis.frames.len()).least(&context)
-        }
-    }
+    sheet::least_size(analysis, kind.drawer(&options), &options)
 }
 
 fn all_frames(analysis: &Analysis) -> Vec<usize> {
@@ -147,8 +129,5 @@ fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
 
 /// Draws one page for each of these frames.
 fn frame_pages(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
-    match kind.drawer(options) {
-        Drawer::Canvas(figure) => sheet::pages(analysis, figure, options, frames),
-        Drawer::Panels(content) => strip::pages(analysis, content, options, frames.iter().copied()),
-    }
+    sheet::pages(analysis, kind.drawer(options), options, frames)
 }

@@ -79,11 +79,6 @@ impl Fills {
         ramp(self.rule)(theme, share)
     }
 
-    /// Returns the function that converts a position on the colour scale (0 to 1) to a colour.
-    pub fn ramp(&self) -> fn(&Theme, f64) -> Colour {
-        ramp(self.rule)
-    }
-
     /// Returns the texts of the legend: the smallest and the largest value of the colour scale, and the name of the
     /// quantity.
     pub fn key(&self) -> ([String; 2], String) {

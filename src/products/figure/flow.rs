@@ -13,9 +13,9 @@ use std::rc::Rc;
 use path::ribbon;
 use strand::{Origin, Strand, StrandKind, strands};
 
+use super::about::About;
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Look, Mark};
 use super::joint_forces;

@@ -22,9 +22,9 @@ use surroundings::{clipped, corners, distinct, neighbours, view};
 use table::Table;
 use value::Piece;
 
+use super::about::About;
 use super::arrow::round_above;
 use super::canvas::Canvas;
-use super::content::About;
 use super::design::{ArrowSize, Layer, Mark, around};
 use super::option::{Corners, Options};
 use super::placing::Label;

@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
-use super::content::About;
 use super::description::pair;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
 use super::gives::{self, Gives, How};

@@ -3,9 +3,9 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::bearing::{Bearing, bearings};
 use super::canvas::Canvas;
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::option::Options;

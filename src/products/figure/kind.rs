@@ -1,9 +1,9 @@
 //! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a separate file.
 
+use super::about::About;
 use super::block_arrows::BlockArrows;
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
-use super::content::{About, PanelContent};
 use super::flow::ForceFlow;
 use super::freebody::FreeBody;
 use super::joint_forces::{self, JointForces, about_build};
@@ -27,15 +27,6 @@ use crate::pictures::drawing::style::ForceMarks;
 /// and the tilt. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 120];
-
-/// What draws a kind of figure.
-#[derive(Clone, Copy)]
-pub(crate) enum Drawer {
-    /// A strip of panels in the older look.
-    Panels(&'static dyn PanelContent),
-    /// A sheet of canvases.
-    Canvas(&'static dyn Figure),
-}
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,22 +89,22 @@ impl Kind {
     ];
 
     /// Returns what draws a figure of this kind.
-    pub(crate) fn drawer(self, options: &Options) -> Drawer {
+    pub(crate) fn drawer(self, options: &Options) -> &'static dyn Figure {
         match self {
-            Kind::Forces | Kind::Build if options.theme.forces != ForceMarks::Blocks => Drawer::Canvas(&JointForces),
-            Kind::Forces | Kind::Build => Drawer::Canvas(&BlockArrows),
-            Kind::Flow => Drawer::Canvas(&ForceFlow),
-            Kind::Mechanism => Drawer::Canvas(&Mechanism),
-            Kind::Thrust => Drawer::Canvas(&ThrustLine),
-            Kind::Kernel => Drawer::Canvas(&Kernel),
-            Kind::Utilisation => Drawer::Canvas(&Utilisation),
-            Kind::Polygon => Drawer::Canvas(&ForcePolygon),
-            Kind::Margin => Drawer::Canvas(&CollapseMargin),
-            Kind::Capacity => Drawer::Canvas(&CarriedForces),
-            Kind::Sensitivity => Drawer::Canvas(&CornerEffects),
-            Kind::Compare => Drawer::Canvas(&Comparison),
-            Kind::Structure => Drawer::Canvas(&Structure),
-            Kind::Freebody => Drawer::Canvas(&FreeBody),
+            Kind::Forces | Kind::Build if options.theme.forces != ForceMarks::Blocks => &JointForces,
+            Kind::Forces | Kind::Build => &BlockArrows,
+            Kind::Flow => &ForceFlow,
+            Kind::Mechanism => &Mechanism,
+            Kind::Thrust => &ThrustLine,
+            Kind::Kernel => &Kernel,
+            Kind::Utilisation => &Utilisation,
+            Kind::Polygon => &ForcePolygon,
+            Kind::Margin => &CollapseMargin,
+            Kind::Capacity => &CarriedForces,
+            Kind::Sensitivity => &CornerEffects,
+            Kind::Compare => &Comparison,
+            Kind::Structure => &Structure,
+            Kind::Freebody => &FreeBody,
         }
     }
 
@@ -121,10 +112,7 @@ impl Kind {
     pub(crate) fn about(self) -> About {
         match self {
             Kind::Build => about_build(),
-            kind => match kind.drawer(&Options::default()) {
-                Drawer::Panels(content) => content.about(),
-                Drawer::Canvas(figure) => figure.about(),
-            },
+            kind => kind.drawer(&Options::default()).about(),
         }
     }
 
@@ -149,13 +137,7 @@ impl Kind {
     fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
         let [frame] = &scene.frames[..] else { return None };
         let about = self.about();
-        let is_on_canvas = matches!(self.drawer(&self.options(scene, options)), Drawer::Canvas(_));
-        if !options.verdict_margin
-            || about.hides_verdicts
-            || about.shows_one_block
-            || about.states_own_margin
-            || !is_on_canvas
-        {
+        if !options.verdict_margin || about.hides_verdicts || about.shows_one_block || about.states_own_margin {
             return None;
         }
         let [all, main] = MAX_MARGIN_BLOCKS;
@@ -169,10 +151,7 @@ impl Kind {
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and
     /// is complete without them. Returns `None` if there are no optional margins.
     pub fn stated_margins(self, analysis: &Analysis) -> Option<MarginKinds> {
-        let kinds = match self.drawer(&Options::default()) {
-            Drawer::Panels(content) => content.stated_margins(analysis),
-            Drawer::Canvas(figure) => figure.stated_margins(analysis),
-        };
+        let kinds = self.drawer(&Options::default()).stated_margins(analysis);
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 

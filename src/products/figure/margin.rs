@@ -8,8 +8,8 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
-use super::content::About;
 use super::design::{ArrowSize, Key, Layer, Mark, around};
 use super::displacement::Course;
 use super::fall::Fall;

@@ -11,9 +11,9 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
 use super::collapse;
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::displacement::Course;
@@ -42,6 +42,7 @@ impl Figure for Mechanism {
             help: "How the structure falls: blocks displaced along the mechanism, hinges and slips",
             title: "How a dry-laid structure falls",
             needs_elementary_mechanisms: true,
+            states_own_margin: true,
             ..About::default()
         }
     }

@@ -22,8 +22,6 @@ const DIRECTIONS: u32 = 24;
 const LEADER_DISTANCE: f64 = 1.6;
 /// A shorter leader is not drawn, mm.
 const LEAST_LEADER: f64 = 1.4;
-/// The length of the pieces of a leader that other labels avoid, mm.
-const LEADER_PIECE: f64 = 1.5;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
 

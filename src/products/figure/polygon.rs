@@ -9,8 +9,8 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::Canvas;
-use super::content::About;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
 use super::option::Options;
 use super::placing::Label;

@@ -11,9 +11,9 @@ mod plan;
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::arrow::MIN_VISIBLE_ARROW;
 use super::canvas::Canvas;
-use super::content::About;
 use super::design::{ArrowSize, Key, Layer, Mark, along};
 use super::option::Options;
 use super::placing::Label;

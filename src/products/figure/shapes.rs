@@ -1,7 +1,7 @@
 //! [`shapes`]: draws an overview of shapes that consist of lattice cells. Each shape is drawn with its name, the lines
 //! between its cells, and its origin.
 
-use super::layout::MAX_MARGIN;
+use super::design::SCREEN_MARGIN;
 use super::stage::seams;
 use crate::geometry::{Bounds, Cell, Lattice, LatticeKind, Point};
 use crate::mechanics::scene::{Body, shape};
@@ -82,12 +82,12 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
     let heights = shapes.iter().map(|shape| shape.view.height() * scale);
     let tallest = heights.fold(0.0, f64::max);
     let mut items = Vec::new();
-    let (mut x, mut y, mut widest) = (MAX_MARGIN, MAX_MARGIN, 0.0_f64);
+    let (mut x, mut y, mut widest) = (SCREEN_MARGIN, SCREEN_MARGIN, 0.0_f64);
     for shape in &shapes {
         let (wide, high) = (shape.view.width() * scale, shape.view.height() * scale);
         let width = wide.max(100.0);
-        if x > MAX_MARGIN && x + width > MAX_ROW_WIDTH {
-            (x, y) = (MAX_MARGIN, y + tallest + 64.0);
+        if x > SCREEN_MARGIN && x + width > MAX_ROW_WIDTH {
+            (x, y) = (SCREEN_MARGIN, y + tallest + 64.0);
         }
         let at = PagePoint::new(x + (width - wide) / 2.0, y + tallest - high);
         let camera = Camera::new(shape.view, at, scale);
@@ -96,12 +96,12 @@ fn sheet(lattice: Lattice, named: &[(&str, Vec<Cell>)], theme: &Theme) -> Drawin
         x += width + 36.0;
         widest = widest.max(x - 36.0);
     }
-    let note = PagePoint::new(MAX_MARGIN, y + tallest + 62.0);
+    let note = PagePoint::new(SCREEN_MARGIN, y + tallest + 62.0);
     let words = "The cross is the shape's origin: the lattice point that “at” names.";
     items.push(Text::new(note, words, Face::Sans, theme.sizes.key, theme.faint).into());
     Drawing {
-        width: (widest.max(420.0) + MAX_MARGIN).ceil(),
-        height: (note.y + MAX_MARGIN - 8.0).ceil(),
+        width: (widest.max(420.0) + SCREEN_MARGIN).ceil(),
+        height: (note.y + SCREEN_MARGIN - 8.0).ceil(),
         title: "Built-in shapes".into(),
         description: "Outlines of the shapes, the seams between their cells, and their origins.".into(),
         background: Some(theme.page),

@@ -3,14 +3,13 @@
 
 use std::rc::Rc;
 
+use super::about::About;
 use super::canvas::{Canvas, Picture, Shared, corners};
-use super::content::About;
 use super::design::{Key, Look, around};
 use super::option::Options;
 use super::stage;
-use super::title;
+use super::unit::zoomed_view;
 use super::verdict;
-use super::view;
 use super::words::{counted, letter, quantity};
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
@@ -46,6 +45,8 @@ const LEAST_CROWDED_ZOOM: f64 = 0.5;
 const ROUNDS: usize = 6;
 /// Width of a list below a picture, if the width of the page is not given, mm.
 const LIST_WIDTH: f64 = 86.0;
+/// The typeface of titles.
+const TITLE_FACE: Face = Face::SerifBold;
 /// Largest number of lines of a caption and of a reason.
 const MAX_LINES: usize = 4;
 /// With more lines, the legend leaves out its notes.
@@ -81,7 +82,7 @@ impl Subject {
         let frames = frames.map_or_else(|| (0..analysis.frames.len()).collect(), <[usize]>::to_vec);
         if let Some(block) = options.zoom {
             let side = scene.blocks[block.0].body.polygon.area().sqrt();
-            let bounds = view::zoomed_view(scene, block);
+            let bounds = zoomed_view(scene, block);
             return Subject { frames, bounds, is_cut: true, block: (side, LARGEST_ZOOMED_BLOCK) };
         }
         let blocks = stage::shown_blocks(scene);
@@ -633,10 +634,10 @@ impl Page<'_> {
         let theme = &self.sheet.options.theme;
         let size = self.sheet.look.text * theme.sizes.title;
         let room = self.width - self.mm(2.0 * MARGIN);
-        for line in text::balanced(heading, title::FACE, size, room, MAX_LINES) {
+        for line in text::balanced(heading, TITLE_FACE, size, room, MAX_LINES) {
             self.y += 1.15 * size;
             let at = PagePoint::new(self.width / 2.0, self.y - 0.22 * size);
-            self.items.push(Text::new(at, line, title::FACE, size, theme.ink).anchored(Anchor::Middle).into());
+            self.items.push(Text::new(at, line, TITLE_FACE, size, theme.ink).anchored(Anchor::Middle).into());
         }
         self.y += self.mm(2.2);
     }

@@ -1,7 +1,7 @@
 //! Draws the structure without its solution, for exercises: the blocks, the ground, the robots and the loads.
 
+use super::about::About;
 use super::canvas::Canvas;
-use super::content::About;
 use super::sheet::Figure;
 use super::stage;
 

@@ -15,9 +15,9 @@ use std::rc::Rc;
 
 use leaving::{left_at, with_missing_forces};
 
+use super::about::About;
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::content::About;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::funicular::{ForceOrigin, ThrustSegment, segments};

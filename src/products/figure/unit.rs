@@ -1,7 +1,6 @@
 //! [`unit()`]: computes the unit length, a typical size of the blocks. Arrows and labels are scaled with this length.
 
-use super::view;
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Point};
 use crate::mechanics::scene::{Block, BlockId, Scene};
 
 /// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
@@ -12,7 +11,7 @@ const UNEVEN_RATIO: f64 = 3.0;
 /// if its root is more than [`UNEVEN_RATIO`] times the root of the median area. In a picture zoomed to a block, A is
 /// the area of the smallest block in the zoomed view.
 pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
-    let near = zoom.map(|block| view::zoomed_view(scene, block));
+    let near = zoom.map(|block| zoomed_view(scene, block));
     let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
     let mut sizes: Vec<f64> = scene.blocks.iter().filter(shown).map(|b| b.body.polygon.area().sqrt()).collect();
     sizes.sort_by(f64::total_cmp);
@@ -30,18 +29,17 @@ pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
     }
 }
 
-/// Length of the longest arrow of a load, as a fraction of the longer side of the structure.
-const LONGEST_LOAD: f64 = 0.1;
-/// Width of the shaft of a load's arrow, as a fraction of the length of the longest arrow. In some figures, shafts may
-/// be wider.
-pub(crate) const LOAD_SHAFT: f64 = 0.055;
+/// Distance from a block to the edge of its zoomed view, as a fraction of the block's larger side.
+const ZOOM_PADDING: f64 = 0.5;
 
-/// Returns the length in metres of the longest arrow in figures that draw loads and missing forces, and no contact
-/// forces, as arrows. It is a tenth of the longer side of the structure, and at least the unit length.
-pub(crate) fn longest_load(scene: &Scene, zoom: Option<BlockId>) -> f64 {
-    let edge = unit(scene, zoom);
-    let blocks = scene.blocks.iter();
-    let all = blocks.map(|b| b.body.polygon.bounds());
-    let longer = all.reduce(Bounds::union).map_or(edge, |b| b.width().max(b.height()));
-    edge.max(LONGEST_LOAD * longer)
+/// Returns a box around a block, in metres: the bounding box of the block, enlarged on all sides by half of its longer
+/// side.
+pub(crate) fn zoomed_view(scene: &Scene, block: BlockId) -> Bounds {
+    let bounds = scene.blocks[block.0].body.polygon.bounds();
+    bounds.grown(ZOOM_PADDING * bounds.width().max(bounds.height()))
+}
+
+/// True if a point lies in a box or on its boundary.
+pub(crate) fn contains(bounds: Bounds, p: Point) -> bool {
+    (bounds.min.x..=bounds.max.x).contains(&p.x) && (bounds.min.y..=bounds.max.y).contains(&p.y)
 }

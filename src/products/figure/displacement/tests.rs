@@ -81,7 +81,7 @@ fn hinges_stay_closed_during_the_displacement() {
 }
 
 #[test]
-fn a_rotation_keeps_its_centre_and_all_distances_and_can_be_inverted() {
+fn a_rotation_keeps_its_centre_and_all_distances() {
     let centroid = Point::new(3.0, 2.0);
     let corner = Point::new(4.0, 1.0);
     for spin in [0.8, -1e-9, 0.0] {
@@ -97,7 +97,6 @@ fn a_rotation_keeps_its_centre_and_all_distances_and_can_be_inverted() {
         let far = Point::new(-7.0, 5.0);
         let distance = (moved.moved(far) - moved.moved(centroid)).norm();
         assert!((distance - (far - centroid).norm()).abs() < 1e-12);
-        assert!((moved.back(moved.moved(far)) - far).norm() < 1e-12);
     }
 }
 
