@@ -4,11 +4,10 @@
 mod pages;
 
 use drystone::analysis::Analysis;
-use drystone::drawing::{Anchor, Drawing, Face, Group, Item, PagePoint, Segment, Text, text};
+use drystone::drawing::{Anchor, Drawing, Group, Item, PagePoint, Segment, Text, text};
 use drystone::figure::{self, Options};
 use drystone::scene::BlockId;
 
-use crate::lines::contributed;
 use crate::pictures::{gallery, scene};
 
 /// An axis-parallel box: left, top, right, bottom.
@@ -165,103 +164,6 @@ pub(crate) const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
 
 /// The width of two columns, 174 mm.
 const TWO_COLUMNS: f64 = 174.0 / 25.4 * 96.0 / 0.8;
-
-/// Whether a text contains a name as a separate word.
-fn names(text: &str, name: &str) -> bool {
-    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
-    // A number is a name only at the end of a phrase or before a word that continues a sentence about a block. Before a
-    // unit or a noun it is an amount or a count.
-    let is_number = !name.contains(char::is_alphabetic);
-    let may_follow = |rest: &str| {
-        let word = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}']);
-        let verbs = ["and ", "or ", "falls", "fall ", "is ", "are ", "at ", "in ", "on ", "under ", "with "];
-        word.is_empty()
-            || word.starts_with([',', '.', ';', ':', ')'])
-            || verbs.iter().any(|verb| word.starts_with(verb))
-    };
-    // Digits on both sides of a point form one number.
-    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    let goes_on = |rest: &str| rest.starts_with('.') && digit(rest.chars().nth(1));
-    let began = |before: &str| before.ends_with('.') && digit(before.chars().rev().nth(1));
-    text.match_indices(name).any(|(at, _)| {
-        let (before, rest) = (&text[..at], &text[at + name.len()..]);
-        apart(before.chars().next_back())
-            && apart(rest.chars().next())
-            && (!is_number || may_follow(rest))
-            && !goes_on(rest)
-            && !began(before)
-    })
-}
-
-/// Kinds that write a name only where it has room, and name no block below the picture.
-const ON_CANVAS: [figure::Kind; 14] = [
-    figure::Kind::Forces,
-    figure::Kind::Build,
-    figure::Kind::Flow,
-    figure::Kind::Thrust,
-    figure::Kind::Capacity,
-    figure::Kind::Compare,
-    figure::Kind::Mechanism,
-    figure::Kind::Margin,
-    figure::Kind::Sensitivity,
-    figure::Kind::Structure,
-    figure::Kind::Freebody,
-    figure::Kind::Kernel,
-    figure::Kind::Utilisation,
-    figure::Kind::Polygon,
-];
-
-#[test]
-fn blocks_named_below_a_frame_have_labels_or_are_counted_as_left_out() {
-    let (mut named, mut counted) = (0, 0);
-    for (name, scene) in gallery().into_iter().chain(contributed()) {
-        let analysis = Analysis::new(&scene);
-        for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
-            let mut options = Options::default();
-            options.width = width;
-            let names_all = |kind: &figure::Kind| !ON_CANVAS.contains(kind);
-            for kind in figure::Kind::ALL.into_iter().filter(names_all) {
-                let drawing = figure::draw(&analysis, kind, &options);
-                let what = format!("{name} {} {width:?}", kind.name());
-                let frames = classes(&drawing.items, &["frame"]);
-                assert_eq!(frames.len(), scene.frames().len(), "{what}");
-                for (frame, group) in scene.frames().iter().zip(frames) {
-                    let own: Vec<Text> = group
-                        .items
-                        .iter()
-                        .filter_map(|item| match item {
-                            Item::Text(text) if text.face == Face::Sans => Some(text.clone()),
-                            _ => None,
-                        })
-                        .collect();
-                    let below: Vec<&str> = own.iter().map(|t| t.words.as_str()).collect();
-                    let below = below.join(" ");
-                    // A name of several words may take several lines.
-                    let lines = |label| texts(label).into_iter().map(|t| t.words);
-                    let labels: Vec<String> = classes(&group.items, &["name"])
-                        .into_iter()
-                        .map(|label| lines(label).collect::<Vec<_>>().join(" "))
-                        .collect();
-                    let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
-                    for id in blocks.filter(|id| names(&below, id)) {
-                        named += 1;
-                        assert!(labels.contains(id), "{what}: {id} of {below:?} has no label");
-                    }
-                    let robots = classes(&group.items, &["robot-name"]).len();
-                    let wanted = frame.placed.len() + frame.holds.len();
-                    let missing = wanted.saturating_sub(labels.len() + robots);
-                    if missing > 0 && frame.placed.len() <= 60 {
-                        counted += 1;
-                        let number = if missing == 1 { "1 name".to_owned() } else { format!("{missing} names") };
-                        let is_stated = below.contains("no room for") && below.contains(&number);
-                        assert!(is_stated, "{what}: {missing} of {below:?}");
-                    }
-                }
-            }
-        }
-    }
-    assert!(named > 60 && counted > 5, "{named} named, {counted} counted");
-}
 
 #[test]
 fn a_figure_zoomed_to_a_block_names_it_and_draws_its_forces() {

@@ -120,7 +120,7 @@ fn a_small_torque_is_drawn_legibly_and_its_amount_is_stated() {
         "loads": [{ "block": "a", "force": [0, 0], "at": [3, 1.5], "torque": 0.5 }] }"#,
     );
     let drawing = figure::draw(&Analysis::new(&small), Kind::Forces, &Options::default().theme(Theme::thesis()));
-    let turns = classes(&drawing.items, &["load"]);
+    let turns = classes(&drawing.items, &["torque"]);
     let [turn] = turns[..] else { panic!("{} turning arrows", turns.len()) };
     let across = turn.items.iter().find_map(|item| match item {
         Item::Path(path) => {

@@ -1,8 +1,9 @@
 //! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and the used
-//! fraction of its friction.
+//! fraction of its friction; and the robots that reach their limits.
 
-use crate::mechanics::analysis::{Contact, FrameAnalysis};
-use crate::mechanics::scene::{BodyId, Scene};
+use super::words::FULL_UTILISATION;
+use crate::mechanics::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
+use crate::mechanics::scene::{BodyId, RobotId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 
 /// Forces below this fraction of the largest force may be numerical noise of the solver, unless they exceed
@@ -56,4 +57,20 @@ pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     } else {
         0.0
     }
+}
+
+/// True if at least one limit of a robot, for a force or a torque, is finite and larger than 0.
+pub(crate) fn has_limits(scene: &Scene, robot: RobotId) -> bool {
+    let limits = scene.robots[robot.0].limits;
+    let finite = |limit: f64| limit.is_finite() && limit > 0.0;
+    finite(limits.fx) || finite(limits.fy) || finite(limits.torque)
+}
+
+/// Returns the robots whose force or torque reaches one of their limits in a frame. The list is empty if the frame does
+/// not stand.
+pub(crate) fn robots_reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a RobotForce> {
+    let stands = frame_analysis.verdict == Verdict::Stable;
+    let robots = frame_analysis.robots.iter().filter(|_| stands);
+    let reached = robots.filter(|r| r.limit_used >= FULL_UTILISATION);
+    reached.filter(|r| has_limits(scene, r.robot)).collect()
 }

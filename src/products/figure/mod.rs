@@ -31,7 +31,6 @@ mod gives;
 mod joint_forces;
 mod kernel;
 mod kind;
-mod limit;
 mod margin;
 mod mark;
 mod mechanism;

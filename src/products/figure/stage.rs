@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
+use super::bearing::robots_reached;
 use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark, along, colour};
-use super::limit;
 use super::placing::Label;
 use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
@@ -366,7 +366,7 @@ pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
     let symbol = diamond(canvas, PagePoint::new(canvas.mm(0.8), 0.0));
     let words = "robot at its limit".to_owned();
     let key = Rc::new(Key { rank: LIMIT_RANK, words, symbol, width: canvas.mm(1.6) });
-    for robot in limit::robots_reached(scene, canvas.found()) {
+    for robot in robots_reached(scene, canvas.found()) {
         let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
         let mark = Mark::new(Layer::Symbol, "limit", diamond(canvas, canvas.place(robot.at)));
         canvas.put(mark.titled(title).keyed(&key).avoided(canvas.mm(0.2)));

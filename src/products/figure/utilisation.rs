@@ -7,11 +7,10 @@
 use std::rc::Rc;
 
 use super::about::About;
-use super::bearing::{Bearing, bearings};
+use super::bearing::{Bearing, bearings, has_limits};
 use super::canvas::Canvas;
 use super::description;
 use super::design::{Key, Layer, Mark};
-use super::limit;
 use super::option::Options;
 use super::sheet::Figure;
 use super::stage;
@@ -166,7 +165,7 @@ impl Lines {
     /// Draws a disc at the grip of each robot that has limits. Its colour shows the used fraction of these limits.
     fn robots(&self, canvas: &mut Canvas<'_>) {
         let (scene, theme) = (canvas.scene(), canvas.theme());
-        for robot in canvas.found().robots.iter().filter(|robot| limit::has_limits(scene, robot.robot)) {
+        for robot in canvas.found().robots.iter().filter(|robot| has_limits(scene, robot.robot)) {
             let (at, radius) = (canvas.place(robot.at), canvas.mm(0.9));
             let (id, used) = (&scene.robots[robot.robot.0].id, robot.limit_used);
             let rim = Stroke::new(theme.ink, canvas.mm(0.12));

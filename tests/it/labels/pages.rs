@@ -5,7 +5,7 @@ use drystone::analysis::Analysis;
 use drystone::drawing::{Group, Text};
 use drystone::figure::{self, Options};
 
-use super::{Box4, COLUMN, ON_CANVAS, TWO_COLUMNS, classes, hidden, ink, of_class, panels, texts};
+use super::{Box4, COLUMN, TWO_COLUMNS, classes, hidden, ink, of_class, panels, texts};
 use crate::lines::contributed;
 use crate::pictures::gallery;
 
@@ -34,14 +34,7 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                     if left < 0.0 || top < 0.0 || right > drawing.width || bottom > drawing.height {
                         complaints.push(format!("{what}: {} is cut", text.words));
                     }
-                    let least = match labels.contains(text) {
-                        true => 9.0,
-                        // Figures on the canvas have the same size of text in both widths.
-                        false if width == COLUMN || ON_CANVAS.contains(&kind) => 10.0,
-                        // 6.6 points in the figures of forces, otherwise 7.5 points.
-                        false if matches!(kind, figure::Kind::Forces | figure::Kind::Build) => 10.99,
-                        false => 12.5,
-                    };
+                    let least = if labels.contains(text) { 9.0 } else { 10.0 };
                     if text.size < least {
                         complaints.push(format!("{what}: {} of {}", text.words, text.size));
                     }
